@@ -101,11 +101,16 @@ struct Splash {
   Channels<N, 4> colour;
   RAINREF_FN Splash() {}
 };
+/// A column or row of whole texels, before it becomes an integer: a place of its own for what seeks mistakes.
+template <class N>
+RAINREF_FN N whole_place(N x) {
+  return x;
+}
 /// The single channel of a texel, by whole coordinates; outside by the texture's address rule.
 template <class N, class T>
 RAINREF_FN N texel_at(const T& t, N x, N y) {
   const Level<N> l = uniform_level<N>(t, 0);
-  return load_near_texel<N>(t, texel_column<N>(t, l, to_int(x)), texel_row<N>(t, l, to_int(y)));
+  return load_near_texel<N>(t, texel_column<N>(t, l, to_int(whole_place(x))), texel_row<N>(t, l, to_int(whole_place(y))));
 }
 template <class N, class M>
 RAINREF_FN N one_where(M mask) {

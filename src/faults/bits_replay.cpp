@@ -41,6 +41,7 @@ std::vector<Fault> BitsReplay::plain() {
   add_draw_faults(all, purposes_drawn([&] { static_cast<void>(evaluations_.recompute(c_)); }));
   add_whole_mixups(all, p);
   add_input_mixups(all, p, false);
+  add_member_faults(all, p, output_);
   return all;
 }
 
@@ -51,7 +52,9 @@ std::vector<Tried> BitsReplay::causes(const std::vector<Fault>& all) const {
     capture::PassCase altered = c_;
     if (d.alter_case) d.alter_case(altered);
     const random::DrawsScope scope(d.draws.value_or(random::Draws()));
-    const Records guess = records_of(evaluations_.recompute(altered)[output_]);
+    ListEdit edit{right_, {}, nullptr};
+    const Records guess = d.alter_list ? (static_cast<void>(d.alter_list(c_, edit)), std::move(edit.records))
+                                       : records_of(evaluations_.recompute(altered)[output_]);
     for (const std::size_t k : failing_) cause.explained += at(guess, k) == at(port_, k);
     // It must leave the others as they are.
     std::int64_t broken = 0;

@@ -105,8 +105,19 @@ int far_fetched(const Cause& c) {
   for (std::size_t at = c.name.find("..."); at != std::string::npos; at = c.name.find("...", at + 3)) ++parts;
   if (c.of_records && (c.name.ends_with("without a record") || c.name.ends_with("not written"))) return 8;
   if (c.of_records && c.name.ends_with("one step late")) return 4;
+  // Half or twice a number is rather a term or factor of what it stands in; and where few records fail, 0 rather another number.
+  if (c.name.ends_with(" halved") || c.name.ends_with(" doubled")) return 1 + (parts > 3);
+  if (c.name.ends_with(" is zero") && c.of_records && c.of < 8) return 1;
+  // Nobody takes a fraction, x - floor(x), the other way.
+  if (c.name.starts_with("difference the other way") && c.name.find("- floor(") != std::string::npos) return 1;
   static constexpr std::pair<std::string_view, int> rare[] = {{"condition left out", -1},
                                                               {"condition never holds", -1},
+                                                              {"not squared", -2},
+                                                              {"root left out", -2},
+                                                              {"abs left out", -2},
+                                                              {"normalize missing", -2},
+                                                              {"difference the other way", -2},
+                                                              {"atan2 arguments", -2},
                                                               {"wrong value", 2},
                                                               {"factor too many", 2},
                                                               {"term too many", 2},
@@ -129,6 +140,17 @@ int far_fetched(const Cause& c) {
                                                               {"turned ", 2},
                                                               {"matrix ", 1},
                                                               {"matrix' other", 2},
+                                                              {"another member", 1},
+                                                              {"factor 2 pi", 1},
+                                                              {"factor pi", 2},
+                                                              {"degrees", 2},
+                                                              {"radians", 2},
+                                                              {"condition too many", 3},
+                                                              {"another condition", 3},
+                                                              {"branch left out", 1},
+                                                              {"one constant for all", 1},
+                                                              {"constants exchanged", 2},
+                                                              {"sign of a product", 1},
                                                               {"grouped otherwise", 2},
                                                               {"of each part", 2},
                                                               {"another curve", 1},
@@ -159,6 +181,8 @@ int far_fetched(const Cause& c) {
     if (c.name.starts_with(start)) {
       // Of a number as it is, a condition is plain; of what is computed there is rather another reason.
       const bool is_plain = parts == 0 && c.name.find('(') == std::string::npos && c.name.find(" or ") == std::string::npos;
+      // A pass has few places for these and many terms and factors: of what explains as much they are meant more often.
+      if (weight < -1) return -1 + (parts > 3);
       return weight < 0 && !is_plain ? 1 : weight + (parts > 3);
     }
   return parts > 3;
@@ -177,6 +201,15 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
   if (std::any_of(causes.begin(), causes.end(), [&](const Tried& c) { return !is_fitted(c.name) && is_full(c); }))
     for (Tried& c : causes)
       if (is_fitted(c.name) && c.explained * 10 < c.of * 9) c.explained = c.inside = 0;
+  // What was solved for meets the port's very bits by chance where a plain mistake only comes near as much.
+  for (Tried& c : causes) {
+    if (!is_solved(c.name) || c.explained * 10 >= c.of * 9) continue;
+    std::int64_t plain = -1;
+    for (const Tried& other : causes)
+      if (!is_fitted(other.name) && !is_solved(other.name) && other.inside * 100 >= c.inside * 98 && other.misfit <= 2 * c.misfit + 0.05)
+        plain = std::max(plain, other.explained);
+    if (plain >= 0) c.explained = std::min(c.explained, plain);
+  }
   double best = 0;
   for (const Cause& c : causes) best = std::max(best, score(c));
   // Records are few, and no device blurs which of them are there: of these the better explains more.
@@ -199,7 +232,8 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
   // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
   constexpr std::ptrdiff_t most_rivals = 20;
   const auto rivals = std::count_if(causes.begin(), causes.end(), [&](const Tried& c) {
-    return is_best(c) && !is_solved(c.name) && !c.name.ends_with(", in all components");  // other words for the same places
+    // The other two are other words for the same places.
+    return is_best(c) && !is_solved(c.name) && !c.name.ends_with(", in all components") && !c.name.ends_with(", in each such place");
   });
   for (Cause& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;

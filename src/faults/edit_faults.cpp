@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "faults/edits.h"
 #include "faults/place_faults.h"
 #include "faults/targets.h"
@@ -57,8 +59,11 @@ class Adder {
   Adder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
       : out_(out), known_(std::make_shared<const std::vector<float>>(known)), most_(most) {}
   bool is_full() const { return made_ >= most_; }
+  /// For what is asked after all else: an eighth more.
+  void extend() { most_ += most_ / 8; }
 
-  void operator()(const Probe& p, const Nodes& nodes, std::int32_t occurrence, const Edit& edit) {
+  /// `period`: of places of one shape, met again and again, each one that is so many on, from `occurrence`.
+  void operator()(const Probe& p, const Nodes& nodes, std::int32_t occurrence, const Edit& edit, std::int32_t period = 0) {
     if (is_full() || nodes.size() > Rewrites().size()) return;
     auto formulas = std::make_shared<std::vector<Formula>>();
     bool is_seen = false;
@@ -66,7 +71,7 @@ class Adder {
       formulas->push_back(formula_of(edit.made[edit.made.size() == 1 ? 0 : c]));
       is_seen |= shows(p, nodes[c], formulas->back());
     }
-    std::string key = edit.name + edit.sentence;
+    std::string key = fmt::format("{}{}/{}", edit.name, edit.sentence, period);
     if (!is_seen || !done_.insert({std::move(key), occurrence}).second) return;
     ++made_;
     Rewrites all{};
@@ -78,6 +83,7 @@ class Adder {
         all[c].period = period_of(p, nodes);
         if (all[c].period > 0) all[c].occurrence = static_cast<std::int32_t>(c);
       }
+      if (period > 0) all[c].occurrence = occurrence, all[c].period = period;
       all[c].formula = &(*formulas)[c];
     }
     Fault d;
@@ -89,6 +95,19 @@ class Adder {
     d.for_diagnosis = true;
     d.is_one_of_many = true;
     out_.push_back(std::move(d));
+  }
+
+  /// At all places that look alike so few operations deep.
+  void shared(const Probe& p, const SharedPlace& place, Edit edit) {
+    if (is_full()) return;
+    edit.name += ", in each such place";
+    edit.sentence += words_for_all(place);
+    const std::size_t before = out_.size();
+    (*this)(p, {place.node}, -1, edit);
+    if (out_.size() == before) return;
+    Rewrite& r = (*out_.back().rewrites)[0];
+    r.shape = node_of(p, place.node).shallow[static_cast<std::size_t>(place.depth - 1)];
+    r.depth = place.depth;
   }
 
  private:
@@ -148,7 +167,7 @@ std::vector<Nodes> groups_of(const Probe& p) {
 }  // namespace
 
 void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most,
-                     bool copies) {
+                     bool copies, const std::vector<Probe>& all) {
   Adder add(out, known, most);
   for (const Probe& p : probes) {
     for (const Nodes& v : groups_of(p)) {
@@ -167,24 +186,47 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     }
     for (const auto& [name, filter] : filters) {
       if (filter.first.size() < 2 || filter.first.size() > Rewrites().size()) continue;
-      Edit all{{}, name + ", in all of these sums", filter.second[0].sentence + ", and so in the other sums of these weights"};
-      for (const Edit& e : filter.second) all.made.push_back(e.made[0]);
-      add(p, filter.first, -1, all);
+      Edit every{{}, name + ", in all of these sums", filter.second[0].sentence + ", and so in the other sums of these weights"};
+      for (const Edit& e : filter.second) every.made.push_back(e.made[0]);
+      add(p, filter.first, -1, every);
     }
     for (const std::vector<std::size_t>& at : vectors_of(p)) {
       const Nodes v(at.begin(), at.end());
       for (const Edit& e : edits_of(p, v[0], false)) add(p, v, -1, e);
     }
-    std::set<std::uint32_t> done;
-    for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
-      const Node& n = node_of(p, at);
-      if (is_leaf(n.op) || n.op == Op::lookup) continue;
-      const std::int32_t count = p.trace.met.at(n.shape);
-      if (n.occurrence != 0 && count > most_alike) continue;
-      const std::vector<Edit> edits = edits_of(p, at, copies);
-      for (const Edit& e : edits) {
-        if (n.occurrence == 0) add(p, {at}, -1, e);
-        if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
+    for (const bool is_rarer : {false, true}) {
+      if (is_rarer) {
+        add.extend();
+        constexpr std::size_t most_joint = 300;
+        for (const auto of_several : {branch_edits_of, constant_edits_of}) {
+          std::vector<JointEdit> joint = of_several(p);
+          if (joint.size() > most_joint) joint.resize(most_joint);
+          for (const JointEdit& e : joint) add(p, e.nodes, -1, e.edit);
+        }
+        // A function of the text that is called several times has an edit in each call.
+        for (const SharedPlace& place : shared_places_of(all)) {
+          if (add.is_full()) break;
+          const Probe& of = all[place.probe];
+          // What is put together otherwise in several places that only look alike is rather a chance.
+          for (const Edit& e : edits_of(of, place.node, false))
+            if (e.name.starts_with("another") || e.name.starts_with("held") || e.name.starts_with("wrapped") ||
+                e.name.starts_with("ceiling"))
+              add.shared(of, place, e);
+        }
+      }
+      for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
+        const Node& n = node_of(p, at);
+        if (is_leaf(n.op) || n.op == Op::lookup) continue;
+        const std::int32_t count = p.trace.met.at(n.shape);
+        if (n.occurrence != 0 && count > most_alike) continue;
+        for (const Edit& e : is_rarer ? rarer_edits_of(p, at) : edits_of(p, at, copies)) {
+          if (n.occurrence == 0) add(p, {at}, -1, e);
+          if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
+          // Of two or three that are met in each round of a loop.
+          for (const std::int32_t period : {2, 3})
+            if (count > most_alike && count % period == 0 && count <= 8 * period && e.name.starts_with("another member"))
+              for (std::int32_t first = 0; first < period; ++first) add(p, {at}, first, e, period);
+        }
       }
     }
   }

@@ -292,7 +292,9 @@ void FaultyPass::store(Texel at, std::vector<Array>& out) const {
   const perturbed::RewriteScope rewriting(fault_.rewrites.value_or(perturbed::Rewrites()));
   const perturbed::Scope scope(behaviour);
   std::vector<perturbed::Perturbed> values(slots_.size());
-  (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());
+  const auto evaluate = [&] { (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data()); };
+  substitutions.look_ahead(evaluate);
+  evaluate();
   for (std::size_t v = 0; v < slots_.size(); ++v) {
     const Slot& s = slots_[v];
     const float value = fault_.alter_value ? fault_.alter_value(values[v].v, s) : values[v].v;

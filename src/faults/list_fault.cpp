@@ -97,6 +97,7 @@ std::optional<Array> faulty_list(const Fault& d, const PassCase& c, std::size_t 
   if (!substitutions.all.empty()) behaviour.substitutions = &substitutions, substitutions.start();
   const perturbed::RewriteScope rewriting(d.rewrites.value_or(perturbed::Rewrites()));
   const perturbed::Scope scope(behaviour);
+  substitutions.look_ahead([&] { static_cast<void>(keyed->perturbed()); });
   const auto bytes = keyed->perturbed();
   if (!bytes) return std::nullopt;
   Array out = finished;

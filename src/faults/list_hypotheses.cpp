@@ -58,9 +58,10 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list, bool stand_
   // are many.
   const std::size_t nodes = probes.empty() ? 1 : probes[0].trace.nodes.size();
   const std::size_t most = std::min<std::size_t>(600, 1 + (stand_alone ? 40000000 : 2000000) / nodes);
+  add_shared_place_faults(all, probes, known);
   add_order_faults(all, probes, known, most);
   add_order_faults(all, alike, {}, most);
-  add_edit_faults(all, probes, known, most, true);
+  add_edit_faults(all, probes, known, most, true, probes);
   if (!probes.empty()) add_vector_substitutions(all, probes[0], known, most);
   return {std::move(all), constants, {}, {}, {}};
 }

@@ -17,6 +17,20 @@ enum class PlaceKind {
 /// Adds what can go wrong at each place that the probes met. `known`: as they were made with.
 void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, PlaceKind kind);
 
+/// The same at all places that look alike one or two operations deep, though they differ below: a function of the text that is called
+/// several times is wrong in each call. Edits ask for these places too.
+void add_shared_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known);
+/// Places that look alike so few operations deep and are of several shapes, by one node; of each such class once.
+struct SharedPlace {
+  std::size_t probe;  ///< of those given
+  std::int32_t node;
+  std::int8_t depth;   ///< 1 or 2
+  std::size_t shapes;  ///< how many there are
+};
+/// What is said of a mistake there after that of one place.
+std::string words_for_all(const SharedPlace& place);
+std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes);
+
 /// The places of the components of vectors, two or three of one operation and one text but for the components: nodes of the probe.
 std::vector<std::vector<std::size_t>> vectors_of(const Probe& p);
 /// The same of any values, leaves too.

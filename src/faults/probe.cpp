@@ -228,7 +228,8 @@ std::vector<Probe> probed(const Probed& p, const std::vector<Evaluation>& evalua
     for (std::size_t n = 0; n < probe.names.size(); ++n) {
       const Node& node = probe.trace.nodes[n];
       if (!is_leaf(node.op) || !probe.names[n].empty()) continue;
-      const bool is_row = node.op == Op::constant && node.value == static_cast<float>(probe.at.y) + 0.5f && probe.at.y > 0 &&
+      const bool is_row = node.op == Op::constant && probe.at.y > 0 &&
+                          (node.value == static_cast<float>(probe.at.y) + 0.5f || node.value == static_cast<float>(probe.at.y)) &&
                           !std::binary_search(known.begin(), known.end(), node.value);
       probe.names[n] = is_row                    ? "row"
                        : node.op == Op::constant ? fmt::format("{}", node.value)

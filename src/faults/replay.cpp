@@ -17,8 +17,12 @@ using judge::Cause;
 
 double score(const Cause& c) { return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1)); }
 bool is_explained(const std::vector<Tried>& causes) {
-  // What is fitted to the records that a port lost, or says that nothing was done, may have a reason in the text.
-  const auto is_symptom = [](const Tried& c) { return c.name.ends_with("without a record") || c.name.ends_with("one step late"); };
+  // What is fitted to the records that a port lost, or says that nothing was done, may have a reason in the text; and so has a
+  // number that is not set, of which a few records say little.
+  constexpr std::int64_t few = 8;
+  const auto is_symptom = [](const Tried& c) {
+    return c.name.ends_with("without a record") || c.name.ends_with("one step late") || (c.name.ends_with(" is zero") && c.of < few);
+  };
   return std::any_of(causes.begin(), causes.end(),
                      [&](const Tried& c) { return c.is_likely && score(c) >= 1.9 && !is_symptom(c) && !is_fitted(c.name); });
 }

@@ -13,6 +13,7 @@ void put_numbers(std::vector<Substitution>& places, const std::vector<double>& n
   for (std::size_t c = 0; c < places.size(); ++c) {
     places[c].back = 0;
     places[c].second.back = 0;
+    places[c].ahead = -1;
     places[c].number = static_cast<float>(numbers[c]);
     places[c].change = places[c].last = perturbed::Change::none;
     places[c].how = perturbed::Put::instead;
@@ -52,6 +53,7 @@ std::vector<float> Solver::values(const std::vector<Substitution>& places) const
   b.known = &known_;
   b.substitutions = &all;
   const perturbed::Scope scope(b);
+  all.look_ahead([&] { static_cast<void>(of_.evaluate()); });
   return of_.evaluate();
 }
 bool Solver::is_near(const std::vector<float>& v) const {

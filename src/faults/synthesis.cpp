@@ -21,7 +21,7 @@ using perturbed::Put;
 using perturbed::Substitution;
 using Node = perturbed::Trace::Node;
 
-constexpr std::size_t most_verified = 60, most_found = 160;
+constexpr std::size_t most_found = 160;
 
 constexpr std::array<Put, 9> puts{Put::instead, Put::times, Put::divided_by, Put::plus,   Put::minus,
                                   Put::from,    Put::over,  Put::larger,     Put::smaller};
@@ -49,6 +49,7 @@ class Search {
       : texels_(texels), first_(texels[0].probe), known_(std::make_shared<const std::vector<float>>(known)) {
     for (const Solvable& t : texels) solvers_.emplace_back(t, *known_);
     for (const std::size_t n : {1u, 2u, 3u}) numbers_[n] = numbers_of(p, n);
+    most_verified_ = std::clamp<std::size_t>(most_steps / 200 / std::max<std::size_t>(first_.trace.nodes.size(), 1), 60, 400);
     p_ = &p;
     groups_ = vectors_in(first_);
   }
@@ -119,7 +120,7 @@ class Search {
             numbers[c] = perturbed::put(now[c], other, how);
             is_same &= numbers[c] == now[c];
           }
-          if (is_same || is_trivial || verified >= most_verified || !solvers_[0].may_be(solution, numbers)) continue;
+          if (is_same || is_trivial || verified >= most_verified_ || !solvers_[0].may_be(solution, numbers)) continue;
           if (done.contains({s.text, {how, change}})) continue;
           take(first_, s, t, places);
           for (Substitution& place : places) place.change = change, place.how = how;
@@ -184,17 +185,26 @@ class Search {
     for (std::int32_t at = static_cast<std::int32_t>(first_.trace.nodes.size()); at-- > 0;)
       if (done.insert(node_of(first_, at).shape).second && node_of(first_, at).occurrence >= 0) add({first_of(at)});
     const std::size_t nodes = std::max<std::size_t>(first_.trace.nodes.size(), 1);
-    std::size_t left = std::min<std::size_t>(20000, most_steps / nodes);
-    const std::vector<float> right = solvers_[0].values({});
+    std::size_t left = std::min<std::size_t>(60000, most_steps / nodes);
+    // Of what decides by steps one texel or another feels it.
+    constexpr std::size_t most_asked = 4;
+    std::vector<std::vector<float>> right;
+    for (std::size_t k = 0; k < std::min(most_asked, solvers_.size()); ++k) right.push_back(solvers_[k].values({}));
+    std::vector<int> uses(first_.trace.nodes.size());
+    for (const Node& n : first_.trace.nodes)
+      for (const std::int32_t of : n.of)
+        if (of >= 0) ++uses[static_cast<std::size_t>(of)];
+    other_taps(left);
     const std::vector<Source> none;
     for (const Target& t : all) {
       std::vector<Substitution> places = t.places(first_);
       for (Substitution& place : places) place.occurrence = -1;
       bool counts = false;
-      for (const float number : {0.11f, -7.0f}) {
-        for (Substitution& place : places) place.how = Put::plus, place.back = 0, place.number = number;
-        counts |= solvers_[0].values(places) != right;
-      }
+      for (std::size_t k = 0; k < right.size() && !counts; ++k)
+        for (const float number : {0.11f, -7.0f, 1.3f}) {
+          for (Substitution& place : places) place.how = Put::plus, place.back = 0, place.number = number;
+          counts = counts || moves_all_that_fails(texels_[k], right[k], solvers_[k].values(places));
+        }
       if (!counts) continue;
       const std::int32_t value = t.value_at(first_, 0);
       for (const Change change : {Change::as_half, Change::as_code, Change::floored, Change::rounded, Change::truncated, Change::fraction,
@@ -215,8 +225,8 @@ class Search {
         }
       std::size_t tried = 0;
       for (const Source& s : sources_for(first_, t, groups_, none)) {
-        if (left < 2 || ++tried > 120) break;
-        if (s.text == "..." || (value >= 0 && s.nodes[0] == value)) continue;
+        if (left < 3 || ++tried > 200) break;
+        if (s.text == "..." || (value >= 0 && !s.nodes.empty() && s.nodes[0] == value)) continue;
         take(first_, s, t, places);
         for (const Change change : {Change::none, Change::smoothed}) {
           if (change == Change::smoothed && tried > 30) break;
@@ -224,6 +234,43 @@ class Search {
           --left;
           if (suits(places)) keep(s.effort, places, said(first_, t, s, Put::instead, change));
         }
+        // A value that counts at several places, as a weight, with one factor more.
+        const bool is_shared = t.operand == Substitution::result && uses[static_cast<std::size_t>(t.nodes[0])] > 1;
+        if (!is_shared || s.text.find("...") != std::string::npos || tried > 60) continue;
+        for (Substitution& place : places) place.how = Put::times, place.change = Change::none;
+        --left;
+        if (suits(places)) keep(s.effort + effort_of(Put::times, Change::none), places, said(first_, t, s, Put::times, Change::none));
+      }
+    }
+  }
+  /// Whether every slot in which a port differs is another one with a mistake.
+  static bool moves_all_that_fails(const Solvable& at, const std::vector<float>& right, const std::vector<float>& made) {
+    if (right.size() != at.port.size() || made.size() != at.port.size()) return false;
+    bool is_any = false;
+    for (std::size_t k = 0; k < right.size(); ++k) {
+      if (std::abs(static_cast<double>(right[k]) - at.port[k]) <= at.leeway[k]) continue;
+      if (made[k] == right[k]) return false;
+      is_any = true;
+    }
+    return is_any;
+  }
+  /// The column or row of one texel that is that of another one.
+  void other_taps(std::size_t& left) {
+    constexpr std::size_t most = 24;
+    std::vector<std::int32_t> taps;
+    for (std::int32_t at = 0; at < static_cast<std::int32_t>(first_.trace.nodes.size()) && taps.size() < most; ++at)
+      if (node_of(first_, at).op == Op::coordinate && first_.trace.met.at(node_of(first_, at).shape) <= 12) taps.push_back(at);
+    for (const std::int32_t to : taps) {
+      const Target t{{to}, 0};
+      std::set<float> values{node_of(first_, to).value};
+      for (const std::int32_t from : taps) {
+        const std::int32_t value = node_of(first_, from).of[0];
+        if (left == 0 || value < 0 || !values.insert(node_of(first_, from).value).second) continue;
+        const Source s{{value}, {}, words_for(first_, value), 1};
+        std::vector<Substitution> places = t.places(first_);
+        take(first_, s, t, places);
+        --left;
+        if (suits(places)) keep(s.effort, places, said(first_, t, s, Put::instead, Change::none));
       }
     }
   }
@@ -239,8 +286,10 @@ class Search {
     std::vector<Substitution> places = t.places(first_);
     const std::size_t n = t.nodes.size();
     std::vector<Source> sources;
-    for (Source& s : sources_for(first_, t, groups_, {}))
-      if (s.text.find("...") == std::string::npos && sources.size() < 60) sources.push_back(std::move(s));
+    for (Source& s : sources_for(first_, t, groups_, {})) {
+      const bool is_before = !s.nodes.empty() && s.nodes[0] < t.nodes[0];
+      if (is_before && s.text.find("...") == std::string::npos && sources.size() < 60) sources.push_back(std::move(s));
+    }
     std::vector<float> now, numbers(n);
     for (std::size_t c = 0; c < n; ++c) now.push_back(t.now(first_, c));
     std::size_t verified = 0;
@@ -248,7 +297,7 @@ class Search {
       for (const Put how : {Put::instead, Put::times, Put::divided_by, Put::plus, Put::minus})
         for (const Source& b : sources)
           for (const Put then : {Put::times, Put::divided_by, Put::plus, Put::minus, Put::larger, Put::smaller}) {
-            if (&a == &b || verified >= most_verified) continue;
+            if (&a == &b || verified >= most_verified_) continue;
             for (std::size_t c = 0; c < n; ++c)
               numbers[c] = perturbed::put(perturbed::put(now[c], number_of(first_, a, c), how), number_of(first_, b, c), then);
             if (!solvers_[0].may_be(solution, numbers)) continue;
@@ -302,6 +351,7 @@ class Search {
     }
   }
 
+  std::size_t most_verified_ = 60;  ///< of a target, all that seem to fit at the first texel; more where the pass is short
   const Probed* p_ = nullptr;
   const std::vector<Solvable>& texels_;
   const Probe& first_;

@@ -1,6 +1,7 @@
 #include "faults/targets.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <map>
 #include <set>
@@ -107,9 +108,11 @@ std::vector<Target> targets_of(const Probe& p) {
 std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
   std::vector<Source> out;
   for (const scene::Member& m : p.pass.block.members) {
-    if (m.scalar != scene::Scalar::float32 || m.name.starts_with("padding")) continue;
+    if (m.name.starts_with("padding")) continue;
     std::vector<float> all(static_cast<std::size_t>(m.components));
     std::memcpy(all.data(), p.c.uniforms.data() + m.offset, 4 * all.size());
+    if (m.scalar != scene::Scalar::float32)
+      for (float& v : all) v = static_cast<float>(std::bit_cast<std::int32_t>(v));
     if (components > 1 && all.size() >= components)
       out.push_back({{}, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(components)}, m.name, 0});
     for (std::size_t k = 0; k < all.size() && all.size() <= 4; ++k)
@@ -129,10 +132,46 @@ std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
           out.push_back({{}, both, fmt::format("{}.{}", a.name, "xyzw"[k & 3]), 0});
         }
       }
+  // A length in heights where it should be in widths, or the reverse.
+  if (p.model.height() > 0 && p.model.width() != p.model.height()) {
+    const auto width = static_cast<float>(p.model.width()), height = static_cast<float>(p.model.height());
+    out.push_back({{}, {width / height}, "width / height", 1});
+    out.push_back({{}, {height / width}, "height / width", 1});
+  }
   for (const float number : {2.0f, 3.0f, 4.0f, 0.5f, 0.25f, 3.14159265f, 6.2831853f, 255.0f, 57.29578f, 0.017453293f, 1.0f, -1.0f})
     out.push_back({{}, {number}, fmt::format("{:.5g}", number), 3});
   return out;
 }
+
+namespace {
+
+/// What the pass computes only later, and not of the target: another order of the text would have it there. Numbers that every
+/// invocation has are numbers.
+void add_later(const Probe& p, const Target& t, std::vector<Source>& out) {
+  constexpr std::size_t most_later = 40;
+  const auto count = static_cast<std::int32_t>(p.trace.nodes.size());
+  std::vector<bool> is_of_target(static_cast<std::size_t>(count));
+  const auto is_in = [&](std::int32_t at) { return std::find(t.nodes.begin(), t.nodes.end(), at) != t.nodes.end(); };
+  constexpr std::int32_t most_alike_later = 8;  // told apart by their order, where no loop makes them
+  std::set<std::pair<std::string, float>> names;
+  std::size_t added = 0;
+  for (std::int32_t at = *std::min_element(t.nodes.begin(), t.nodes.end()); at < count && added < most_later; ++at) {
+    const Node& n = node_of(p, at);
+    bool follows = is_in(at);
+    for (const std::int32_t of : n.of) follows = follows || (of >= 0 && is_of_target[static_cast<std::size_t>(of)]);
+    is_of_target[static_cast<std::size_t>(at)] = follows;
+    if (follows || n.op == Op::comparison || n.op == Op::coordinate || n.op == Op::level || n.op == Op::argument) continue;
+    const std::string text = words_for(p, at);
+    if (text.find_first_not_of(".+-*/ ()") == std::string::npos || !names.insert({text, n.value}).second) continue;
+    if (n.op == Op::constant) {
+      if (text.find(" of ") == std::string::npos && text != "row") out.push_back({{}, {n.value}, text, 1}), ++added;
+    } else if (p.trace.met.at(n.shape) <= most_alike_later) {
+      out.push_back({{at}, {}, text, 2}), ++added;
+    }
+  }
+}
+
+}  // namespace
 
 /// Values met before a target, nearest first, and numbers.
 std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vector<std::vector<std::int32_t>>& groups,
@@ -162,6 +201,7 @@ std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vect
     if (back > most_back || node_of(p, m).op == Op::comparison || node_of(p, m).op == Op::coordinate) continue;
     out.push_back({{m}, {}, words_for(p, m), effort(m)});
   }
+  add_later(p, t, out);
   out.insert(out.end(), numbers.begin(), numbers.end());
   return out;
 }
@@ -173,6 +213,7 @@ float number_of(const Probe& p, const Source& s, std::size_t c) {
 /// Puts a source into the places of a target.
 void take(const Probe& p, const Source& s, const Target& t, std::vector<Substitution>& places) {
   for (std::size_t c = 0; c < places.size(); ++c) {
+    places[c].ahead = -1;
     if (s.nodes.empty()) {
       places[c].back = 0;
       places[c].number = number_of(p, s, c);
@@ -180,7 +221,9 @@ void take(const Probe& p, const Source& s, const Target& t, std::vector<Substitu
     }
     const std::int32_t node = s.nodes[s.nodes.size() == 1 ? 0 : c];
     places[c].source = node_of(p, node).shape;
-    places[c].back = steps_back(p, node, t.nodes[c]);
+    const bool is_later = node > t.nodes[c];
+    places[c].ahead = is_later ? node_of(p, node).occurrence : -1;
+    places[c].back = is_later ? 0 : steps_back(p, node, t.nodes[c]);
   }
 }
 void take_second(const Probe& p, const Source& s, const Target& t, std::vector<Substitution>& places) {

@@ -22,9 +22,11 @@ std::optional<float> at_end(const std::array<std::int8_t, 6>& path, const std::a
   }
   return value;
 }
-std::optional<float> met(std::uint32_t shape, std::int32_t back, const Trace& trace, std::size_t before) {
+std::optional<float> met(const FormulaStep& step, const Trace& trace, std::size_t before) {
+  std::int32_t back = step.back;
   for (std::size_t n = before; n-- > 0;)
-    if (trace.nodes[n].shape == shape && --back == 0) return trace.nodes[n].value;
+    if (trace.nodes[n].shape == step.shape && --back == 0)
+      return step.kind == FormulaStep::Kind::decided ? trace.nodes[n].with[2] : trace.nodes[n].value;
   return {};
 }
 
@@ -82,7 +84,7 @@ Perturbed by_formula(const Formula& formula, const Perturbed& r, const std::arra
     }
     const std::optional<float> value = s.kind == FormulaStep::Kind::number ? std::optional(s.number)
                                        : s.kind == FormulaStep::Kind::part ? at_end(s.path, of, nodes, trace)
-                                                                           : met(s.shape, s.back, trace, before);
+                                                                           : met(s, trace, before);
     if (!value) return r;
     stack.push_back(Perturbed::of(*value));
   }

@@ -265,15 +265,20 @@ void Substitutions::start() {
 }
 void Substitutions::meet(std::uint32_t shape, float value) {
   for (std::size_t k = 0; k < all.size(); ++k) {
+    if (is_looking && all[k].ahead >= 0 && all[k].source == shape) right[k].push_back(value);
     if (all[k].back > 0 && all[k].source == shape) met[k][0].push_back(value);
     if (all[k].second.back > 0 && all[k].second.source == shape) met[k][1].push_back(value);
   }
 }
-float Substitutions::value_for(std::size_t k, float right) const {
+float Substitutions::value_for(std::size_t k, float meant) const {
   const Substitution& s = all[k];
   const auto back = static_cast<std::size_t>(s.back), second = static_cast<std::size_t>(s.second.back);
-  if (back > met[k][0].size() || second > met[k][1].size()) return right;
-  float v = put(right, changed(back == 0 ? s.number : met[k][0][met[k][0].size() - back], s.change), s.how);
+  if (back > met[k][0].size() || second > met[k][1].size()) return meant;
+  if (s.ahead >= 0 && (k >= right.size() || static_cast<std::size_t>(s.ahead) >= right[k].size())) return meant;
+  const float other = s.ahead >= 0 ? right[k][static_cast<std::size_t>(s.ahead)]
+                      : back == 0  ? s.number
+                                   : met[k][0][met[k][0].size() - back];
+  float v = put(meant, changed(other, s.change), s.how);
   if (second > 0) v = put(v, changed(met[k][1][met[k][1].size() - second], s.second.change), s.second.how);
   return changed(v, s.last);
 }
@@ -305,11 +310,11 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
     for (std::size_t k = 1; k < depth.size(); ++k) depth[k] = hashed(depth[k], operand->shape_[k - 1]);
   const std::uint32_t shape = depth.back();
   for (Place& place : b.places) {
-    if (place.fault == PlaceFault::none || place.shape != shape) continue;
+    if (place.fault == PlaceFault::none || place.shape != depth[static_cast<std::size_t>(place.depth)]) continue;
     const std::int32_t occurrence = place.seen++;
     if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of, place.fault);
   }
-  for (std::size_t s = 0; b.substitutions && s < b.substitutions->all.size(); ++s) {
+  for (std::size_t s = 0; b.substitutions && !b.substitutions->is_looking && s < b.substitutions->all.size(); ++s) {
     const Substitution& other = b.substitutions->all[s];
     if (other.shape != shape) continue;
     const std::int32_t occurrence = b.substitutions->seen[s]++;
@@ -328,7 +333,7 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   for (const Rewrite& rewriting : rewrites) {
     if (!b.trace || rewriting.kind == RewriteKind::none) break;
     const bool is_wild = rewriting.kind == RewriteKind::first_wins;  // it concerns every choice, whatever its shape is
-    if (is_wild ? op != Op::choice : rewriting.shape != shape) continue;
+    if (is_wild ? op != Op::choice : rewriting.shape != depth[static_cast<std::size_t>(rewriting.depth)]) continue;
     const std::int32_t occurrence = b.trace->met[shape];
     if (!is_wild && rewriting.occurrence >= 0 &&
         rewriting.occurrence != (rewriting.period > 0 ? occurrence % rewriting.period : occurrence))
@@ -345,6 +350,7 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   Trace::Node node{op, r.v, shape, b.trace->met[shape]++};
   std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed* operand) { return operand->node_; });
   std::transform(of.begin(), of.end(), node.with.begin(), [](const Perturbed* operand) { return operand->v; });
+  node.shallow = {depth[1], depth[2]};
   r.node_ = static_cast<std::int32_t>(b.trace->nodes.size());
   b.trace->nodes.push_back(node);
   return r;

@@ -83,11 +83,16 @@ enum class PlaceFault : std::uint8_t {
   never
 };
 
+/// How many operations below it the shape of a place sees; with fewer it is found wherever a text looks alike so far down, as where
+/// a function of it is called several times with arguments of other kinds.
+constexpr std::int8_t whole_depth = 3;
+
 struct Place {
   std::uint32_t shape = 0;
   std::int32_t occurrence = -1;  ///< of this shape in an invocation; -1: each
   PlaceFault fault = PlaceFault::none;
   std::int32_t seen = 0;  ///< of this shape so far: 0 before each invocation
+  std::int8_t depth = whole_depth;
 };
 
 /// What becomes of a value before it stands in place of another.
@@ -136,6 +141,7 @@ struct Substitution {
   Put how = Put::instead;
   Second second = {};
   Change last = Change::none;  ///< of all of it
+  std::int32_t ahead = -1;     ///< which one of `source` in the invocation as it should be, of what is met only later; -1: see `back`
 
   static constexpr std::int8_t result = -1;
 };
@@ -144,12 +150,27 @@ struct Substitutions {
   std::vector<Substitution> all;
   std::vector<std::int32_t> seen = {};                      ///< of each place so far
   std::vector<std::array<std::vector<float>, 2>> met = {};  ///< of each source and second source, in order
+  std::vector<std::vector<float>> right = {};               ///< of each source, in the invocation as it should be
+  bool is_looking = false;                                  ///< that invocation is made: nothing is changed in it
 
+  /// Whether a value is met only later: then the invocation is made as it should be first, by run().
+  template <class Run>
+  void look_ahead(const Run& run) {
+    bool looks = false;
+    for (const Substitution& s : all) looks |= s.ahead >= 0;
+    right.assign(all.size(), {});
+    if (!looks) return;
+    is_looking = true;
+    start();
+    run();
+    is_looking = false;
+    start();
+  }
   /// Before each invocation.
   void start();
   void meet(std::uint32_t shape, float value);
   /// The value for number k, given what should stand there.
-  float value_for(std::size_t k, float right) const;
+  float value_for(std::size_t k, float meant) const;
 };
 
 /// What an invocation did, in order.
@@ -161,6 +182,7 @@ struct Trace {
     std::int32_t occurrence;
     std::array<std::int32_t, 4> of{-1, -1, -1, -1};  ///< nodes; -1: none, or a number of unknown origin
     std::array<float, 4> with{};                     ///< the operands themselves
+    std::array<std::uint32_t, 2> shallow{};          ///< shapes one and two operations deep
   };
   std::vector<Node> nodes;
   std::map<std::uint32_t, std::int32_t> met;  ///< of each shape so far

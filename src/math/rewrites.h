@@ -31,7 +31,8 @@ struct FormulaStep {
     operation,  ///< `op` of what the last steps gave
     part,       ///< the operand at the end of `path` from the place: which operand, which of that, ...; -1 ends it
     number,
-    met  ///< what was met `back` times ago of a shape
+    met,     ///< what was met `back` times ago of a shape
+    decided  ///< 1 or 0: the condition of a choice met so long ago
   };
   Kind kind = Kind::operation;
   Op op = Op::sum;
@@ -52,6 +53,7 @@ struct Rewrite {
                                             ///< of commuted [0]: the operand of the inner one that the outer one takes
   std::int32_t period = 0;                  ///< of occurrence: each one that is so many on; 0: that one alone
   const Formula* formula = nullptr;         ///< of formula: whoever makes the rewrite keeps it
+  std::int8_t depth = whole_depth;          ///< as Place::depth
 };
 
 /// One rewrite, or those of the components of a vector: the first of kind none ends them.

@@ -3,11 +3,37 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "random/counter.h"
 
 namespace rainref::random {
+
+/// How one word is put to another.
+enum class Join : std::uint8_t { exclusive_or, sum, either, left_out };
+std::uint32_t joined(std::uint32_t a, std::uint32_t b, Join by);
+
+/// pcg4d and the key of a block as they should be (counter.h), or with a mistake in one of their constants, operators or operands.
+struct Mixing {
+  std::uint32_t multiplier = 1664525u, increment = 1013904223u;
+  int shift = 16;
+  bool is_shift_left = false;
+  Join fold = Join::exclusive_or;                                                        ///< x and x >> shift
+  Join stir = Join::sum;                                                                 ///< a word and the product of two others
+  std::array<std::array<std::uint8_t, 2>, 4> factors{{{1, 3}, {2, 0}, {0, 1}, {1, 2}}};  ///< of that product, for each word
+  std::array<bool, 2> stirs{true, true};                                                 ///< whether before and after the fold
+  int line_left_out = -1;                                                                ///< a word that neither stir changes
+  Join keyed_by = Join::exclusive_or;                  ///< the counters and the first two words of the key
+  std::array<bool, 2> is_keyed{true, true};            ///< whether each counter meets the key at all
+  std::array<std::uint8_t, 4> key_words{0, 1, 2, 3};   ///< which word of the key stands at each place
+  std::array<std::uint8_t, 4> seed_words{0, 1, 2, 3};  ///< likewise of (seed's low word, high word, purpose, 0)
+  std::uint32_t last = 0;                              ///< in place of that 0
+  bool is_key_hashed = true;                           ///< else the key is (seed's low word, high word, purpose, 0) itself
+
+  Block hashed(Block v) const;
+  Block block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) const;
+};
 
 /// As it should be, or with a mistake that a port makes, which the diagnosis tries.
 struct Draws {
@@ -19,9 +45,14 @@ struct Draws {
   Purpose only{};                                  ///< the blocks that these five concern; Purpose{}: each
   bool is_place_of_low_bits = false;               ///< a place takes the low bits of its word
   bool is_choice_of_low_bits = false;              ///< a class takes the low bits of its word
-  bool counts_above = false;                       ///< thresholds above the word are counted, in place of those that it is not below
-  bool counts_one_draw = false;                    ///< of several draws the first alone counts
-  std::array<bool, 2> is_whole{};                  ///< of a place, its column or its row loses its fraction
+  int choice_shift = -1;                           ///< a class takes the bits from this one on; -1: the upper ones
+  bool is_row_of_buffer = false;                   ///< a counter is made of the row of the buffer in place of that of a layer
+  bool are_halves_swapped = false;                 ///< a first counter that is i | j << 16 is j | i << 16
+  std::optional<Mixing> mixing = {};               ///< another hash
+  std::array<std::uint8_t, 4> turned{};  ///< so many low bits of each word stand above the others: they are taken for the upper ones
+  bool counts_above = false;             ///< thresholds above the word are counted, in place of those that it is not below
+  bool counts_one_draw = false;          ///< of several draws the first alone counts
+  std::array<bool, 2> is_whole{};        ///< of a place, its column or its row loses its fraction
 
   std::vector<Purpose>* met = nullptr;  ///< collects what words are drawn for
 
@@ -39,7 +70,13 @@ struct Draws {
   /// A column (0) or row (1) in fractions of so many bits.
   std::uint32_t fine(std::uint32_t place, int bits, std::size_t axis) const { return is_whole[axis] ? place >> bits << bits : place; }
   /// The upper bits of a word, as the number of a class.
-  std::uint32_t choice(std::uint32_t word, int bits) const { return upper(word, bits, is_choice_of_low_bits); }
+  std::uint32_t choice(std::uint32_t word, int bits) const {
+    return upper(choice_shift < 0 ? word : word << (32 - bits - choice_shift), bits, is_choice_of_low_bits);
+  }
+  /// The row that a counter is made of, of a cell in this row of its layer and that row of the buffer.
+  std::uint32_t row(std::uint32_t of_layer, std::uint32_t of_buffer) const { return is_row_of_buffer ? of_buffer : of_layer; }
+  /// Whether there is one, where a word is below the share that has one.
+  bool holds(bool is_below) const { return is_below != counts_above; }
   /// Of so many thresholds those that are counted where the word is not below `passed` of them.
   std::uint32_t count(std::uint32_t passed, std::uint32_t all) const { return counts_above ? all - passed : passed; }
 

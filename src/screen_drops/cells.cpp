@@ -10,7 +10,7 @@ CellLine::CellLine(const CellsUniforms& uniforms, int row) : u_(uniforms) {
     const std::int32_t line = row - u_.first_row[l];
     if (line < 0 || line >= u_.rows[l]) continue;
     layer_ = static_cast<std::uint32_t>(l);
-    line_ = static_cast<std::uint32_t>(line) << 16;
+    line_ = random::draws().row(static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(row)) << 16;
     columns_ = u_.columns[l];
   }
 }
@@ -26,7 +26,7 @@ void CellLine::draw_cycle(int column, std::uint32_t time, DrawnCell& drawn) cons
   const random::Block drop =
       random::draws().block(seed, random::Purpose::screen_drop, static_cast<std::uint32_t>(column) | line_, cycle * layers + layer_);
   drawn.begin = cycle * drawn.length;
-  drawn.cycle = {(drop[0] >> 16) < u_.keep, cycle, 0, drop[1] >> 16, drop[2] >> 16, drop[3] >> 16};
+  drawn.cycle = {random::draws().holds((drop[0] >> 16) < u_.keep), cycle, 0, drop[1] >> 16, drop[2] >> 16, drop[3] >> 16};
 }
 CellState CellLine::at(int column, DrawnCell& drawn) const {
   if (column >= columns_) return {};

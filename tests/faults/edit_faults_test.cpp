@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "faults/place_faults.h"
 #include "random/draws.h"
 
 namespace rainref::faults {
@@ -17,6 +18,7 @@ namespace {
 
 using perturbed::Op;
 using perturbed::Perturbed;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -58,7 +60,7 @@ std::vector<std::string> found(const Pass& right, const std::function<Numbers(co
                                                  : "");
   }
   std::vector<Fault> all;
-  add_edit_faults(all, {probe}, literals, 100000, copies);
+  add_edit_faults(all, {probe}, literals, 100000, copies, {probe});
   std::vector<std::string> names;
   for (const Fault& d : all)
     if (std::all_of(inputs.begin(), inputs.end(), [&](const Numbers& in) {
@@ -69,6 +71,27 @@ std::vector<std::string> found(const Pass& right, const std::function<Numbers(co
         }))
       names.push_back(d.name);
   return names.empty() ? std::vector<std::string>{"none"} : names;
+}
+/// The same of faults at places that look alike.
+std::vector<std::string> shared(const Pass& right, const std::function<Numbers(const Numbers&)>& port) {
+  const std::vector<Numbers> inputs{{0.31f, 0.72f, 0.19f, 1.7f}, {0.83f, 0.27f, 0.55f, 2.3f}, {0.47f, 0.91f, 0.66f, 1.2f}};
+  Probe probe{{0, 0}, {}, {}};
+  perturbed::Behaviour following;
+  following.trace = &probe.trace;
+  {
+    const perturbed::Scope scope(following);
+    for (const Perturbed& v : right(inputs[0])) probe.outputs.push_back(v.node());
+  }
+  probe.names.resize(probe.trace.nodes.size(), "in");
+  std::vector<Fault> all;
+  add_shared_place_faults(all, {probe}, {});
+  std::vector<std::string> names;
+  for (const Fault& d : all)
+    if (std::all_of(inputs.begin(), inputs.end(), [&](const Numbers& in) {
+          return std::abs(given(right, in, d)[0] - port(in)[0]) <= 1e-6f * (1 + std::abs(port(in)[0]));
+        }))
+      names.push_back(d.name);
+  return names;
 }
 std::string first(const Pass& right, const std::function<Numbers(const Numbers&)>& port, Numbers literals = {}) {
   return found(right, port, std::move(literals))[0];
@@ -154,6 +177,54 @@ TEST(EditFaults, AValueOfAfter) {
   };
   EXPECT_THAT(first(right, port, {64}), StartsWith("value of after: in.x - in.z for in.x"));
 }
+// Three constants of a hash, of which the port has the first for all three.
+TEST(EditFaults, OneConstantForAllComponents) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed a = fract(load(in[0]) * Perturbed(3.1f)), b = fract(load(in[1]) * Perturbed(3.7f)),
+                    c = fract(load(in[2]) * Perturbed(2.3f));
+    return std::vector<Perturbed>{a + b + c};
+  };
+  const auto part = [](float v) { return v - std::floor(v); };
+  EXPECT_THAT(found(right, [&](const Numbers& in) { return Numbers{part(in[0] * 3.1f) + part(in[1] * 3.1f) + part(in[2] * 3.1f)}; },
+                    {2.3f, 3.1f, 3.7f}),
+              testing::Contains(StartsWith("one constant for all: 3.1 for")));
+  EXPECT_THAT(found(right, [&](const Numbers& in) { return Numbers{part(in[0] * 3.7f) + part(in[1] * 3.1f) + part(in[2] * 2.3f)}; },
+                    {2.3f, 3.1f, 3.7f}),
+              testing::Contains(StartsWith("constants exchanged: ")));
+}
+// 2 pi x as an angle and as a factor, each of which the port leaves out.
+TEST(EditFaults, AFactor2PiIsLeftOut) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed turns = load(in[0]) * Perturbed(3.0f);
+    return std::vector<Perturbed>{sin(Perturbed(6.2831855f) * turns) + Perturbed(18.849556f) * load(in[1])};
+  };
+  EXPECT_THAT(
+      found(right, [](const Numbers& in) { return Numbers{std::sin(6.2831855f * in[0] * 3) + 3 * in[1]}; }, {3, 6.2831855f, 18.849556f}),
+      testing::Contains(StartsWith("factor 2 pi left out: ")));
+}
+// A choice by x < y whose port asks z < w as well.
+TEST(EditFaults, AConditionTooMany) {
+  const Pass right = [](const Numbers& in) {
+    const bool other = load(in[0]) < load(in[2]);
+    const Perturbed unused = select(other, load(in[0]), load(in[1]));
+    return std::vector<Perturbed>{select(load(in[2]) < load(in[3]), Perturbed(1.0f), Perturbed(0.0f)), unused};
+  };
+  EXPECT_THAT(found(right,
+                    [](const Numbers& in) {
+                      return Numbers{in[2] < in[3] && in[0] < in[2] ? 1.0f : 0.0f, in[0] < in[2] ? in[0] : in[1]};
+                    },
+                    {0, 1}),
+              testing::Contains(StartsWith("condition too many: ")));
+}
+// A function of the text that is called with a sum and with a root: both calls have lost the floor.
+TEST(EditFaults, AFunctionThatIsCalledTwiceIsWrongInBothCalls) {
+  const auto rounded = [](const Perturbed& x) { return floor(x * Perturbed(3.0f) + Perturbed(0.5f)); };
+  const Pass right = [&](const Numbers& in) {
+    return std::vector<Perturbed>{rounded(load(in[0]) + load(in[3])) * rounded(sqrt(load(in[1]) * load(in[3])))};
+  };
+  const auto port = [](const Numbers& in) { return Numbers{((in[0] + in[3]) * 3 + 0.5f) * (std::sqrt(in[1] * in[3]) * 3 + 0.5f)}; };
+  EXPECT_THAT(shared(right, port), testing::Contains(AllOf(StartsWith("floor left out: "), testing::EndsWith(", in each such place"))));
+}
 TEST(EditFaults, WhatIsStrangeHasNone) {
   const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{load(in[0]) * Perturbed(3.0f) + load(in[1])}; };
   EXPECT_EQ(first(right, [](const Numbers& in) { return Numbers{std::sin(91 * in[0] + in[2])}; }, {3}), "none");
@@ -164,6 +235,16 @@ TEST(Draws, ACounterWhoseFactorStandsAtTheOtherTermAndPlacesOfFewerBits) {
   random::Draws d;
   d.moved = {1, 4};
   EXPECT_EQ(d.block(9, random::Purpose::screen_drop, 7, 4 * 5 + 3), random::block(9, random::Purpose::screen_drop, 7, 5 + 4 * 3));
+  // The hash itself: as it is, and with the key added.
+  random::Draws mixed;
+  mixed.mixing.emplace();
+  EXPECT_EQ(mixed.block(9, random::Purpose::screen_drop, 7, 11), random::block(9, random::Purpose::screen_drop, 7, 11));
+  mixed.mixing->keyed_by = random::Join::sum;
+  const random::Block key = random::pcg4d({9, 0, static_cast<std::uint32_t>(random::Purpose::screen_drop), 0});
+  EXPECT_EQ(mixed.block(9, random::Purpose::screen_drop, 7, 11), random::pcg4d({7 + key[0], 11 + key[1], key[2], key[3]}));
+  random::Draws low;
+  low.turned[2] = 10;
+  EXPECT_EQ(low.block(9, random::Purpose::screen_drop, 7, 11)[2] >> 22, random::block(9, random::Purpose::screen_drop, 7, 11)[2] & 1023);
   random::Draws few;
   few.place_bits = 16;
   EXPECT_EQ(few.place(0x12345678u, 24), 0x123400u);

@@ -106,6 +106,15 @@ TEST(Synthesis, ExchangedComponentsAreFoundBehindALength) {
   };
   EXPECT_EQ(MadeUp(right, port, {2, 3}).first(), "wrong value: in.y * 3 for in.x * 3, in both components");
 }
+// y / 3 in the place of x, though the pass computes it only later.
+TEST(Synthesis, AValueThatIsMetOnlyLater) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed first = load(in[0]) * load(in[3]), later = load(in[1]) / Perturbed(3.0f);
+    return std::vector<Perturbed>{first, later};
+  };
+  const auto port = [](const Numbers& in) { return Numbers{in[1] / 3 * in[3], in[1] / 3}; };
+  EXPECT_EQ(MadeUp(right, port, {3}).first(), "wrong value: in.y / 3 for in.x");
+}
 // Of a value that is used twice the result is wrong at both.
 TEST(Synthesis, AResultThatIsUsedTwice) {
   const Pass right = [](const Numbers& in) {

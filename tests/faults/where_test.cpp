@@ -114,6 +114,20 @@ TEST(BestCauses, OfAboutEqualOnesTheEarlierIsBelieved) {
   EXPECT_EQ(best_causes({cause("a", 98, 99, true), cause("b", 100, 100, true)})[0].name, "a");
   EXPECT_EQ(best_causes({cause("a", 90, 90, true), cause("b", 100, 100, true)})[0].name, "b");
 }
+TEST(BestCauses, WhatWasSolvedForDoesNotWinByBitsThatItMeetsByChance) {
+  const Tried plain = cause("term left out: x", 11, 100, true);
+  EXPECT_EQ(best_causes({cause("factor too many: y cubed", 28, 100, true), plain})[0].name, plain.name);
+  EXPECT_EQ(best_causes({plain, cause("wrong value: y for x", 96, 100, true)})[0].name, "wrong value: y for x");
+}
+TEST(BestCauses, OfEqualOnesThoseOfFewPlacesAreMeant) {
+  EXPECT_EQ(best_causes({cause("factor left out: a", 90, 100, true), cause("not squared: b", 90, 100, true)})[0].name, "not squared: b");
+  EXPECT_EQ(best_causes({cause("sign of a product: a", 90, 100, true), cause("difference the other way: a - b", 90, 100, true)})[0].name,
+            "difference the other way: a - b");
+  EXPECT_EQ(best_causes({cause("half_width of wipers halved", 90, 100, true), cause("term left out: 0.5", 90, 100, true)})[0].name,
+            "term left out: 0.5");
+  EXPECT_EQ(best_causes({cause("mix left out: a", 90, 100, true), cause("difference the other way: a - floor(a)", 90, 100, true)})[0].name,
+            "mix left out: a");
+}
 TEST(BestCauses, WhatExplainsLittleIsNoCauseAndAFewTexelsProveNothing) {
   EXPECT_TRUE(best_causes({cause("a", 20, 40, false)}).empty());
   Cause few = cause("a", 3, 3, true);

@@ -1,0 +1,105 @@
+// Functions of a pass text that are called several times: their places look alike, with arguments of other shapes.
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "faults/place_faults.h"
+#include "faults/place_words.h"
+
+namespace rainref::faults {
+
+using perturbed::Op;
+using Node = perturbed::Trace::Node;
+
+std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
+  // What is of one operation and two numbers looks alike everywhere.
+  const auto is_telling = [&](const Node& n, std::int8_t depth) {
+    switch (n.op) {
+      case Op::constant:
+      case Op::load:
+      case Op::fetch:
+      case Op::index:
+      case Op::lookup:
+      case Op::comparison:
+      case Op::coordinate:
+      case Op::level:
+        return false;
+      case Op::sum:
+      case Op::difference:
+      case Op::product:
+      case Op::quotient:
+      case Op::negation:
+      case Op::argument:
+      case Op::bent:
+        return depth > 1;
+      default:
+        return true;
+    }
+  };
+  // Of these a call may be one that no probe makes.
+  const auto is_rare = [](Op op) {
+    return op == Op::angle || op == Op::power || op == Op::mix || op == Op::smoothstep || op == Op::sine || op == Op::cosine ||
+           op == Op::exponential || op == Op::fract;
+  };
+  constexpr std::size_t most_shapes = 12, most = 70;
+  std::vector<SharedPlace> out;
+  std::set<std::set<std::uint32_t>> done;
+  for (const std::int8_t depth : {std::int8_t{2}, std::int8_t{1}}) {
+    struct Class {
+      std::size_t probe;
+      std::int32_t node;
+      std::set<std::uint32_t> shapes = {};
+    };
+    std::map<std::uint32_t, Class> classes;
+    // Invocations that take another way call the same functions with other arguments.
+    for (std::size_t k = 0; k < probes.size(); ++k)
+      for (std::int32_t at = 0; at < static_cast<std::int32_t>(probes[k].trace.nodes.size()); ++at) {
+        const Node& n = probes[k].trace.nodes[static_cast<std::size_t>(at)];
+        if (n.occurrence != 0 || !is_telling(n, depth)) continue;
+        Class& one = classes.try_emplace(n.shallow[static_cast<std::size_t>(depth - 1)], Class{k, at}).first->second;
+        if (one.probe == k) one.node = at;
+        one.shapes.insert(n.shape);
+      }
+    std::vector<SharedPlace> found;
+    for (const auto& [shape, one] : classes)
+      if (one.shapes.size() >= (is_rare(probes[one.probe].trace.nodes[static_cast<std::size_t>(one.node)].op) ? 1u : 2u) &&
+          one.shapes.size() <= most_shapes && done.insert(one.shapes).second)
+        found.push_back({one.probe, one.node, depth, one.shapes.size()});
+    std::sort(found.begin(), found.end(),
+              [](const SharedPlace& a, const SharedPlace& b) { return a.probe != b.probe ? a.probe < b.probe : a.node > b.node; });
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  if (out.size() > most) out.resize(most);
+  return out;
+}
+
+std::string words_for_all(const SharedPlace& place) {
+  return place.shapes > 1
+             ? fmt::format(", and so in all {} places that are made alike: a function that is called several times", place.shapes)
+             : ", wherever it is made alike: a function that is called several times";
+}
+
+void add_shared_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known) {
+  const auto shared = std::make_shared<const std::vector<float>>(known);
+  for (const SharedPlace& place : shared_places_of(probes)) {
+    const Probe& p = probes[place.probe];
+    const Node& n = p.trace.nodes[static_cast<std::size_t>(place.node)];
+    for (const Words& w : words_of(p, static_cast<std::size_t>(place.node))) {
+      Fault d;
+      d.name = w.name + ", in each such place";
+      d.sentence =
+          fmt::format("{}, and so in all {} places that are made alike: a function that is called several times", w.sentence, place.shapes);
+      d.behaviour.places[0] = {n.shallow[static_cast<std::size_t>(place.depth - 1)], -1, w.fault, 0, place.depth};
+      d.at_texel = [shared](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = shared.get(); };
+      d.for_diagnosis = true;
+      d.is_one_of_many = true;
+      out.push_back(std::move(d));
+    }
+  }
+}
+
+}  // namespace rainref::faults
