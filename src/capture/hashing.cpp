@@ -8,6 +8,10 @@ namespace rainref::capture {
 namespace {
 
 void add_buffer(Hasher& hasher, const BufferView& buffer) {
+  if (buffer.parts.size() == 1 && buffer.parts.front()->format() == buffer.format) {  // its rows as they lie
+    for (int y = 0; y < buffer.height(); ++y) hasher.add(std::span(buffer.parts.front()->row_bytes(y), buffer.row_bytes()));
+    return;
+  }
   std::vector<std::byte> row(buffer.row_bytes());
   for (int y = 0; y < buffer.height(); ++y) {
     buffer.copy_row(y, row.data());

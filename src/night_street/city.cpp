@@ -24,11 +24,20 @@ City::City(std::uint64_t street_seed, bool clear_lane)
 }
 
 const LightMap& City::light() const {
-  std::call_once(is_lit_, [&] {
+  std::call_once(lit_once_, [&] {
     const FloatingPointGuard guard;
     light_ = LightMap(sources);
+    is_lit_ = true;
   });
   return light_;
+}
+void City::light_up(const Rows& rows) const {
+  if (is_lit_) return;
+  LightMap made(sources, rows);
+  std::call_once(lit_once_, [&] {
+    light_ = std::move(made);
+    is_lit_ = true;
+  });
 }
 
 int City::add_material(const Material& material) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <mutex>
 #include <string_view>
 #include <vector>
@@ -93,6 +94,8 @@ struct City {
   City(std::uint64_t street_seed, bool clear_lane);
   /// Made when it is first asked for: a street whose pictures were kept (cache/kept_images.h) needs none. Any thread may ask.
   const LightMap& light() const;
+  /// The same on all threads, before they ask: whoever waited for one that lights, and helped meanwhile, could come to wait for itself.
+  void light_up(const Rows& rows) const;
   double random(std::uint64_t object, Purpose purpose) const { return random01(seed, object, purpose); }
   int add_material(const Material& material);
   /// Adds a solid whose planes are already in `planes`, from first_plane on, or that has none.
@@ -104,7 +107,8 @@ struct City {
   void add_lamp(const Vec& centre, double radius, const Vec& radiance, const Vec& axis, double gain, int focus);
 
  private:
-  mutable std::once_flag is_lit_;
+  mutable std::once_flag lit_once_;
+  mutable std::atomic<bool> is_lit_ = false;
   mutable LightMap light_;
 };
 

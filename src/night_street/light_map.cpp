@@ -31,22 +31,25 @@ Vec LightMap::Grid::at(double a, double z) const {
   return mix(mix(row[0], row[1], u - i), mix(row[count_a], row[count_a + 1], u - i), v - j);
 }
 
-LightMap::LightMap(const std::vector<Source>& sources) {
+LightMap::LightMap(const std::vector<Source>& sources, const Rows& rows) {
   const auto fill = [&](Grid& grid, auto point_of, const Vec& normal) {
     grid.cells.assign(static_cast<std::size_t>(grid.count_a) * grid.count_z, Vec{});
-    for (int j = 0; j < grid.count_z; ++j) {
-      const double z = grid.first_z + j * grid.step_z;
+    rows(grid.count_z, [&](int begin, int end) {
       std::vector<const Source*> near;
-      for (const Source& source : sources) {
-        if (magnitude(source.position.z - z) < reach) near.push_back(&source);
+      for (int j = begin; j < end; ++j) {
+        const double z = grid.first_z + j * grid.step_z;
+        near.clear();
+        for (const Source& source : sources) {
+          if (magnitude(source.position.z - z) < reach) near.push_back(&source);
+        }
+        for (int i = 0; i < grid.count_a; ++i) {
+          const Vec point = point_of(grid.first_a + i * grid.step_a, z);
+          Vec sum;
+          for (const Source* source : near) sum = sum + received(*source, point, normal);
+          grid.cells[static_cast<std::size_t>(j) * grid.count_a + i] = sum;
+        }
       }
-      for (int i = 0; i < grid.count_a; ++i) {
-        const Vec point = point_of(grid.first_a + i * grid.step_a, z);
-        Vec sum;
-        for (const Source* source : near) sum = sum + received(*source, point, normal);
-        grid.cells[static_cast<std::size_t>(j) * grid.count_a + i] = sum;
-      }
-    }
+    });
   };
   ground_ = {-8, 0.5, -300, 0.75, 33, 801, {}};
   fill(ground_, [](double a, double z) { return Vec{a, 0, z}; }, {0, 1, 0});

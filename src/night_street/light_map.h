@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/rows.h"
 #include "night_street/vec.h"
 
 namespace rainref::night_street {
@@ -14,7 +15,8 @@ struct Source;
 class LightMap {
  public:
   LightMap() = default;
-  explicit LightMap(const std::vector<Source>& sources);
+  /// `rows` says who sums it up; the bits do not hang on it.
+  explicit LightMap(const std::vector<Source>& sources, const Rows& rows = rows_here);
 
   /// On the horizontal ground at (x, z).
   Vec ground(double x, double z) const;

@@ -6,6 +6,7 @@
 #include "math/real64.h"
 #include "night_street/antialias.h"
 #include "night_street/city.h"
+#include "parallel/rows.h"
 
 namespace rainref::night_street {
 
@@ -33,7 +34,7 @@ Image Street::panorama(int width, int height, const scene::Vector3& eye, const p
 }
 
 Image Street::traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const {
-  city_->light();  // as in rendered()
+  city_->light_up(parallel::rows_of(executor));
   const Vec origin = from(eye);
   const Angles azimuth(3 * width, -pi, 2 * pi), elevation(3 * height, -0.5 * pi, pi);
   const auto ray_of = [&](int i, int j) {

@@ -6,6 +6,7 @@
 #include "cache/kept_images.h"
 #include "night_street/antialias.h"
 #include "night_street/city.h"
+#include "parallel/rows.h"
 #include "rainref/error.h"
 
 namespace rainref::night_street {
@@ -29,7 +30,7 @@ Street::View Street::view(const scene::Camera& camera, int width, int height, do
 
 Street::View Street::rendered(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor,
                               Parts parts) const {
-  city_->light();  // first, and by this thread: what one of the pool allocates stays with that one
+  city_->light_up(parallel::rows_of(executor));
   const scene::Camera::Basis basis = camera.basis();
   const Vec origin = from(camera.position), right = from(basis.right), up = from(basis.up), forward = from(basis.forward);
   const double half_height = camera.half_height(), half_width = half_height * width / height;

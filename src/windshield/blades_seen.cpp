@@ -34,23 +34,18 @@ double soft_at(double depth, double texel) { return std::max(pupil, 1.5 * depth 
 struct Cover {
   double share = 0, depth = 0;
 };
-/// What a blade hides of the ray (x, y, 1), a texel `texel` wide at distance 1.
-Cover cover_of(const SeenBlade& b, double x, double y, double texel) {
-  Cover cover;
+/// What a blade, or its arm, hides of the ray (x, y, 1), a texel `texel` wide at distance 1.
+Cover cover_of(const SeenBlade& b, bool is_arm, double x, double y, double texel) {
   const Vector3 ray(x, y, 1);
   const double towards = glm::dot(b.out, ray);
-  if (!(towards > 1e-3)) return cover;
-  for (const bool is_arm : {false, true}) {
-    const Part part = part_of(b, is_arm);
-    const double depth = (glm::dot(b.pivot, b.out) + part.height) / towards;
-    if (!(depth > 0)) continue;
-    const Vector3 p = depth * ray - b.pivot;
-    const double along = glm::dot(p, b.along), across = glm::dot(p, b.across), soft = soft_at(depth, texel);
-    const double half = is_arm ? arm_at_pivot + (arm_at_blade - arm_at_pivot) * std::clamp(along / part.last, 0.0, 1.0) : part.half;
-    const double share = covered(along, part.first, part.last, soft) * covered(across, -half, half, soft);
-    if (share > cover.share) cover = {share, depth};
-  }
-  return cover;
+  if (!(towards > 1e-3)) return {};
+  const Part part = part_of(b, is_arm);
+  const double depth = (glm::dot(b.pivot, b.out) + part.height) / towards;
+  if (!(depth > 0)) return {};
+  const Vector3 p = depth * ray - b.pivot;
+  const double along = glm::dot(p, b.along), across = glm::dot(p, b.across), soft = soft_at(depth, texel);
+  const double half = is_arm ? arm_at_pivot + (arm_at_blade - arm_at_pivot) * std::clamp(along / part.last, 0.0, 1.0) : part.half;
+  return {covered(along, part.first, part.last, soft) * covered(across, -half, half, soft), depth};
 }
 
 /// What may be hidden of the plane at distance 1: four corners in their order, or everything where one of them is not before the eye.
@@ -118,28 +113,35 @@ void draw_blades(std::span<const SeenBlade> blades, const std::array<double, 2>&
                  const parallel::Executor& executor) {
   const int width = view.colour.width(), height = view.colour.height();
   const double step_x = 2 * half_size[0] / width, step_y = 2 * half_size[1] / height;
-  std::vector<Outline> outlines;
+  struct SeenPart {
+    const SeenBlade* blade;
+    bool is_arm;
+    Outline outline;
+  };
+  std::vector<SeenPart> parts;
   for (const SeenBlade& b : blades)
-    for (const bool is_arm : {false, true}) outlines.push_back(outline_of(b, is_arm, step_y));
+    for (const bool is_arm : {false, true}) parts.push_back({&b, is_arm, outline_of(b, is_arm, step_y)});
+  const auto column_of = [&](double x) { return static_cast<int>((std::clamp(x, -half_size[0], half_size[0]) + half_size[0]) / step_x); };
   executor.for_tiles(width, height, width, 8, [&](const parallel::Tile& tile) {
+    std::vector<Cover> covers(static_cast<std::size_t>(width));
     for (int row = tile.y0; row < tile.y1; ++row) {
       const double y = (row + 0.5) * step_y - half_size[1];
-      double first = half_size[0], last = -half_size[0];
-      for (const Outline& o : outlines) {
-        const auto [low, high] = extent(o, y - step_y, y + step_y);
-        first = std::min(first, low);
-        last = std::max(last, high);
-      }
-      const auto column_of = [&](double x) {
-        return static_cast<int>((std::clamp(x, -half_size[0], half_size[0]) + half_size[0]) / step_x);
-      };
-      for (int column = std::max(0, column_of(first) - 1); column < std::min(width, column_of(last) + 2); ++column) {
-        const double x = (column + 0.5) * step_x - half_size[0];
-        Cover cover;
-        for (const SeenBlade& b : blades) {
-          const Cover more = cover_of(b, x, y, step_y);
+      int first = width, last = 0;
+      std::fill(covers.begin(), covers.end(), Cover{});
+      for (const SeenPart& part : parts) {
+        const auto [low, high] = extent(part.outline, y - step_y, y + step_y);
+        if (low > high) continue;
+        const int begin = std::max(0, column_of(low) - 1), end = std::min(width, column_of(high) + 2);
+        for (int column = begin; column < end; ++column) {
+          const Cover more = cover_of(*part.blade, part.is_arm, (column + 0.5) * step_x - half_size[0], y, step_y);
+          Cover& cover = covers[static_cast<std::size_t>(column)];
           if (more.share > cover.share) cover = more;
         }
+        first = std::min(first, begin);
+        last = std::max(last, end);
+      }
+      for (int column = first; column < last; ++column) {
+        const Cover& cover = covers[static_cast<std::size_t>(column)];
         if (cover.share <= 0) continue;
         Half* colour = view.colour.row<Half>(row) + 4 * column;
         for (std::size_t k = 0; k < 3; ++k) {

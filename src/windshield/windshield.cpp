@@ -10,6 +10,7 @@
 #include "capture/pass_clock.h"
 #include "effect/picture_sequence.h"
 #include "image/flipped.h"
+#include "parallel/rows.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "windshield/falling_rain.pass.h"
@@ -65,8 +66,8 @@ bool Windshield::State::look() {
   for (const auto& pane : panes) add_seen(now, pane->wipers(), pane->glass(), eye);
   if (!is_new && now == blades) return false;
   blades = std::move(now);
-  scene.colour = copy_of(without_blades.colour);
-  scene.depth = copy_of(without_blades.depth);
+  copy_into(scene.colour, without_blades.colour, parallel::rows_of(executor));
+  copy_into(scene.depth, without_blades.depth, parallel::rows_of(executor));
   const double half_height = eye.half_height();
   draw_blades(blades, {half_height * settings.picture.width / settings.picture.height, half_height}, scene, executor);
   return true;

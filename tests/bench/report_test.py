@@ -88,12 +88,18 @@ class Frames(unittest.TestCase):
 
     def test_the_ratio_is_to_one_thread_and_a_goal_is_met_from_its_value_on(self):
         text = frames.markdown(self.RUN)
-        self.assertIn("| `puddle/stress` | 1 | 96 | 10 % | 1.00 |  | 0123 |", text)
-        self.assertIn("| `puddle/stress` | 16 | 8 | 10 % | 12.00 | 12 met | 0123 |", text)
+        self.assertIn("| `puddle/stress` | 1 | 96 | 10 % | 1.00 |  |  | 0123 |", text)
+        self.assertIn("| `puddle/stress` | 16 | 8 | 10 % | 12.00 |  | 12 met | 0123 |", text)
         self.assertIn("| `puddle/default` | 0.30 | 0.3 met | 0.50 |  | 1.50 |", text)
         slower = copy.deepcopy(self.RUN)
         slower["frames"][1]["median_ms"], slower["starts"][0]["kept_s"] = 8.01, 0.31
         self.assertEqual(frames.markdown(slower).count("**not met**"), 2)
+
+    def test_beside_them_stands_what_registers_gain(self):
+        beside = {**self.RUN, "registers": [{"threads": n, "q1_ms": t, "median_ms": t, "q3_ms": t} for n, t in ((1, 45.0), (16, 3.6))]}
+        text = frames.markdown(beside)
+        self.assertIn("| `puddle/stress` | 1 | 96 | 10 % | 1.00 | 1.00 |  | 0123 |", text)
+        self.assertIn("| `puddle/stress` | 16 | 8 | 10 % | 12.00 | 12.50 | 12 met | 0123 |", text)
 
     def test_a_run_without_them_has_no_tables(self):
         self.assertEqual(frames.markdown({"rows": []}), "")

@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "image/flipped.h"
 #include "rainref/error.h"
 
 namespace rainref {
@@ -126,6 +127,24 @@ TEST(Image, CanBeEmptyAndMoved) {
   image.row<float>(1)[4] = 3.5f;
   none = std::move(image);
   EXPECT_EQ(none.row<float>(1)[4], 3.5f);
+}
+
+TEST(Image, ACopyGoesIntoTheMemoryThatIsThere) {
+  Image from(Format::r32f, 5, 3), to;
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) from.row<float>(y)[x] = static_cast<float>(10 * y + x);
+  copy_into(to, from);
+  const std::byte* memory = to.row_bytes(0);
+  from.row<float>(2)[4] = -1;
+  copy_into(to, from);
+  EXPECT_EQ(to.row_bytes(0), memory);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) EXPECT_EQ(to.row<float>(y)[x], from.row<float>(y)[x]) << x << ' ' << y;
+  copy_into(to, Image(Format::r16f, 5, 3));
+  EXPECT_EQ(to.format(), Format::r16f);
+  copy_into(to, Image(Format::r16f, 4, 6));
+  EXPECT_EQ(to.width(), 4);
+  EXPECT_EQ(to.height(), 6);
 }
 
 TEST(BufferView, OfOneImageCopiesRowsWithoutPadding) {

@@ -11,6 +11,7 @@
 #include "night_street/light_map.h"
 #include "night_street/sky.h"
 #include "night_street/support.h"
+#include "parallel/rows.h"
 
 namespace rainref::night_street {
 namespace {
@@ -76,6 +77,22 @@ TEST(StreetLight, LightsAdd) {
     const Vec point(0.7, 0, z);
     const double highlight = first_lights.highlight(point, view, {0, 1, 0}, 0.2).y + second_lights.highlight(point, view, {0, 1, 0}, 0.2).y;
     EXPECT_NEAR(both_lights.highlight(point, view, {0, 1, 0}, 0.2).y, highlight, 1e-6 * highlight);
+  }
+}
+
+TEST(StreetLight, IsTheSameFromAnyThreads) {
+  const FloatingPointGuard guard;
+  const City street(7, false);
+  const LightMap here(street.sources);
+  for (const int threads : {2, 3, 8}) {
+    parallel::Executor several(threads);
+    several.shuffle_tiles(5);
+    const LightMap map(street.sources, parallel::rows_of(several));
+    for (double z = -299; z < 299; z += 0.7)
+      for (double x = -7.5; x < 7.5; x += 1.1) {
+        ASSERT_EQ(map.ground(x, z).x, here.ground(x, z).x) << threads << ' ' << x << ' ' << z;
+        ASSERT_EQ(map.facade(x < 0, 8 + x, z).z, here.facade(x < 0, 8 + x, z).z) << threads << ' ' << x << ' ' << z;
+      }
   }
 }
 
