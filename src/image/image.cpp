@@ -80,12 +80,15 @@ void copy_channel(const std::byte* in, int count, std::size_t texel_bytes, std::
   for (int x = 0; x < count; ++x) std::memcpy(out + x * texel_bytes, in + x * Bytes, Bytes);
 }
 
-/// Both channels of a texel: what a compiler makes vectors of.
-template <std::size_t Bytes>
+/// Both channels of a texel at once, little endian: what a compiler makes vectors of.
+template <class Channel, class Texel>
 void copy_channels(const std::byte* first, const std::byte* second, int count, std::byte* out) {
   for (int x = 0; x < count; ++x) {
-    std::memcpy(out + 2 * x * Bytes, first + x * Bytes, Bytes);
-    std::memcpy(out + (2 * x + 1) * Bytes, second + x * Bytes, Bytes);
+    Channel a, b;
+    std::memcpy(&a, first + x * sizeof a, sizeof a);
+    std::memcpy(&b, second + x * sizeof b, sizeof b);
+    const Texel both = static_cast<Texel>(static_cast<Texel>(b) << (8 * sizeof a) | a);
+    std::memcpy(out + x * sizeof both, &both, sizeof both);
   }
 }
 
@@ -98,7 +101,7 @@ void BufferView::copy_row(int y, std::byte* out) const {
   }
   const std::size_t channel_bytes = info(format).channel_bytes, texel_bytes = info(format).texel_bytes();
   if (parts.size() == 2 && texel_bytes == 2 * channel_bytes && channel_bytes != 1) {
-    const auto copy = channel_bytes == 2 ? copy_channels<2> : copy_channels<4>;
+    const auto copy = channel_bytes == 2 ? copy_channels<std::uint16_t, std::uint32_t> : copy_channels<std::uint32_t, std::uint64_t>;
     return copy(parts[0]->row_bytes(y), parts[1]->row_bytes(y), width(), out);
   }
   std::memset(out, 0, row_bytes());

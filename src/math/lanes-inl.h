@@ -85,8 +85,8 @@ struct Lanes {
     const auto code = hn::And(bits, hn::Set(DU(), 0x7fffu));
     const auto sign = hn::BitCast(D(), hn::ShiftLeft<16>(hn::And(bits, hn::Set(DU(), 0x8000u))));
     const V scaled = hn::Mul(hn::BitCast(D(), hn::ShiftLeft<13>(code)), hn::Set(D(), 0x1p112f));
-    const V infinity = hn::BitCast(D(), hn::Set(DU(), 0x7f800000u));
-    return hn::Or(hn::IfThenElse(hn::RebindMask(D(), hn::Eq(code, hn::Set(DU(), 0x7c00u))), infinity, scaled), sign);
+    const auto infinite = hn::BitCast(D(), hn::IfThenElseZero(hn::Eq(code, hn::Set(DU(), 0x7c00u)), hn::Set(DU(), 0x7f800000u)));
+    return hn::Or(hn::Or(scaled, infinite), sign);
   }
   static HWY_INLINE HWY_ATTR Lanes load(const Unorm8* p) {
     const auto code = hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p)));
@@ -178,16 +178,16 @@ struct Lanes {
     const V back = hn::PromoteTo(D(), nearest);
 #else
     const auto bits = hn::BitCast(DU(), x), sign = hn::And(hn::ShiftRight<16>(bits), hn::Set(DU(), 0x8000u));
-    const auto magnitude = hn::And(bits, hn::Set(DU(), 0x7fffffffu));
-    const auto odd = hn::And(hn::ShiftRight<13>(magnitude), hn::Set(DU(), 1u));
+    // What rounds to an infinity is 65520, which does. Bits of positive floats are in the order of their numbers.
+    const auto magnitude = hn::Min(hn::BitCast(DI(), hn::And(bits, hn::Set(DU(), 0x7fffffffu))), hn::Set(DI(), 0x477ff000));
+    const auto odd = hn::And(hn::ShiftRight<13>(magnitude), hn::Set(DI(), 1));
     // Normal halves: add just under half a code, one more when the code is odd, and move the exponent by 112.
-    const auto normal = hn::ShiftRight<13>(hn::Add(hn::Add(magnitude, hn::Set(DU(), 0xfffu - 0x38000000u)), odd));
-    // Subnormal halves: the adder of 0.5 + x rounds at 2^-24, to even.
-    const auto subnormal = hn::Sub(hn::BitCast(DU(), hn::Add(hn::BitCast(D(), magnitude), hn::Set(D(), 0.5f))), hn::Set(DU(), 0x3f000000u));
-    const auto as_int = hn::BitCast(DI(), magnitude);
-    const auto below = [&](std::int32_t limit) HWY_ATTR { return hn::RebindMask(DU(), hn::Lt(as_int, hn::Set(DI(), limit))); };
-    auto code = hn::IfThenElse(below(0x38800000), subnormal, normal);
-    code = hn::IfThenElse(below(0x477ff000), code, hn::Set(DU(), 0x7c00u));
+    const auto normal = hn::ShiftRight<13>(hn::Add(hn::Add(magnitude, hn::Set(DI(), 0xfff - 0x38000000)), odd));
+    // Subnormal halves: the adder of 0.5 + x rounds at 2^-24, to even. Below 2^-14 this is the larger one, and up to 2^-13 both are the
+    // same, where it is held.
+    const V held = hn::BitCast(D(), hn::Min(magnitude, hn::Set(DI(), 0x39000000)));
+    const auto subnormal = hn::Sub(hn::BitCast(DI(), hn::Add(held, hn::Set(D(), 0.5f))), hn::Set(DI(), 0x3f000000));
+    const auto code = hn::BitCast(DU(), hn::Max(normal, subnormal));
     const auto codes = hn::Or(code, sign);
     if (rounding == Rounding::rne) return codes;
     const auto finite = hn::BitCast(D(), hn::ShiftLeft<13>(code));

@@ -55,8 +55,10 @@ void extents_of_rows(const float* decoded, int width, int height, float rest, co
 std::vector<Drop> raindrops_as_published(const RaindropsUniforms& uniforms);
 
 /// shade, corrected, with a ground_reach: what the pass writes, sooner where the surroundings' own ground is all there is. No texel of the
-/// environment or the ground may be as large as 1e12.
-void shade_or_background(const ShadeUniforms& u, Rounding rounding, const pass::HostIo<ShadePass>& io, const parallel::Tile& tile);
+/// environment or the ground may be as large as 1e12. colour: where io writes. kept: of its size and format, zero at first, the same image
+/// for the same uniforms, environment and rounding ever after.
+void shade_or_background(const ShadeUniforms& u, Rounding rounding, const pass::HostIo<ShadePass>& io, Image& colour, Image& kept,
+                         const parallel::Tile& tile);
 /// display, corrected, of a radiance that exposure and vignette are in: the codes of [0, 1].
 CodeSteps display_steps(Rounding rounding);
 /// The same for each of count numbers, by the pass's own arithmetic.

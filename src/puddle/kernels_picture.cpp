@@ -1,6 +1,7 @@
 // surface_hit, ground_noise, shade and display in lanes; compiled once for each SIMD target.
 #include <concepts>
 #include <cstdint>
+#include <cstring>
 
 #include "pass/run.h"
 #include "puddle/display.pass.h"
@@ -108,23 +109,27 @@ RAINREF_PASS_ROWS(ShadePass)
 RAINREF_PASS_ROWS(DisplayPass)
 
 // Where nothing of ours is seen in any lane, the picture behind is all that shade gives: what it would make of the ground there has the
-// weight 0, and is finite, as the caller knows.
+// weight 0, and is finite, as the caller knows. That picture hangs on nothing that moves: `kept` holds what is known of it, with alpha 1.
 HWY_NOINLINE HWY_ATTR void ShadeOrBackground(const ShadeUniforms& uniforms, Rounding rounding, const pass::HostIo<ShadePass>& host,
-                                             const parallel::Tile& tile) {
+                                             Image& colour, Image& kept, const parallel::Tile& tile) {
   const ShadeUniforms u = uniforms;
   const Lanes one(1.0f), half(0.5f);
   for (int y = tile.y0; y < tile.y1; ++y) {
     ShadePass::Io<LaneCursors> io;
     pass::begin_row<ShadePass>(host, io, y, rounding);
+    Half *const out = colour.row<Half>(y), *const known = kept.row<Half>(y);
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
       pass::move_to<ShadePass>(io, x, tile.x1 - x < Lanes::size() ? tile.x1 - x : Lanes::size());
       const Surface<Lanes> s = surface_of<Lanes>(io);
       const Lanes own = share_beyond(u, s.position.x * Lanes(u.inverse_size[0]), s.position.z * Lanes(u.inverse_size[1]));
       if (any((s.flag > half) & !((own >= one) & (own <= one)))) {
         ShadePassText::run<Lanes, true>(u, io, x, y);
+      } else if (known[4 * x + 3].bits != 0) {
+        std::memcpy(out + 4 * x, known + 4 * x, sizeof(Half) * 4 * Lanes::size());
       } else {
         const Vec3<Lanes> view = camera_ray(u.camera, Lanes::index(x), Lanes(static_cast<float>(y)));
         io.colour(background(u, io.environment, view), one);
+        std::memcpy(known + 4 * x, out + 4 * x, sizeof(Half) * 4 * Lanes::size());
       }
     }
   }
@@ -190,8 +195,9 @@ RAINREF_EXPORT(ShadeOrBackground);
 RAINREF_EXPORT(DisplayCodes);
 RAINREF_EXPORT(DisplayBySteps);
 
-void shade_or_background(const ShadeUniforms& u, Rounding rounding, const pass::HostIo<ShadePass>& io, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(ShadeOrBackground)(u, rounding, io, tile);
+void shade_or_background(const ShadeUniforms& u, Rounding rounding, const pass::HostIo<ShadePass>& io, Image& colour, Image& kept,
+                         const parallel::Tile& tile) {
+  RAINREF_DISPATCH(ShadeOrBackground)(u, rounding, io, colour, kept, tile);
 }
 void display_codes(Rounding rounding, const float* x, std::uint8_t* code, int count) {
   RAINREF_DISPATCH(DisplayCodes)(rounding, x, code, count);

@@ -55,7 +55,8 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   m.hold(Image::memory_bytes(Format::rgba32f, s.width, s.height) + 2 * Image::memory_bytes(Format::rgba16f, s.width, s.height) +
          Image::memory_bytes(Format::rgba8, s.width, s.height));
   if (!corrected) m.hold(Image::memory_bytes(Format::r32f, s.width, s.height));
-  m.hold(wave_floats);  // decoded for lookups
+  if (corrected && s.ground_reach > 0) m.hold(Image::memory_bytes(Format::rgba16f, s.width, s.height));  // at the most, what is behind
+  m.hold(wave_floats);                                                                                   // decoded for lookups
   if (!s.shelter.empty()) m.hold(sizeof(ShelterCell) * static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows));
   m.release(made);
   if (corrected) {

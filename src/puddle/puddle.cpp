@@ -68,6 +68,7 @@ struct Puddle::State {
   Image hit, normal, noise, colour, picture;
   CodeSteps display;         // of the corrected variant
   bool is_moderate = false;  // of that variant: shade_or_background may stand for shade
+  Image behind;              // then: what it keeps of the surroundings
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
       : settings(s),
@@ -87,7 +88,8 @@ struct Puddle::State {
     if (corrected) {
       bed = bed_of(s);
       display = display_steps(s.rounding);
-      is_moderate = are_moderate(sky->environment.view(), ground->tile.view());
+      is_moderate = s.ground_reach > 0 && are_moderate(sky->environment.view(), ground->tile.view());
+      if (is_moderate) behind = Image(Format::rgba16f, s.width, s.height);
     }
     environment_is_cube = around.environment_is_cube;
     hit = Image(Format::rgba32f, s.width, s.height);
@@ -330,8 +332,8 @@ void Puddle::render(Recorder* recorder) {
   s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& tile) {
     surface_hit.tile(tile);
     if (ground_noise) ground_noise->tile(tile);
-    if (s.is_moderate && of_shade.ground_reach > 0)
-      shade.tile([&] { shade_or_background(of_shade, rounding, at_shade, tile); });
+    if (s.is_moderate)
+      shade.tile([&] { shade_or_background(of_shade, rounding, at_shade, s.colour, s.behind, tile); });
     else
       shade.tile(tile);
     if (s.display.empty())
