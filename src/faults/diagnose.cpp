@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -220,9 +222,17 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
   // An envelope may be wide enough for several; the one that is meant leaves hardly anything.
   const auto is_best = [&](const Tried& c) { return explains_most(c) && c.misfit <= 2 * least + 0.02; };
   const auto rank = [&](const Tried& c) { return is_best(c) ? 3.0 : score(c); };
+  // A number that is not set where it is a term and no more: rather the term is left out.
+  std::set<std::string> terms;
+  for (const Tried& c : causes)
+    if (is_best(c) && c.name.starts_with("term left out: ")) terms.insert(c.name.substr(15, c.name.find_first_of(".,", 15) - 15));
+  const auto far = [&](const Tried& c) {
+    const bool is_zero = c.name.starts_with("uniform ") && c.name.ends_with(" is zero");
+    return far_fetched(c) + (is_zero && terms.contains(c.name.substr(8, c.name.size() - 16)) ? 1 : 0);
+  };
   std::stable_sort(causes.begin(), causes.end(), [&](const Tried& a, const Tried& b) {
     if (rank(a) != rank(b)) return rank(a) > rank(b);
-    return is_best(a) && is_best(b) && far_fetched(a) < far_fetched(b);
+    return is_best(a) && is_best(b) && far(a) < far(b);
   });
   std::vector<Cause> out;
   for (const Tried& c : causes)

@@ -59,8 +59,8 @@ class Adder {
   Adder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
       : out_(out), known_(std::make_shared<const std::vector<float>>(known)), most_(most) {}
   bool is_full() const { return made_ >= most_; }
-  /// For what is asked after all else: an eighth more.
-  void extend() { most_ += most_ / 8; }
+  /// For what is asked after all else: a tenth more.
+  void extend() { most_ += most_ / 10; }
 
   /// `period`: of places of one shape, met again and again, each one that is so many on, from `occurrence`.
   void operator()(const Probe& p, const Nodes& nodes, std::int32_t occurrence, const Edit& edit, std::int32_t period = 0) {

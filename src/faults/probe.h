@@ -22,8 +22,9 @@ struct Probed {
 struct Probe {
   Texel at;
   perturbed::Trace trace;
-  std::vector<std::string> names;          ///< of each node that is a leaf: "damping", "wave.x", "amplitude of drops", "4"; others ""
-  std::vector<std::int32_t> outputs = {};  ///< nodes of what a texel's slots are given; of lists none
+  std::vector<std::string> names;               ///< of each node that is a leaf: "damping", "wave.x", "amplitude of drops", "4"; others ""
+  std::vector<std::int32_t> outputs = {};       ///< nodes of what a texel's slots are given; of lists none
+  mutable std::vector<std::string> words = {};  ///< of nodes whose words were asked for
 
   /// What a node computes, in the words of the pass, `depth` operations deep: "damping * (wave.x - wave.y)".
   std::string text(std::int32_t node, int depth = 2) const;

@@ -21,10 +21,22 @@ bool is_part(const Probe& p, std::int32_t whole, std::int32_t part, bool is_fact
 
 }  // namespace
 
-std::string words_for(const Probe& p, std::int32_t node) {
+namespace {
+
+std::string short_text(const Probe& p, std::int32_t node) {
   for (int depth = 3; depth > 0; --depth)
-    if (const std::string text = p.text(node, depth); text.size() <= 60) return text;
+    if (std::string text = p.text(node, depth); text.size() <= 60) return text;
   return p.text(node, 1).substr(0, 77);
+}
+
+}  // namespace
+
+std::string words_for(const Probe& p, std::int32_t node) {
+  if (node < 0) return short_text(p, node);
+  p.words.resize(p.trace.nodes.size());
+  std::string& words = p.words[static_cast<std::size_t>(node)];
+  if (words.empty()) words = short_text(p, node);
+  return words;
 }
 std::string changed_words(Change change, const std::string& text) {
   const bool is_compound = text.find(' ') != std::string::npos;

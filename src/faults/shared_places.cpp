@@ -45,7 +45,7 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
     return op == Op::angle || op == Op::power || op == Op::mix || op == Op::smoothstep || op == Op::sine || op == Op::cosine ||
            op == Op::exponential || op == Op::fract;
   };
-  constexpr std::size_t most_shapes = 12, most = 70;
+  constexpr std::size_t most_shapes = 12, most = 40;
   std::vector<SharedPlace> out;
   std::set<std::set<std::uint32_t>> done;
   for (const std::int8_t depth : {std::int8_t{2}, std::int8_t{1}}) {
@@ -73,7 +73,14 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
               [](const SharedPlace& a, const SharedPlace& b) { return a.probe != b.probe ? a.probe < b.probe : a.node > b.node; });
     out.insert(out.end(), found.begin(), found.end());
   }
-  if (out.size() > most) out.resize(most);
+  // Named functions first; of a long pass fewer, because each is evaluated.
+  const auto rarity = [&](const SharedPlace& place) {
+    return is_rare(probes[place.probe].trace.nodes[static_cast<std::size_t>(place.node)].op);
+  };
+  std::stable_sort(out.begin(), out.end(), [&](const SharedPlace& a, const SharedPlace& b) { return rarity(a) && !rarity(b); });
+  std::size_t nodes = 1;
+  for (const Probe& p : probes) nodes = std::max(nodes, p.trace.nodes.size());
+  out.resize(std::min(out.size(), std::clamp<std::size_t>(40000 / nodes, 8, most)));
   return out;
 }
 

@@ -49,7 +49,7 @@ class Search {
       : texels_(texels), first_(texels[0].probe), known_(std::make_shared<const std::vector<float>>(known)) {
     for (const Solvable& t : texels) solvers_.emplace_back(t, *known_);
     for (const std::size_t n : {1u, 2u, 3u}) numbers_[n] = numbers_of(p, n);
-    most_verified_ = std::clamp<std::size_t>(most_steps / 200 / std::max<std::size_t>(first_.trace.nodes.size(), 1), 60, 400);
+    most_verified_ = std::clamp<std::size_t>(most_steps / 1000 / std::max<std::size_t>(first_.trace.nodes.size(), 1), 60, 400);
     p_ = &p;
     groups_ = vectors_in(first_);
   }
@@ -111,7 +111,9 @@ class Search {
           const bool is_itself = how == Put::instead && !s.nodes.empty() && s.nodes[0] == t.value_at(first_, 0);
           if (s.nodes.size() == 1 && n == 1 && s.nodes[0] == t.value_at(first_, 0) && how != Put::instead) continue;  // of itself
           if ((change == Change::as_half || change == Change::as_code) && !is_itself) continue;
-          if (!is_plain(how, change) || (is_number && s.effort > 2 && (change != Change::none || how == Put::larger))) continue;
+          const bool is_later = !is_number && s.nodes[0] > t.nodes[0];
+          if (is_later && (how != Put::instead || change != Change::none)) continue;
+          if (!is_plain(how, change) || (is_number && s.effort > 0 && (change != Change::none || how == Put::larger))) continue;
           bool is_same = true, is_trivial = true;
           for (std::size_t c = 0; c < n; ++c) {
             const float other = perturbed::changed(number_of(first_, s, c), change);
@@ -186,8 +188,8 @@ class Search {
       if (done.insert(node_of(first_, at).shape).second && node_of(first_, at).occurrence >= 0) add({first_of(at)});
     const std::size_t nodes = std::max<std::size_t>(first_.trace.nodes.size(), 1);
     std::size_t left = std::min<std::size_t>(60000, most_steps / nodes);
-    // Of what decides by steps one texel or another feels it.
-    constexpr std::size_t most_asked = 4;
+    // Of what decides by steps one texel or another feels it; in a long pass the first is asked alone.
+    const std::size_t most_asked = nodes > 1000 ? 1 : 4;
     std::vector<std::vector<float>> right;
     for (std::size_t k = 0; k < std::min(most_asked, solvers_.size()); ++k) right.push_back(solvers_[k].values({}));
     std::vector<int> uses(first_.trace.nodes.size());
@@ -217,7 +219,7 @@ class Search {
       for (Substitution& place : places) place.last = place.change = Change::none;
       for (const Source& s : numbers_.at(t.nodes.size()))
         for (const Put how : {Put::times, Put::divided_by, Put::instead}) {
-          if (left == 0 || s.effort > 0) break;
+          if (left == 0 || s.effort > 0) continue;
           take(first_, s, t, places);
           for (Substitution& place : places) place.how = how;
           --left;

@@ -107,17 +107,20 @@ std::vector<Target> targets_of(const Probe& p) {
 /// Uniforms by their names, whether the pass uses them or not, and small numbers.
 std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
   std::vector<Source> out;
-  for (const scene::Member& m : p.pass.block.members) {
-    if (m.name.starts_with("padding")) continue;
-    std::vector<float> all(static_cast<std::size_t>(m.components));
-    std::memcpy(all.data(), p.c.uniforms.data() + m.offset, 4 * all.size());
-    if (m.scalar != scene::Scalar::float32)
-      for (float& v : all) v = static_cast<float>(std::bit_cast<std::int32_t>(v));
-    if (components > 1 && all.size() >= components)
-      out.push_back({{}, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(components)}, m.name, 0});
-    for (std::size_t k = 0; k < all.size() && all.size() <= 4; ++k)
-      out.push_back({{}, {all[k]}, all.size() == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), 0});
-  }
+  // Whole numbers after the others.
+  for (const bool is_whole : {false, true})
+    for (const scene::Member& m : p.pass.block.members) {
+      if (m.name.starts_with("padding") || (m.scalar != scene::Scalar::float32) != is_whole) continue;
+      std::vector<float> all(static_cast<std::size_t>(m.components));
+      std::memcpy(all.data(), p.c.uniforms.data() + m.offset, 4 * all.size());
+      if (is_whole)
+        for (float& v : all) v = static_cast<float>(std::bit_cast<std::int32_t>(v));
+      const int effort = is_whole ? 1 : 0;
+      if (components > 1 && all.size() >= components)
+        out.push_back({{}, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(components)}, m.name, effort});
+      for (std::size_t k = 0; k < all.size() && all.size() <= 4; ++k)
+        out.push_back({{}, {all[k]}, all.size() == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), effort});
+    }
   // The same component of two uniforms that differ by their axis: e_u.y and e_v.y.
   if (components == 2)
     for (const scene::Member& a : p.pass.block.members)

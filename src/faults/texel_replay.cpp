@@ -44,6 +44,7 @@ std::vector<Texel> passing_texels(const capture::PassModel& model, const std::ve
 struct Match {
   bool exact = false;  ///< the same bits
   bool near = false;   ///< as near as a device's own differences, and much nearer than the reference
+  bool close = false;  ///< so near by the envelope alone
   bool tells = false;  ///< so near, or so much nearer than the reference, that it is no chance
   double left = 1;     ///< of what the port is off from the reference, the share that is left: 0 to 1
 };
@@ -93,7 +94,7 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
 Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& faulty,
               const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels,
               std::size_t k) {
-  Match m{true, true, true};
+  Match m{true, true, true, true};
   bool nearer = false;
   double off_with = 0, off_before = 0;
   for (std::size_t v = 0; v < slots.size(); ++v) {
@@ -109,11 +110,14 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     off_before += static_cast<double>(before);
     m.exact &= far == 0;
     // What is left of a large difference may be the device's own way of looking up a texel that lies elsewhere.
-    m.near &= far <= leeway.codes[v] || off <= leeway.values[k][v] || 48 * far <= before;
+    const bool is_close = far <= leeway.codes[v] || off <= leeway.values[k][v];
+    m.close &= is_close;
+    m.near &= is_close || 48 * far <= before;
     nearer |= far < before && 4 * far <= before;
     m.tells &= far == 0 || 16 * far <= before;
   }
   m.exact &= nearer;  // else the reference gives the same bits, and the fault explains nothing
+  m.close &= nearer;
   m.near &= nearer;
   m.tells &= m.near;
   m.left = off_before > 0 ? std::min(1.0, off_with / off_before) : 1;
@@ -227,7 +231,7 @@ Tried TexelReplay::cause(const Fault& d) const {
   for (std::size_t k = 0; k < few && matching * 6 < few; ++k) {
     if (k == (d.is_one_of_many ? 5u : 12u) && matching == 0) return cause;
     const std::size_t number = few == 24 ? k * 7 % few : k;
-    matching += match_at(number * failing_.size() / few).near;
+    matching += match_at(number * failing_.size() / few).close;
   }
   if (matching * 6 < few) return cause;
   std::int64_t telling = 0;
