@@ -4,12 +4,12 @@
 template <class N>
 RAINREF_FN Vec3<N> made_unit(const Vec3<N>& a) {
   const N size = length(a);
-  return Vec3<N>(a.x / size, a.y / size, a.z / size);
+  return Vec3<N>{a.x / size, a.y / size, a.z / size};
 }
 /// The unit normal of the sheet through slopes in cells (height for each column, each row).
 template <class N>
 RAINREF_FN Vec3<N> normal_of_slopes(const HeightfieldView& field, N slope_x, N slope_y) {
-  const auto row = [&](int k) RAINREF_LAMBDA { return Vec3<N>(N(field.to_grid[k][0]), N(field.to_grid[k][1]), N(field.to_grid[k][2])); };
+  const auto row = [&](int k) RAINREF_LAMBDA { return Vec3<N>{N(field.to_grid[k][0]), N(field.to_grid[k][1]), N(field.to_grid[k][2])}; };
   return made_unit(row(2) - slope_x * row(0) - slope_y * row(1));
 }
 template <class N>

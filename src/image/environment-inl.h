@@ -12,7 +12,7 @@
 
 template <class N, class T>
 RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d, N lod) {
-  const Two<N> angle = atan2(Two<N>(d.z, d.y), Two<N>(d.x, sqrt(square(d.x) + square(d.z))));
+  const Two<N> angle = atan2(Two<N>(d.z, d.y), Two<N>{d.x, sqrt(square(d.x) + square(d.z))});
   const N u = N(0.5f) + angle.a * N(0x1.45f306p-3f);  // 1 / (2 pi)
   const N v = N(0.5f) + angle.b * N(0x1.45f306p-2f);  // 1 / pi
   const auto texel = sample_trilinear<0, 3, N>(t, u, v, lod);

@@ -62,10 +62,10 @@ struct Vec3 {
   RAINREF_FN Vec3() {}
   RAINREF_FN Vec3(N x_, N y_, N z_) : x(x_), y(y_), z(z_) {}
   explicit RAINREF_FN Vec3(const float* uniform) : x(uniform[0]), y(uniform[1]), z(uniform[2]) {}
-  friend RAINREF_FN Vec3 operator+(const Vec3& a, const Vec3& b) { return Vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
-  friend RAINREF_FN Vec3 operator-(const Vec3& a, const Vec3& b) { return Vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
-  friend RAINREF_FN Vec3 operator*(const Vec3& a, const Vec3& b) { return Vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
-  friend RAINREF_FN Vec3 operator*(N s, const Vec3& a) { return Vec3(s * a.x, s * a.y, s * a.z); }
+  friend RAINREF_FN Vec3 operator+(const Vec3& a, const Vec3& b) { return Vec3{a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend RAINREF_FN Vec3 operator-(const Vec3& a, const Vec3& b) { return Vec3{a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend RAINREF_FN Vec3 operator*(const Vec3& a, const Vec3& b) { return Vec3{a.x * b.x, a.y * b.y, a.z * b.z}; }
+  friend RAINREF_FN Vec3 operator*(N s, const Vec3& a) { return Vec3{s * a.x, s * a.y, s * a.z}; }
 };
 template <class N>
 RAINREF_FN N dot(const Vec3<N>& a, const Vec3<N>& b) {
@@ -86,16 +86,16 @@ RAINREF_FN Vec3<N> normalize(const Vec3<N>& a) {
 }
 template <class M, class N>
 RAINREF_FN Vec3<N> select(M m, const Vec3<N>& a, const Vec3<N>& b) {
-  return Vec3<N>(select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z));
+  return Vec3<N>{select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }
 template <class N>
 RAINREF_FN Vec3<N> mix(const Vec3<N>& a, const Vec3<N>& b, N t) {
-  return Vec3<N>(mix(a.x, b.x, t), mix(a.y, b.y, t), mix(a.z, b.z, t));
+  return Vec3<N>{mix(a.x, b.x, t), mix(a.y, b.y, t), mix(a.z, b.z, t)};
 }
 /// Component by component. Lanes evaluate the three side by side.
 template <class N>
 RAINREF_FN Vec3<N> pow(const Vec3<N>& a, N b) {
-  return Vec3<N>(pow(a.x, b), pow(a.y, b), pow(a.z, b));
+  return Vec3<N>{pow(a.x, b), pow(a.y, b), pow(a.z, b)};
 }
 /// Two numbers for which a function is wanted; lanes evaluate them side by side.
 template <class N>
@@ -105,7 +105,7 @@ struct Two {
 };
 template <class N>
 RAINREF_FN Two<N> atan2(const Two<N>& y, const Two<N>& x) {
-  return Two<N>(atan2(y.a, x.a), atan2(y.b, x.b));
+  return Two<N>{atan2(y.a, x.a), atan2(y.b, x.b)};
 }
 /// v - 2 (n . v) n
 template <class N>

@@ -71,14 +71,14 @@ struct Pair {
 template <class N>
 RAINREF_FN Pair<N> hash22(N x, N y) {
   const Vec3<N> p3(fract(x * N(0.1031f)), fract(y * N(0.1030f)), fract(x * N(0.0973f)));
-  const N d = dot(p3, Vec3<N>(p3.y + N(33.33f), p3.z + N(33.33f), p3.x + N(33.33f)));
+  const N d = dot(p3, Vec3<N>{p3.y + N(33.33f), p3.z + N(33.33f), p3.x + N(33.33f)});
   const Vec3<N> q(p3.x + d, p3.y + d, p3.z + d);
   return {fract((q.x + q.y) * q.z), fract((q.x + q.z) * q.y)};
 }
 template <class N>
 RAINREF_FN N hash12(N x, N y) {
   const Vec3<N> p3(fract(x * N(0.1031f)), fract(y * N(0.1031f)), fract(x * N(0.1031f)));
-  const N d = dot(p3, Vec3<N>(p3.y + N(33.33f), p3.z + N(33.33f), p3.x + N(33.33f)));
+  const N d = dot(p3, Vec3<N>{p3.y + N(33.33f), p3.z + N(33.33f), p3.x + N(33.33f)});
   const Vec3<N> q(p3.x + d, p3.y + d, p3.z + d);
   return fract((q.x + q.y) * q.z);
 }
@@ -93,6 +93,6 @@ RAINREF_FN Vec3<N> raindrop_as_published(const RaindropsUniforms& u, int i) {
   const N strength = N(u.drop_intensity) * (N(0.5f) + N(0.5f) * hash12(seed_x + N(1.0f), seed_y + N(1.0f)));
   const N pulse = fract(t + offset * N(0.7f));
   const N activation = smoothstep(0.0f, 0.15f, pulse) * smoothstep(0.35f, 0.2f, pulse);
-  return Vec3<N>(place.x * N(u.width), place.y * N(u.height), strength * activation);
+  return Vec3<N>{place.x * N(u.width), place.y * N(u.height), strength * activation};
 }
 #endif

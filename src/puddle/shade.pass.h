@@ -141,7 +141,7 @@ RAINREF_FN N ground_noise_as_published(const GroundNoiseUniforms& u, const Surfa
 template <class N>
 RAINREF_FN Vec3<N> rotate_y(const Vec3<N>& v, const float* rotation) {
   const N c(rotation[0]), s(rotation[1]);
-  return Vec3<N>(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+  return Vec3<N>{c * v.x + s * v.z, v.y, c * v.z - s * v.x};
 }
 template <class N>
 RAINREF_FN Vec3<N> decode_gamma(const Vec3<N>& c) {
@@ -157,7 +157,7 @@ RAINREF_FN Vec3<N> checkerboard(N x, N z, float scale) {
   // Times 1/2, not over 2: a GPU's quotient need not be exact, and floor would tell.
   const N odd = parity - N(2.0f) * floor(parity * N(0.5f));
   const auto tile = [](const double* c) RAINREF_LAMBDA {
-    return Vec3<N>(N(static_cast<float>(c[0])), N(static_cast<float>(c[1])), N(static_cast<float>(c[2])));
+    return Vec3<N>{N(static_cast<float>(c[0])), N(static_cast<float>(c[1])), N(static_cast<float>(c[2]))};
   };
   return mix(tile(checkerboard_dark), tile(checkerboard_light), odd);
 }

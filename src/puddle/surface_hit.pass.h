@@ -73,8 +73,8 @@ template <class N, class T>
 RAINREF_FN N scene_distance(const SurfaceHitUniforms& u, const T& wave, const Vec3<N>& p) {
   const N s = N(0.5f) * (p.x / N(u.half_size[0]) + N(1.0f)), t = N(0.5f) * (p.z / N(u.half_size[2]) + N(1.0f));
   const N d = sample_bilinear<0, 1, N>(wave, s, t)[0], zero(0.0f);
-  return length(Vec3<N>(max(abs(p.x) - N(u.half_size[0]), zero), max(abs(p.y + d) - N(u.half_size[1]), zero),
-                        max(abs(p.z) - N(u.half_size[2]), zero)));
+  return length(Vec3<N>{max(abs(p.x) - N(u.half_size[0]), zero), max(abs(p.y + d) - N(u.half_size[1]), zero),
+                        max(abs(p.z) - N(u.half_size[2]), zero)});
 }
 
 template <class N>
@@ -94,7 +94,7 @@ RAINREF_FN Vec3<N> normal_as_published(const SurfaceHitUniforms& u, const T& wav
   const N du(u.texel[0]), dv(u.texel[1]);
   const N left = sample_bilinear<0, 1, N>(wave, s - du, t)[0], right = sample_bilinear<0, 1, N>(wave, s + du, t)[0];
   const N down = sample_bilinear<0, 1, N>(wave, s, t - dv)[0], up = sample_bilinear<0, 1, N>(wave, s, t + dv)[0];
-  return normalize(Vec3<N>((left - right) * N(u.normal_gain), N(1.0f), (down - up) * N(u.normal_gain)));
+  return normalize(Vec3<N>{(left - right) * N(u.normal_gain), N(1.0f), (down - up) * N(u.normal_gain)});
 }
 
 template <class N, class T>
@@ -261,7 +261,7 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
     SurfaceHit<N> out;
     out.position = ray.origin;
     out.iterations = out.flag = zero;
-    out.normal = Vec3<N>(zero, N(1.0f), zero);
+    out.normal = Vec3<N>{zero, N(1.0f), zero};
     return out;
   }
   const Stretch<N> over = stretch(u, ray, water_bounds(u, bounds, ray));

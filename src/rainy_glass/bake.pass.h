@@ -127,7 +127,7 @@ template <class N>
 RAINREF_FN Two<N> stored_normal(N gx, N gy, float scale, float neutral, float span) {
   const N sx = N(scale) * gx, sy = N(scale) * gy;
   const N inverse = N(1.0f) / sqrt(sum_any_order(N(1.0f), square(sx), square(sy)));
-  return Two<N>(N(neutral) - N(span) * (sx * inverse), N(neutral) - N(span) * (sy * inverse));
+  return Two<N>{N(neutral) - N(span) * (sx * inverse), N(neutral) - N(span) * (sy * inverse)};
 }
 
 // ---- bake_raindrops ------------------------------------------------------------------------------------------------

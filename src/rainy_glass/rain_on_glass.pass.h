@@ -149,7 +149,7 @@ template <class N>
 RAINREF_FN Two<N> slope_of(N stored_x, N stored_y, float neutral, float scale) {
   const N x = (stored_x - N(neutral)) * N(scale), y = (stored_y - N(neutral)) * N(scale);
   const N inverse = N(-1.0f) / sqrt(max(sum_any_order(N(1.0f), -square(x), -square(y)), N(0.04f)));
-  return Two<N>(x * inverse, y * inverse);
+  return Two<N>{x * inverse, y * inverse};
 }
 /// What of the water on the glass is a droplet now, from 0 to 1. The threshold falls from 1 to 0 at the impact and then rises
 /// to 1 again: the droplet spreads, then dries from its rim.
@@ -187,7 +187,7 @@ RAINREF_FN Two<N> water_slope(const RainOnGlassUniforms& u, const Maps& m, N pu,
   const auto b = sample_bilinear<0, 2, N>(rivulets, ru + fu * second, scrolled + fv * second);
   const Two<N> streak = slope_of(mix(a[0], b[0], f.weight), mix(a[1], b[1], f.weight), u.rivulet_neutral, u.rivulet_scale);
   const N running = N(u.rivulet_amount) * steep;
-  return Two<N>(shown * bulge.a + running * streak.a, shown * bulge.b + running * streak.b);
+  return Two<N>{shown * bulge.a + running * streak.a, shown * bulge.b + running * streak.b};
 }
 /// Dry glass shows the scene's texel itself.
 template <class N>
@@ -203,7 +203,7 @@ RAINREF_FN Two<N> prism(const RainOnGlassUniforms& u, const Vec3<N>& normal, N s
   const Vec3<N> along_u(normal.z * inverse, zero, -normal.x * inverse);
   const Vec3<N> along_v(normal.y * along_u.z, normal.z * along_u.x - normal.x * along_u.z, -normal.y * along_u.x);
   const Vec3<N> rise = slope.a * along_u + slope.b * along_v;
-  return Two<N>(N(u.bend) * dot(rise, Vec3<N>(u.right)), N(u.bend) * dot(rise, Vec3<N>(u.up)));
+  return Two<N>{N(u.bend) * dot(rise, Vec3<N>(u.right)), N(u.bend) * dot(rise, Vec3<N>(u.up))};
 }
 /// The share of that by which what lies at this depth is moved.
 template <class N>

@@ -166,11 +166,11 @@ struct Surface {
 /// Where a pixel with this centre lies in a layer [cell], and in the texture of flowing water.
 template <class N>
 RAINREF_FN Two<N> cell_place(const DropsUniforms& u, int layer, N px, N py) {
-  return Two<N>(px * N(u.cells_per_pixel[layer]) + N(u.offset_x[layer]), py * N(u.cells_per_pixel[layer]) + N(u.offset_y[layer]));
+  return Two<N>{px * N(u.cells_per_pixel[layer]) + N(u.offset_x[layer]), py * N(u.cells_per_pixel[layer]) + N(u.offset_y[layer])};
 }
 template <class N>
 RAINREF_FN Two<N> flow_place(const DropsUniforms& u, N px, N py) {
-  return Two<N>(px * N(u.flow_pixel[0]), py * N(u.flow_pixel[1]));
+  return Two<N>{px * N(u.flow_pixel[0]), py * N(u.flow_pixel[1])};
 }
 /// The drops of the cells, finer layers below coarser ones, without those that a Wanted knows to show nothing here. A cap of base radius R
 /// and contact angle a is part of a sphere of radius R / sin a, so its normal at distance d from the axis leans by d sin a / R.
@@ -227,14 +227,14 @@ struct BentRay {
 /// px, py: a pixel's centre.
 template <class N>
 RAINREF_FN Vec3<N> view_ray(const DropsUniforms& u, N px, N py) {
-  return normalize(Vec3<N>(px * N(u.pixel[0]) - N(u.half_size[0]), py * N(u.pixel[1]) - N(u.half_size[1]), N(1.0f)));
+  return normalize(Vec3<N>{px * N(u.pixel[0]) - N(u.half_size[0]), py * N(u.pixel[1]) - N(u.half_size[1]), N(1.0f)});
 }
 /// slope_x, slope_y: of the normal, as a Surface has them.
 template <class N>
 RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Vec3<N>& ray, N slope_x, N slope_y) {
   const N one(1.0f), zero(0.0f);
-  const Vec3<N> normal = normalize(Vec3<N>(slope_x, slope_y, sqrt(max(one - square(slope_x) - square(slope_y), N(0.04f)))));
-  const Vec3<N> inside = refract(ray, Vec3<N>(zero, zero, N(-1.0f)), 1.0f / u.water_ior);
+  const Vec3<N> normal = normalize(Vec3<N>{slope_x, slope_y, sqrt(max(one - square(slope_x) - square(slope_y), N(0.04f)))});
+  const Vec3<N> inside = refract(ray, Vec3<N>{zero, zero, N(-1.0f)}, 1.0f / u.water_ior);
   const Vec3<N> bent = refract(inside, N(-1.0f) * normal, u.water_ior);
   return {bent, fresnel_dielectric(saturate(dot(bent, normal)), u.water_ior)};
 }

@@ -98,7 +98,7 @@ template <class N, class Colours, class Values>
 RAINREF_FN Water<N> water_at(const Values& height, const Colours& normal, const Values& mask, const GlassPoint<N>& g) {
   const auto n = sample_bilinear<0, 3, N>(normal, g.u, g.v);
   const N m = saturate(sample_bilinear<0, 1, N>(mask, g.u, g.v)[0]);
-  return {Vec3<N>(n[0], n[1], max(n[2], N(0.05f))), sample_bilinear<0, 1, N>(height, g.u, g.v)[0], m};
+  return {Vec3<N>{n[0], n[1], max(n[2], N(0.05f))}, sample_bilinear<0, 1, N>(height, g.u, g.v)[0], m};
 }
 /// In camera axes.
 template <class N>
@@ -159,8 +159,8 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colo
   const Vec3<N> behind = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, c.blur_lod);
   const Vec3<N> sharp = sharp_at<N>(pyramid, shown.u, shown.v);
   Vec3<N> colour = mix(mix(behind, blur, N(c.wetness) * wet), sharp, visibility);
-  const N eye_inverse = N(1.0f) / length(Vec3<N>(g.x, g.y, N(1.0f)));
-  const Vec3<N> to_eye = (-eye_inverse) * Vec3<N>(g.x, g.y, N(1.0f));
+  const N eye_inverse = N(1.0f) / length(Vec3<N>{g.x, g.y, N(1.0f)});
+  const Vec3<N> to_eye = (-eye_inverse) * Vec3<N>{g.x, g.y, N(1.0f)};
   // Seen from inside, the glass and its water turn their normal to the eye.
   const Vec3<N> facing = N(-1.0f) * to_camera(c, w.normal);
   const auto shows = visibility > N(0.0f);

@@ -42,8 +42,8 @@ struct InteriorPassText {
     io.interior.load(inside);
     const N open = N(1.0f) - inside[3];
     const Vec3<N> behind = io.colour.rgb();
-    io.seen(Vec3<N>(N(u.light) * inside[0] + open * behind.x, N(u.light) * inside[1] + open * behind.y,
-                    N(u.light) * inside[2] + open * behind.z),
+    io.seen(Vec3<N>{N(u.light) * inside[0] + open * behind.x, N(u.light) * inside[1] + open * behind.y,
+                    N(u.light) * inside[2] + open * behind.z},
             N(1.0f));
   }
 };

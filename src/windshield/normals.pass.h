@@ -55,7 +55,7 @@ RAINREF_FN Vec3<N> normal_of(const NormalsUniforms& u, const Io& io) {
   const N kept = corrected ? N(1.0f) - io.mask(0, 0) : N(1.0f);
   const N slope_x = kept * (N(u.slope_x) * across_columns);
   const N slope_y = kept * (N(u.slope_shear) * across_columns + N(u.slope_y) * across_rows);
-  return normalize(Vec3<N>(-slope_x, -slope_y, N(1.0f)));
+  return normalize(Vec3<N>{-slope_x, -slope_y, N(1.0f)});
 }
 struct NormalsPassText {
   template <class N, bool corrected, class Io>

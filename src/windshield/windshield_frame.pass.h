@@ -65,7 +65,7 @@ template <class N>
 RAINREF_FN Vec3<N> apparent_wind(const WindshieldFrameUniforms& u) {
   const Vec3<N> w = Vec3<N>(u.world_wind) - Vec3<N>(u.vehicle_velocity);
   const N c(u.heading[0]), s(u.heading[1]);
-  return Vec3<N>(c * w.x + s * w.y, c * w.y - s * w.x, w.z);
+  return Vec3<N>{c * w.x + s * w.y, c * w.y - s * w.x, w.z};
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
@@ -80,7 +80,7 @@ template <class N>
 RAINREF_FN GlassForces<N> windshield_frame_as_published(const WindshieldFrameUniforms& u) {
   const N zero(0.0f);
   GlassForces<N> out;
-  project_as_published(u, Vec3<N>(zero, zero, N(-u.gravity)), out.gravity);
+  project_as_published(u, Vec3<N>{zero, zero, N(-u.gravity)}, out.gravity);
   project_as_published(u, apparent_wind<N>(u), out.wind);
   project_as_published(u, Vec3<N>(u.acceleration), out.acceleration);
   for (int k = 0; k < 4; ++k) out.spin[k] = out.coriolis[k] = zero;
@@ -102,13 +102,13 @@ RAINREF_FN void project_corrected(const WindshieldFrameUniforms& u, const Vec3<N
 template <class N>
 RAINREF_FN Vec3<N> spin_force(const WindshieldFrameUniforms& u, const Vec3<N>& p) {
   const N rate_sq = square(N(u.yaw_rate)), alpha(u.yaw_acceleration);
-  return Vec3<N>(alpha * p.y + rate_sq * p.x, rate_sq * p.y - alpha * p.x, N(0.0f));
+  return Vec3<N>{alpha * p.y + rate_sq * p.x, rate_sq * p.y - alpha * p.x, N(0.0f)};
 }
 /// -2 w x v
 template <class N>
 RAINREF_FN Vec3<N> coriolis_force(const WindshieldFrameUniforms& u, const Vec3<N>& v) {
   const N twice = N(2.0f) * N(u.yaw_rate);
-  return Vec3<N>(twice * v.y, -(twice * v.x), N(0.0f));
+  return Vec3<N>{twice * v.y, -(twice * v.x), N(0.0f)};
 }
 template <class N>
 RAINREF_FN GlassForces<N> windshield_frame_corrected(const WindshieldFrameUniforms& u) {
