@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"edge_splash_street", "edge_splash/street.toml", {"run.size=[512, 512]"}},
         Case{"screen_drops", "screen_drops/default.toml", {"run.size=[512, 512]"}},
         Case{"screen_drops_cells", "screen_drops/default.toml", {"run.size=[256, 256]", "drops.largest_radius=0.2"}},
-        Case{"screen_drops_as_published", "screen_drops/as_published.toml", {"run.size=[448, 448]"}},
+        Case{"screen_drops_as_published", "screen_drops/as_published.toml", {"run.size=[576, 576]"}},
         Case{"rainy_glass", "rainy_glass/default.toml", {"run.size=[448, 448]"}},
         Case{"rainy_glass_as_published", "rainy_glass/as_published.toml", {"run.size=[448, 448]"}},
         Case{"rainy_glass_maps", "rainy_glass/as_published.toml", {"run.size=[64, 64]", "maps.size=1024"}},

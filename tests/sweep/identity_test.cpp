@@ -64,9 +64,9 @@ TEST_F(Identity, EveryTextThatNamesAFileIsKnownAsOne) {
   for (const scene::Effect& e : simulation::effect_table().effects)
     for (const scene::Parameter& p : e.parameters)
       if (p.type == scene::Type::text && !effect::names_files(p.key)) others.insert(p.key);
-  EXPECT_THAT(others, testing::UnorderedElementsAre("compositor.embree_config", "windshield.panes", "world.wind_key_frames",
-                                                    "rain.key_frames", "vehicle.key_frames", "wipers.key_frames",
-                                                    "pane_1_wipers.key_frames", "pane_2_wipers.key_frames"));
+  EXPECT_THAT(others, testing::UnorderedElementsAre(
+                          "compositor.embree_config", "windshield.panes", "world.wind_key_frames", "rain.key_frames", "vehicle.key_frames",
+                          "wipers.key_frames", "pane_1_wipers.key_frames", "pane_2_wipers.key_frames", "puddle.objects", "rain.shelter"));
 }
 
 }  // namespace
