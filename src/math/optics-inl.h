@@ -29,8 +29,8 @@ RAINREF_FN Vec3<N> encode_srgb(const Vec3<N>& c) {
   const N knee(0.0031308f), slope(12.92f);
   const Vec3<N> power = pow(Vec3<N>{max(c.x, knee), max(c.y, knee), max(c.z, knee)}, N(0x1.aaaaaap-2f));  // 1 / 2.4
   const Vec3<N> curve = N(1.055f) * power - Vec3<N>{N(0.055f), N(0.055f), N(0.055f)};
-  return Vec3<N>(select(c.x <= knee, c.x * slope, curve.x), select(c.y <= knee, c.y * slope, curve.y),
-                 select(c.z <= knee, c.z * slope, curve.z));
+  return Vec3<N>{select(c.x <= knee, c.x * slope, curve.x), select(c.y <= knee, c.y * slope, curve.y),
+                 select(c.z <= knee, c.z * slope, curve.z)};
 }
 /// The same of any radiance, held within [0, 1] first.
 template <class N>
