@@ -98,8 +98,7 @@ void add_shared_place_faults(std::vector<Fault>& out, const std::vector<Probe>& 
     for (const Words& w : words_of(p, static_cast<std::size_t>(place.node))) {
       Fault d;
       d.name = w.name + ", in each such place";
-      d.sentence =
-          fmt::format("{}, and so in all {} places that are made alike: a function that is called several times", w.sentence, place.shapes);
+      d.sentence = w.sentence + words_for_all(place);
       d.behaviour.places[0] = {n.shallow[static_cast<std::size_t>(place.depth - 1)], -1, w.fault, 0, place.depth};
       d.at_texel = [shared](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = shared.get(); };
       d.for_diagnosis = true;

@@ -178,13 +178,13 @@ struct Lanes {
     const V back = hn::PromoteTo(D(), nearest);
 #else
     const auto bits = hn::BitCast(DU(), x), sign = hn::And(hn::ShiftRight<16>(bits), hn::Set(DU(), 0x8000u));
-    // What rounds to an infinity is 65520, which does. Bits of positive floats are in the order of their numbers.
+    // All that rounds to an infinity counts as 65520, the least of it. Bits of positive floats are in the order of their numbers.
     const auto magnitude = hn::Min(hn::BitCast(DI(), hn::And(bits, hn::Set(DU(), 0x7fffffffu))), hn::Set(DI(), 0x477ff000));
     const auto odd = hn::And(hn::ShiftRight<13>(magnitude), hn::Set(DI(), 1));
     // Normal halves: add just under half a code, one more when the code is odd, and move the exponent by 112.
     const auto normal = hn::ShiftRight<13>(hn::Add(hn::Add(magnitude, hn::Set(DI(), 0xfff - 0x38000000)), odd));
-    // Subnormal halves: the adder of 0.5 + x rounds at 2^-24, to even. Below 2^-14 this is the larger one, and up to 2^-13 both are the
-    // same, where it is held.
+    // Subnormal halves: the adder of 0.5 + x rounds at 2^-24, to even. Below 2^-14 this code is the larger of the two; from there to 2^-13
+    // both are equal; beyond, x is held at 2^-13, so that the normal one is larger.
     const V held = hn::BitCast(D(), hn::Min(magnitude, hn::Set(DI(), 0x39000000)));
     const auto subnormal = hn::Sub(hn::BitCast(DI(), hn::Add(held, hn::Set(D(), 0.5f))), hn::Set(DI(), 0x3f000000));
     const auto code = hn::BitCast(DU(), hn::Max(normal, subnormal));

@@ -94,7 +94,7 @@ struct City {
   City(std::uint64_t street_seed, bool clear_lane);
   /// Made when it is first asked for: a street whose pictures were kept (cache/kept_images.h) needs none. Any thread may ask.
   const LightMap& light() const;
-  /// The same on all threads, before they ask: whoever waited for one that lights, and helped meanwhile, could come to wait for itself.
+  /// Makes it beforehand, on all threads. light() does not: whoever waited in it would take tiles of others, and might ask for it again.
   void light_up(const Rows& rows) const;
   double random(std::uint64_t object, Purpose purpose) const { return random01(seed, object, purpose); }
   int add_material(const Material& material);

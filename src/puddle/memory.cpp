@@ -25,7 +25,7 @@ void hold_picture(MemoryPeak& m, std::array<int, 2> size, bool has_mips) {
 }  // namespace
 
 PictureSizes sizes_of(const Surroundings& s) {
-  return {{s.environment.width(), s.environment.height()}, {s.ground.width(), s.ground.height()}};
+  return {{s.environment.width(), s.environment.height()}, {s.ground.width(), s.ground.height()}, {s.shelter.width(), s.shelter.height()}};
 }
 
 MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
@@ -57,7 +57,9 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   if (!corrected) m.hold(Image::memory_bytes(Format::r32f, s.width, s.height));
   if (corrected && s.ground_reach > 0) m.hold(Image::memory_bytes(Format::rgba16f, s.width, s.height));  // at the most, what is behind
   m.hold(wave_floats);                                                                                   // decoded for lookups
-  if (!s.shelter.empty()) m.hold(sizeof(ShelterCell) * static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows));
+  const std::array<int, 2> shelter = s.shelter.empty() ? sizes.shelter : std::array{columns, rows};
+  m.hold(sizeof(ShelterCell) * static_cast<std::uint64_t>(shelter[0]) * static_cast<std::uint64_t>(shelter[1]));
+  m.pass(texel_bytes(sizes.shelter[0], sizes.shelter[1], 4));  // decoded
   m.release(made);
   if (corrected) {
     const std::uint64_t blocks = static_cast<std::uint64_t>((columns + extent_block - 1) / extent_block) *

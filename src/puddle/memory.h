@@ -12,6 +12,7 @@ namespace rainref::puddle {
 struct PictureSizes {
   std::array<int, 2> environment{1024, 512};
   std::array<int, 2> ground{0, 0};  ///< 0: asphalt made here
+  std::array<int, 2> shelter{0, 0};
 };
 PictureSizes sizes_of(const Surroundings& surroundings);
 

@@ -70,16 +70,16 @@ struct Pair {
 };
 template <class N>
 RAINREF_FN Pair<N> hash22(N x, N y) {
-  const Vec3<N> p3(fract(x * N(0.1031f)), fract(y * N(0.1030f)), fract(x * N(0.0973f)));
+  const Vec3<N> p3{fract(x * N(0.1031f)), fract(y * N(0.1030f)), fract(x * N(0.0973f))};
   const N d = dot(p3, Vec3<N>{p3.y + N(33.33f), p3.z + N(33.33f), p3.x + N(33.33f)});
-  const Vec3<N> q(p3.x + d, p3.y + d, p3.z + d);
+  const Vec3<N> q{p3.x + d, p3.y + d, p3.z + d};
   return {fract((q.x + q.y) * q.z), fract((q.x + q.z) * q.y)};
 }
 template <class N>
 RAINREF_FN N hash12(N x, N y) {
-  const Vec3<N> p3(fract(x * N(0.1031f)), fract(y * N(0.1031f)), fract(x * N(0.1031f)));
+  const Vec3<N> p3{fract(x * N(0.1031f)), fract(y * N(0.1031f)), fract(x * N(0.1031f))};
   const N d = dot(p3, Vec3<N>{p3.y + N(33.33f), p3.z + N(33.33f), p3.x + N(33.33f)});
-  const Vec3<N> q(p3.x + d, p3.y + d, p3.z + d);
+  const Vec3<N> q{p3.x + d, p3.y + d, p3.z + d};
   return fract((q.x + q.y) * q.z);
 }
 

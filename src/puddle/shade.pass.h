@@ -243,7 +243,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
                     (N(u.reflectivity) * mix(N(u.wetness), one, water));
   const Vec3<N> mirrored = reflect(view, normal);
   // A mirror ray that dips below the horizon would meet the water again: it is turned up.
-  const Vec3<N> up_mirrored(mirrored.x, abs(mirrored.y), mirrored.z);
+  const Vec3<N> up_mirrored{mirrored.x, abs(mirrored.y), mirrored.z};
   const Vec3<N> look = rotate_y(select(hit, up_mirrored, view), u.rotation);
   const N gloss = select(hit, mix(N(u.gloss_level), N(u.mirror_level), water), N(u.background_level));
   const Vec3<N> reflected = sample_environment(environment, u.environment_is_cube != 0, look, gloss);

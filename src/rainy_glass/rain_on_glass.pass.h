@@ -200,8 +200,8 @@ template <class N>
 RAINREF_FN Two<N> prism(const RainOnGlassUniforms& u, const Vec3<N>& normal, N steep, const Two<N>& slope) {
   // Along u, which is horizontal, and v, up the glass; both fade where the glass lies level.
   const N zero(0.0f), one(1.0f), inverse = one / max(steep, N(0.05f));
-  const Vec3<N> along_u(normal.z * inverse, zero, -normal.x * inverse);
-  const Vec3<N> along_v(normal.y * along_u.z, normal.z * along_u.x - normal.x * along_u.z, -normal.y * along_u.x);
+  const Vec3<N> along_u{normal.z * inverse, zero, -normal.x * inverse};
+  const Vec3<N> along_v{normal.y * along_u.z, normal.z * along_u.x - normal.x * along_u.z, -normal.y * along_u.x};
   const Vec3<N> rise = slope.a * along_u + slope.b * along_v;
   return Two<N>{N(u.bend) * dot(rise, Vec3<N>(u.right)), N(u.bend) * dot(rise, Vec3<N>(u.up))};
 }

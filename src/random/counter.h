@@ -8,10 +8,13 @@ namespace rainref::random {
 
 using Block = std::array<std::uint32_t, 4>;
 
+inline constexpr std::uint32_t pcg4d_multiplier = 1664525u, pcg4d_increment = 1013904223u;
+inline constexpr int pcg4d_shift = 16;
+
 /// Four hashed words of a four-word counter: pcg4d of Mark Jarzynski and Marc Olano, "Hash Functions for GPU
 /// Rendering", JCGT 9(3), 2020. Unsigned multiplication and addition modulo 2^32, so it is exact everywhere.
 constexpr Block pcg4d(Block v) {
-  for (std::uint32_t& x : v) x = x * 1664525u + 1013904223u;
+  for (std::uint32_t& x : v) x = x * pcg4d_multiplier + pcg4d_increment;
   const auto stir = [&v] {
     v[0] += v[1] * v[3];
     v[1] += v[2] * v[0];
@@ -19,7 +22,7 @@ constexpr Block pcg4d(Block v) {
     v[3] += v[1] * v[2];
   };
   stir();
-  for (std::uint32_t& x : v) x ^= x >> 16;
+  for (std::uint32_t& x : v) x ^= x >> pcg4d_shift;
   stir();
   return v;
 }

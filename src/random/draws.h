@@ -16,8 +16,8 @@ std::uint32_t joined(std::uint32_t a, std::uint32_t b, Join by);
 
 /// pcg4d and the key of a block as they should be (counter.h), or with a mistake in one of their constants, operators or operands.
 struct Mixing {
-  std::uint32_t multiplier = 1664525u, increment = 1013904223u;
-  int shift = 16;
+  std::uint32_t multiplier = pcg4d_multiplier, increment = pcg4d_increment;
+  int shift = pcg4d_shift;
   bool is_shift_left = false;
   Join fold = Join::exclusive_or;                                                        ///< x and x >> shift
   Join stir = Join::sum;                                                                 ///< a word and the product of two others

@@ -12,7 +12,7 @@ namespace {
 using scene::Vector3;
 
 constexpr double blade_height = 0.012, arm_height = 0.025;  ///< of their middles before the glass [m]
-constexpr double pupil = 0.005, arm_at_pivot = 0.014, arm_at_blade = 0.006;
+constexpr double arm_at_pivot = 0.014, arm_at_blade = 0.006;
 constexpr std::array<double, 3> rubber{0.004, 0.004, 0.0045};  ///< radiance
 
 Vector3 three(const Real3& a) { return {a[0], a[1], a[2]}; }

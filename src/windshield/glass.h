@@ -8,6 +8,9 @@
 
 namespace rainref::windshield {
 
+/// Of the eye behind it, which looks at the street: what is near has edges as wide [m].
+inline constexpr double pupil = 0.005;
+
 using scene::Real2;
 using scene::Real3;
 

@@ -5,22 +5,19 @@
 #include <limits>
 
 #include "math/half.h"
+#include "night_street/vec.h"
+#include "windshield/glass.h"
 
 namespace rainref::windshield {
 namespace {
 
 using scene::Vector3;
 
-constexpr double pupil = 0.005;                            // [m]
 constexpr double hood_half = 0.24, hood_flat = 0.25;       // its half width at distance 1, and the share of it that is level
 constexpr double mirrored_fades = 0.05, rim_fades = 0.02;  // on the image plane at distance 1
 constexpr std::array<double, 3> tone{0.92, 0.95, 1.0};     // of what the night lights
 
-double smooth(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * (3 - 2 * x);
-}
-/// exp(-x) within some percent and without a library: it shades what nobody measures, and is to be the same everywhere.
+/// exp(-x) within some percent: a shade that nobody measures.
 double fading(double x) {
   const double y = 1 + std::max(x, 0.0) / 4;
   return 1 / (y * y * y * y);
@@ -69,7 +66,7 @@ class Inside {
     if (dashboard_.is_there) {
       // The hood goes over into the level edge with slope 0 at both ends.
       const double across = std::abs(x - hood_at_) / hood_half;
-      const double raised = settings_.binnacle * (1 - smooth((across - hood_flat) / (1 - hood_flat)));
+      const double raised = settings_.binnacle * (1 - night_street::smooth_step(0, 1, (across - hood_flat) / (1 - hood_flat)));
       const double into = dashboard_.into(x, y - raised);
       hidden = covered(into, dashboard_.depth, texel);
       const double surface = 0.08 + 0.6 * fading(std::max(into, 0.0) / rim_fades);

@@ -115,7 +115,7 @@ RAINREF_FN GlassForces<N> windshield_frame_corrected(const WindshieldFrameUnifor
   const Vec3<N> e_u(u.e_u), e_v(u.e_v), a(u.acceleration);
   const N zero(0.0f);
   GlassForces<N> out;
-  const Vec3<N> still(-a.x, -a.y, -(N(u.gravity) + a.z));
+  const Vec3<N> still{-a.x, -a.y, -(N(u.gravity) + a.z)};
   project_corrected(u, still + spin_force(u, Vec3<N>(u.origin)), out.gravity[0], out.gravity[1]);
   project_corrected(u, apparent_wind<N>(u), out.wind[0], out.wind[1]);
   out.acceleration[0] = out.acceleration[1] = zero;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <set>
 
+#include "random/draws.h"
 #include "random/statistics.h"
 
 namespace rainref::random {
@@ -32,6 +33,17 @@ Block pcg4d_by_remainders(Block in) {
     }
   }
   return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(z), static_cast<std::uint32_t>(w)};
+}
+
+// What the diagnosis changes one thing of is the hash itself where nothing is changed.
+TEST(Mixing, WithoutAMistakeIsTheBlockOfTheCounter) {
+  Block v{1, 2, 3, 4};
+  for (int k = 0; k < 2000; ++k) {
+    v = pcg4d({v[0], v[1] + 1, v[2], v[3]});
+    ASSERT_EQ(Mixing{}.hashed(v), pcg4d(v));
+    const std::uint64_t seed = v[0] | std::uint64_t{v[1]} << 32;
+    ASSERT_EQ(Mixing{}.block(seed, Purpose::screen_drop, v[2], v[3]), block(seed, Purpose::screen_drop, v[2], v[3]));
+  }
 }
 
 // The paper prints no numbers. These were computed from its listing with Python's unbounded integers.

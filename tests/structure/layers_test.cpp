@@ -190,23 +190,23 @@ TEST(Layers, SeamsHaveSeveralFiles) {
   for (const auto& [stem, count] : files) EXPECT_GE(count, 2) << stem;
 }
 
-/// Vectors of a pass text, made by parentheses of arguments that are computed: which of them first is the compiler's choice.
+/// Vectors of a pass text, named or not, made by parentheses of arguments that are computed: which of them first is the compiler's choice.
 std::vector<std::string> unordered_vectors(const std::string& text) {
   std::vector<std::string> found;
-  for (const char* start : {"Vec3<N>(", "Two<N>(", " Vec3("})
-    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + 1)) {
-      if (text.substr(0, at).ends_with("RAINREF_FN")) continue;  // a constructor
-      const std::size_t begin = text.find('(', at) + 1;
-      std::size_t end = begin;
-      int depth = 1, parts = 1;
-      for (; end < text.size() && depth > 0; ++end) {
-        depth += text[end] == '(' || text[end] == '[' || text[end] == '{';
-        depth -= text[end] == ')' || text[end] == ']' || text[end] == '}';
-        parts += depth == 1 && text[end] == ',';
-      }
-      const std::string inside = text.substr(begin, end - begin - 1);
-      if (parts > 1 && inside.find_first_of("(+*/-") != std::string::npos) found.push_back(text.substr(at, end - at));
+  const std::regex made("\\b(Vec3|Two)(<N>)?( [a-z_0-9]+)?\\(");
+  for (std::sregex_iterator at(text.begin(), text.end(), made), none; at != none; ++at) {
+    const auto first = static_cast<std::size_t>(at->position()), begin = first + static_cast<std::size_t>(at->length());
+    if (text.substr(0, first).ends_with("RAINREF_FN ")) continue;  // a constructor, or a function that gives one
+    std::size_t end = begin;
+    int depth = 1, parts = 1;
+    for (; end < text.size() && depth > 0; ++end) {
+      depth += text[end] == '(' || text[end] == '[' || text[end] == '{';
+      depth -= text[end] == ')' || text[end] == ']' || text[end] == '}';
+      parts += depth == 1 && text[end] == ',';
     }
+    const std::string inside = text.substr(begin, end - begin - 1);
+    if (parts > 1 && inside.find_first_of("(+*/-") != std::string::npos) found.push_back(text.substr(first, end - first));
+  }
   return found;
 }
 
@@ -220,7 +220,7 @@ TEST(Layers, PassTextsMakeComponentsInOneOrder) {
     for (std::string line; std::getline(in, line);) text += line.substr(0, line.find("//")) + "\n";
     for (const std::string& one : unordered_vectors(text)) ADD_FAILURE() << file << ": in braces instead: " << one;
   }
-  EXPECT_EQ(unordered_vectors("a = Vec3<N>(x + y,\n z, z);").size(), 1u);
+  EXPECT_EQ(unordered_vectors("a = Vec3<N>(x + y,\n z, z); const Vec3<N> p(x, -y, z);").size(), 2u);
   EXPECT_EQ(unordered_vectors("a = Vec3<N>{x + y, z, z} + Vec3<N>(c[0], c[1], c[2]) + Vec3<N>(f(x)); RAINREF_FN Vec3(N x, N* y)").size(),
             0u);
 }
