@@ -40,6 +40,8 @@ class PassModel {
   virtual bool needs_port() const { return false; }
   /// Whether the pass itself rounds to binary16 on its way, as its outputs are stored.
   virtual bool rounds_inside() const { return false; }
+  /// Whether an invocation meets those records alone that may count near its texel.
+  virtual bool chooses_records() const { return false; }
   /// Of a value that is declared as not reproducible (a count of steps) the least and the most that it may be: it is held
   /// to them, no more. Nothing for others.
   virtual std::optional<std::array<double, 2>> free_range(int) const { return std::nullopt; }

@@ -1,6 +1,7 @@
 #include "faults/diagnose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -107,6 +108,8 @@ int far_fetched(const Cause& c) {
   for (std::size_t at = c.name.find("..."); at != std::string::npos; at = c.name.find("...", at + 3)) ++parts;
   if (c.of_records && (c.name.ends_with("without a record") || c.name.ends_with("not written"))) return 8;
   if (c.of_records && c.name.ends_with("one step late")) return 4;
+  // Channels of a result that hold the same by chance.
+  if (!c.name.starts_with("input ") && c.name.find(" with its ") != std::string::npos) return 3;
   // Half or twice a number is rather a term or factor of what it stands in; and where few records fail, 0 rather another number.
   if (c.name.ends_with(" halved") || c.name.ends_with(" doubled")) return 1 + (parts > 3);
   if (c.name.ends_with(" is zero") && c.of_records && c.of < 8) return 1;
@@ -117,6 +120,25 @@ int far_fetched(const Cause& c) {
                                                               {"not squared", -2},
                                                               {"root left out", -2},
                                                               {"abs left out", -2},
+                                                              {"fract left out", -2},
+                                                              {"floor left out", -2},
+                                                              {"clamp left out", -1},
+                                                              {"held: ", 1},
+                                                              {"decoded from sRGB", 1},
+                                                              {"encoded as sRGB", 1},
+                                                              {"to the power", 1},
+                                                              {"tone mapped", 1},
+                                                              {"unpacked by", 1},
+                                                              {"packed by", 1},
+                                                              {"less a half", 2},
+                                                              {"and a half", 2},
+                                                              {"rounded to 8 bits: ", 2},
+                                                              {"moved outward", 2},
+                                                              {"function of", 1},
+                                                              {"0 in ", 2},
+                                                              {"1 in ", 2},
+                                                              {"order of ", 1},
+                                                              {"loop over ", 1},
                                                               {"normalize missing", -2},
                                                               {"difference the other way", -2},
                                                               {"atan2 arguments", -2},
@@ -219,8 +241,16 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
   double least = 1;
   for (const Tried& c : causes)
     if (explains_most(c)) least = std::min(least, c.misfit);
+  // A device may be the reason of some that are left; of what was sought or fitted, which chooses among thousands, none is a measure.
+  const bool is_any_tested = std::any_of(causes.begin(), causes.end(), [&](const Tried& c) { return explains_most(c) && !c.is_untested; });
+  double fewest = HUGE_VAL;
+  for (const Tried& c : causes)
+    if (explains_most(c) && !is_fitted(c.name) && !is_solved(c.name) && !c.is_untested) fewest = std::min(fewest, against(c));
   // An envelope may be wide enough for several; the one that is meant leaves hardly anything.
-  const auto is_best = [&](const Tried& c) { return explains_most(c) && c.misfit <= 2 * least + 0.02; };
+  const auto is_best = [&](const Tried& c) {
+    return explains_most(c) && c.misfit <= 2 * least + 0.02 && !(c.is_untested && is_any_tested) &&
+           (c.of_records || against(c) <= 1.4 * fewest + 1.5);
+  };
   const auto rank = [&](const Tried& c) { return is_best(c) ? 3.0 : score(c); };
   // A number that is not set where it is a term and no more: rather the term is left out.
   std::set<std::string> terms;
@@ -228,7 +258,7 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
     if (is_best(c) && c.name.starts_with("term left out: ")) terms.insert(c.name.substr(15, c.name.find_first_of(".,", 15) - 15));
   const auto far = [&](const Tried& c) {
     const bool is_zero = c.name.starts_with("uniform ") && c.name.ends_with(" is zero");
-    return far_fetched(c) + (is_zero && terms.contains(c.name.substr(8, c.name.size() - 16)) ? 1 : 0);
+    return far_fetched(c) + (c.is_untested ? 3 : 0) + (is_zero && terms.contains(c.name.substr(8, c.name.size() - 16)) ? 1 : 0);
   };
   std::stable_sort(causes.begin(), causes.end(), [&](const Tried& a, const Tried& b) {
     if (rank(a) != rank(b)) return rank(a) > rank(b);
@@ -245,6 +275,10 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
     // The other two are other words for the same places.
     return is_best(c) && !is_solved(c.name) && !c.name.ends_with(", in all components") && !c.name.ends_with(", in each such place");
   });
+  // Where a list is left as it was, whatever keeps a pass from doing anything is the cause as well.
+  if (std::any_of(causes.begin(), causes.end(),
+                  [](const Tried& c) { return c.of_records && c.name.ends_with("one step late") && c.inside == c.of; }))
+    for (Cause& c : out) c.is_likely = false;
   for (Cause& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;
 }

@@ -83,6 +83,9 @@ class Adder {
         all[c].period = period_of(p, nodes);
         if (all[c].period > 0) all[c].occurrence = static_cast<std::int32_t>(c);
       }
+      // Components that look alike are told apart by their order.
+      const auto is_same = [&](std::int32_t other) { return node_of(p, other).shape == all[c].shape; };
+      if (occurrence < 0 && std::count_if(nodes.begin(), nodes.end(), is_same) > 1) all[c].occurrence = node_of(p, nodes[c]).occurrence;
       if (period > 0) all[c].occurrence = occurrence, all[c].period = period;
       all[c].formula = &(*formulas)[c];
     }
@@ -142,25 +145,76 @@ std::vector<Nodes> groups_of(const Probe& p) {
     if (first.op == Op::sum) add({squared(first.of[0]), squared(first.of[1]), squared(n.of[1])});
     add({squared(n.of[0]), squared(n.of[1])});
   }
-  for (const std::vector<std::size_t>& v : vectors_of(p)) add({v.begin(), v.end()});
-  // From the outputs down, as far as it is by the same operations, and what stands there.
+  // What these are made of side by side, as far as it is by the same operations, and what stands there.
+  const auto add_below = [&](Nodes top, std::size_t most) {
+    std::vector<Nodes> open{std::move(top)};
+    for (std::size_t at = 0; at < open.size() && open.size() < most; ++at) {
+      const Nodes v = open[at];
+      if (std::any_of(v.begin(), v.end(), [](std::int32_t i) { return i < 0; })) continue;
+      add(v);
+      if (std::any_of(v.begin(), v.end(), [&](std::int32_t i) { return node_of(p, i).op != node_of(p, v[0]).op; })) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        Nodes& below = open.emplace_back();
+        for (const std::int32_t i : v) below.push_back(node_of(p, i).of[k]);
+      }
+    }
+  };
+  for (const std::vector<std::size_t>& v : vectors_of(p)) add_below({v.begin(), v.end()}, 12);
   for (std::size_t first = 0; first < p.outputs.size() && first < 8; ++first)
     for (const std::size_t n : {3u, 2u}) {
       if (first + n > p.outputs.size()) continue;
-      std::vector<Nodes> open{
-          {p.outputs.begin() + static_cast<std::ptrdiff_t>(first), p.outputs.begin() + static_cast<std::ptrdiff_t>(first + n)}};
-      constexpr std::size_t most = 300;
-      for (std::size_t at = 0; at < open.size() && open.size() < most; ++at) {
-        const Nodes v = open[at];
-        if (std::any_of(v.begin(), v.end(), [](std::int32_t i) { return i < 0; })) continue;
-        add(v);
-        if (std::any_of(v.begin(), v.end(), [&](std::int32_t i) { return node_of(p, i).op != node_of(p, v[0]).op; })) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-          Nodes& below = open.emplace_back();
-          for (const std::int32_t i : v) below.push_back(node_of(p, i).of[k]);
-        }
-      }
+      add_below({p.outputs.begin() + static_cast<std::ptrdiff_t>(first), p.outputs.begin() + static_cast<std::ptrdiff_t>(first + n)}, 300);
     }
+  // Two beside each other of the same operation of the same operations: members of a record have names of their own.
+  const auto is_alike = [&](const Node& a, const Node& b) {
+    for (std::size_t k = 0; k < a.of.size(); ++k) {
+      if ((a.of[k] < 0) != (b.of[k] < 0)) return false;
+      const bool takes_sum = a.op == Op::choice || a.op == Op::mix;  // of a matrix one row may be a sum, and one a product
+      if (a.of[k] >= 0 && !takes_sum && node_of(p, a.of[k]).op != node_of(p, b.of[k]).op) return false;
+    }
+    return true;
+  };
+  constexpr std::int32_t near = 24;
+  constexpr std::size_t most_pairs = 60;
+  std::size_t pairs = 0;
+  for (std::int32_t b = static_cast<std::int32_t>(p.trace.nodes.size()); b-- > 0 && pairs < most_pairs;) {
+    const Node& second = node_of(p, b);
+    if (second.occurrence != 0 || (second.op != Op::choice && second.op != Op::mix && second.op != Op::sum && second.op != Op::difference))
+      continue;
+    for (std::int32_t a = b - 1; a >= 0 && b - a <= near; --a) {
+      const Node& first = node_of(p, a);
+      if (first.op != second.op) continue;
+      if (first.occurrence == 0 && first.shape != second.shape && is_alike(first, second)) add_below({a, b}, 8), ++pairs;
+      break;
+    }
+  }
+  return out;
+}
+
+/// Channels that one lookup gives.
+std::vector<Nodes> lookups_of(const Probe& p) {
+  std::vector<Nodes> out;
+  std::set<std::uint32_t> done;
+  const auto image = [&](std::int32_t at) {
+    const std::string text = words_for(p, at);
+    const std::size_t dot = text.rfind('.');
+    return dot + 2 == text.size() ? text.substr(0, dot) : std::string();
+  };
+  constexpr std::size_t most = 24;
+  const auto count = static_cast<std::int32_t>(p.trace.nodes.size());
+  constexpr std::int32_t near = 12;  // what a lookup does for its next channel
+  for (std::int32_t at = 0; at < count && out.size() < most; ++at) {
+    if (node_of(p, at).op != Op::lookup || node_of(p, at).occurrence != 0) continue;
+    const std::string name = image(at);
+    if (name.empty() || done.contains(node_of(p, at).shape)) continue;
+    Nodes v{at};
+    for (std::int32_t next = at + 1; next < count && next - v.back() <= near && v.size() < 3; ++next)
+      if (node_of(p, next).op == Op::lookup && node_of(p, next).occurrence == 0 && image(next) == name &&
+          node_of(p, next).shape != node_of(p, v.back()).shape)
+        v.push_back(next);
+    for (const std::int32_t i : v) done.insert(node_of(p, i).shape);
+    if (v.size() > 1) out.push_back(std::move(v));
+  }
   return out;
 }
 
@@ -170,9 +224,17 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
                      bool copies, const std::vector<Probe>& all) {
   Adder add(out, known, most);
   for (const Probe& p : probes) {
-    for (const Nodes& v : groups_of(p)) {
+    const std::vector<Nodes> vectors = groups_of(p);
+    for (const Nodes& v : vectors) {
       for (const Edit& e : vector_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
     }
+    for (const Nodes& v : vectors)
+      for (const Edit& e : value_curve_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
+    for (const Nodes& v : lookups_of(p))
+      for (const Edit& e : value_curve_edits_of(p, v)) add(p, v, -1, e);
+    for (const JointEdit& e : turned_edits_of(p)) add(p, e.nodes, -1, e.edit);
+    for (const JointEdit& e : blend_edits_of(p)) add(p, e.nodes, -1, e.edit);
+    for (const JointEdit& e : moved_edits_of(p, vectors)) add(p, e.nodes, -1, e.edit);
     // A filter that is taken along rows and then along columns has the same weights in both.
     std::map<std::string, std::pair<Nodes, std::vector<Edit>>> filters;
     for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;) {
@@ -216,9 +278,15 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
       }
       for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
         const Node& n = node_of(p, at);
-        if (is_leaf(n.op) || n.op == Op::lookup) continue;
+        if (is_leaf(n.op)) continue;
         const std::int32_t count = p.trace.met.at(n.shape);
         if (n.occurrence != 0 && count > most_alike) continue;
+        if (!is_rarer)
+          for (const Edit& e : value_curve_edits_of(p, {at})) {
+            if (n.occurrence == 0) add(p, {at}, -1, e);
+            if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
+          }
+        if (n.op == Op::lookup) continue;
         for (const Edit& e : is_rarer ? rarer_edits_of(p, at) : edits_of(p, at, copies)) {
           if (n.occurrence == 0) add(p, {at}, -1, e);
           if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);

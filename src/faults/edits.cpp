@@ -34,6 +34,7 @@ class Edits {
     of_each_part();
     for (Edit& e : curve_edits_of(p_, node_)) out_.push_back(std::move(e));
     norms();
+    of_each_term();
     functions();
     updated();
     if (copies) copied();
@@ -154,6 +155,24 @@ class Edits {
     }
   }
 
+  /// A function of a sum as the sum of the functions of its terms, and the reverse.
+  void of_each_term() {
+    const auto bends = [](Op op) { return op == Op::square || op == Op::root || op == Op::magnitude; };
+    const auto is_sum = [](const Expression& e) { return e.is_operation() && (e.step.op == Op::sum || e.step.op == Op::difference); };
+    if (bends(all_.step.op) && is_sum(all_.of[0])) {
+      const Expression& inner = all_.of[0];
+      const Op plus = all_.step.op == Op::square ? Op::sum : inner.step.op;
+      const Expression e = operation(plus, {operation(all_.step.op, {inner.of[0]}), operation(all_.step.op, {inner.of[1]})});
+      keep(e, "function of each term: " + text_of(p_, e), instead(e) + ": it is taken of each term, and not of their sum");
+      // Of a product that is a square: reach * reach.
+    }
+    if (is_sum(all_) && all_.of[0].is_operation() && all_.of[1].is_operation() && all_.of[0].step.op == all_.of[1].step.op &&
+        bends(all_.of[0].step.op)) {
+      const Expression e = operation(all_.of[0].step.op, {operation(all_.step.op, {all_.of[0].of[0], all_.of[1].of[0]})});
+      keep(e, "function of the sum: " + text_of(p_, e), instead(e) + ": it is taken of the sum, and not of each term");
+    }
+  }
+
   /// One operation for another.
   void functions() {
     const auto with = [&](Op op, const char* name, const char* why) {
@@ -165,6 +184,17 @@ class Edits {
         return with(Op::product, "product for sum", "multiplied in place of added");
       case Op::product:
         return with(Op::sum, "sum for product", "added in place of multiplied");
+      case Op::mix:
+        for (const std::size_t k : {0u, 1u}) {
+          if (!all_.of[k].is_operation() || all_.of[k].step.op != Op::mix) continue;
+          for (const std::size_t j : {0u, 1u}) {
+            Expression outer = all_, inner = all_.of[k];
+            outer.of[k] = inner.of[j];
+            inner.of[j] = std::move(outer);
+            keep(inner, "order of two blends: " + text_of(p_, inner), instead(inner) + ": the two blends are made in the other order");
+          }
+        }
+        return;
       case Op::fract:
         return keep(clamped(all_.of[0]), "held for wrapped: " + text_,
                     fmt::format("for {} {} is held to [0, 1]", text_, text_of(p_, all_.of[0])));
@@ -174,9 +204,12 @@ class Edits {
       case Op::minimum:
       case Op::maximum:
         if (all_.of[0].is_operation() && all_.of[0].step.op != all_.step.op &&
-            (all_.of[0].step.op == Op::minimum || all_.of[0].step.op == Op::maximum))
+            (all_.of[0].step.op == Op::minimum || all_.of[0].step.op == Op::maximum)) {
+          keep(all_.of[0].of[0], "clamp left out: " + text_,
+               fmt::format("{} is not held between its ends: {} stands there", text_, text_of(p_, all_.of[0].of[0])));
           keep(operation(Op::fract, {all_.of[0].of[0]}), "wrapped for held: " + text_,
                fmt::format("for {} stands the fraction of {}: it is wrapped in place of held", text_, text_of(p_, all_.of[0].of[0])));
+        }
         return;
       default:
         return;

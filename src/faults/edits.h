@@ -19,6 +19,8 @@ struct Expression {
   bool is_operation() const { return step.kind == perturbed::FormulaStep::Kind::operation; }
 };
 Expression number_of(float value);
+/// What a node gives, as a part of what stands there instead.
+Expression itself(std::int32_t node);
 Expression operation(perturbed::Op op, std::vector<Expression> of);
 
 /// A node of a probe with what it is made of, so many operations deep; its parts are paths from it.
@@ -64,6 +66,14 @@ std::vector<JointEdit> constant_edits_of(const Probe& p);
 std::vector<JointEdit> branch_edits_of(const Probe& p);
 /// Of a weighted sum: other weights of its terms. Empty where it is none.
 std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node);
+/// Of one value or the components of a vector: a curve that is applied to it, or another one in place of its own.
+std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::int32_t>& values);
+/// Of two sums of products beside each other: their second terms with the other sign.
+std::vector<JointEdit> turned_edits_of(const Probe& p);
+/// Of values blended over each other: the order reversed, or the last two exchanged.
+std::vector<JointEdit> blend_edits_of(const Probe& p);
+/// A factor or a term that stands farther out or farther in than it should. `vectors`: of which it may be a factor.
+std::vector<JointEdit> moved_edits_of(const Probe& p, const std::vector<std::vector<std::int32_t>>& vectors);
 /// Of the components of a vector.
 std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& vector);
 

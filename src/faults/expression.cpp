@@ -74,6 +74,12 @@ Expression number_of(float value) {
   e.step.number = value;
   return e;
 }
+Expression itself(std::int32_t node) {
+  Expression e;
+  e.step.kind = Kind::itself;
+  e.node = node;
+  return e;
+}
 Expression operation(Op op, std::vector<Expression> of) {
   Expression e;
   e.step.op = op;

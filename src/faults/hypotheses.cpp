@@ -159,6 +159,7 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   add_output_mixups(all, p, before);
   add_tap_faults(all, p);
   add_input_mixups(all, p);
+  add_level_faults(all, p);
   take(all, channels, is_of_channel);
   const std::vector<float> known = constants_everywhere(p.model);
   const std::vector<Probe> probes = probes_of(p, spread(inner(failing, p.model), 4), known);

@@ -130,6 +130,16 @@ void add_records(CaseAdder& add, const PassCase& c, std::size_t i) {
     altered.inputs[i].array.levels[0].clear();
     altered.inputs[i].array.width = 0;
   });
+  const std::size_t count = record.size > 0 ? c.inputs[i].array.levels[0].size() / record.size : 0;
+  constexpr std::size_t most_records = 40;
+  for (std::size_t k = 1; k < std::min(count, most_records); ++k)
+    add(fmt::format("loop over {} ends early", name),
+        fmt::format("only the first {} records of {} count: the loop ends at one that it should only pass over",
+                    k == 1 ? "one of the" : std::to_string(k), name),
+        [i, k, size = record.size](PassCase& altered) {
+          altered.inputs[i].array.levels[0].resize(k * size);
+          altered.inputs[i].array.width = static_cast<int>(k);
+        });
   struct Field {
     std::string name;
     std::size_t offset;

@@ -57,7 +57,7 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list, bool stand_
   // Where records stand alone most are none after a few of them; else all are evaluated for each, so that fewer are asked where they
   // are many.
   const std::size_t nodes = probes.empty() ? 1 : probes[0].trace.nodes.size();
-  const std::size_t most = std::min<std::size_t>(600, 1 + (stand_alone ? 40000000 : 2000000) / nodes);
+  const std::size_t most = std::min<std::size_t>(600, 1 + (stand_alone ? 40000000 : 8000000) / nodes);
   add_shared_place_faults(all, probes, known);
   add_order_faults(all, probes, known, most);
   add_order_faults(all, alike, {}, most);

@@ -47,6 +47,8 @@ void add_values(std::vector<Fault>& out, const PassCase& c) {
   add("power of 1/2.2", "the result is encoded by a power of 1/2.2", [](double v) { return encode_gamma22(held(v)); });
   add("power of 2.2", "the result is decoded by a power of 2.2", [](double v) { return decode_gamma22(held(v)); });
   add("clamped to [0, 1]", "the result is clamped to [0, 1] before the store", held);
+  add("rounded to 8 bits", "the result is held to [0, 1] and rounded to steps of 1/255 before the store",
+      [](double v) { return std::floor(held(v) * 255 + 0.5) / 255; });
   add("without its sign", "the absolute value is stored", [](double v) { return std::abs(v); });
   add("packed as v / 2 + 1/2", "the result is packed from [-1, 1] to [0, 1]", [](double v) { return v / 2 + 0.5; });
   add("unpacked as 2 v - 1", "the result is unpacked from [0, 1] to [-1, 1], or not packed", [](double v) { return 2 * v - 1; });
@@ -56,6 +58,22 @@ void add_values(std::vector<Fault>& out, const PassCase& c) {
   add("times 256/255", "the result is scaled by 256/255 before the store", [](double v) { return v * (256.0 / 255); });
   add("squared", "the result is squared", [](double v) { return v * v; });
   add("as its root", "the root of the result is stored", [](double v) { return v > 0 ? std::sqrt(v) : v; });
+}
+
+/// A channel that holds one number everywhere.
+void add_constant_channels(std::vector<Fault>& out, const PassCase& c) {
+  for (const Slot& only : judge::slots_of(c))
+    for (const float number : {0.0f, 1.0f}) {
+      Fault d;
+      const std::string& output = c.outputs[static_cast<std::size_t>(only.output)].name;
+      d.name = fmt::format("{} in {} of {}", number, "xyzw"[only.channel & 3], output);
+      d.sentence = fmt::format("channel {} of {} holds {} here", "xyzw"[only.channel & 3], output, number);
+      d.alter_value = [number, o = only.output, channel = only.channel](float v, const Slot& s) {
+        return s.output == o && s.channel == channel ? number : v;
+      };
+      d.for_diagnosis = true;
+      out.push_back(std::move(d));
+    }
 }
 
 /// Of several images each by itself; the other faults turn all of them.
@@ -182,6 +200,7 @@ void add_centres(std::vector<Fault>& out, const Probed& p) {
 
 void add_output_mixups(std::vector<Fault>& out, const Probed& p, const PassCase* before) {
   add_values(out, p.c);
+  add_constant_channels(out, p.c);
   add_single_images(out, p.c, before);
   add_centres(out, p);
 }

@@ -69,12 +69,15 @@ void check_in(Replay& other, std::vector<Tried>& causes) {
     const auto found = there.find(c.name);
     if (found == there.end()) {
       c.is_likely = false;
+      c.is_untested = true;
       if (is_solved(c.name)) c.of += there.begin()->second.of;  // it was looked for there, and not found
       continue;
     }
     c.explained += found->second.explained;
     c.inside += found->second.inside;
     c.of += found->second.of;
+    c.good += found->second.good;
+    c.bad += found->second.bad;
     c.is_likely &= found->second.is_likely;
     c.misfit = std::max(c.misfit, found->second.misfit);
   }
@@ -153,12 +156,12 @@ Compared compared(Replay& run, const std::string& first, const std::set<std::str
 
 /// Mistakes that give the same wherever it was looked, in the order in which they are to be believed: the port has one of them.
 void say_one_of(Cause& first, std::vector<Tried> causes, std::set<std::string> others, int most = 2,
-                const char* word = "; or, which gives the same, ") {
+                const char* word = "; or, which gives the same, ", std::string own = "") {
   std::stable_sort(causes.begin(), causes.end(), [](const Tried& a, const Tried& b) { return far_fetched(a) < far_fetched(b); });
   // One of each kind, which is what its name begins with.
   const auto kind = [](const std::string& name) { return name.substr(0, name.find_first_of(name.find(':') == name.npos ? " " : ":")); };
   int said = 0;
-  const std::string own = first.sentence;
+  if (own.empty()) own = first.sentence;
   std::set<std::string> kinds{kind(first.name)};
   for (const bool is_new_kind : {true, false})
     for (const Tried& c : causes) {
@@ -209,6 +212,7 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other) {
   std::vector<Tried> causes = run.causes(run.plain());
   // Where nearly all of it is explained by what is plain, what is less so is not needed.
   std::set<std::string> sought;
+  const auto explains_little = [&] { return std::none_of(causes.begin(), causes.end(), [](const Tried& c) { return score(c) >= 1.5; }); };
   for (const auto more : {&Replay::deeper, &Replay::solved, &Replay::fitted}) {
     if (is_explained(causes)) continue;
     for (Tried& c : run.causes((run.*more)())) {
@@ -216,22 +220,44 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other) {
       causes.push_back(std::move(c));
     }
   }
+  if (explains_little() && run.widen()) {
+    if (other) other->widen();
+    for (const auto again : {&Replay::plain, &Replay::deeper})
+      for (Tried& c : run.causes((run.*again)())) causes.push_back(std::move(c));
+  }
   if (other) check_in(*other, causes);
   std::vector<Cause> best = best_causes(causes);
   if (best.empty()) return best;
   static constexpr const char* as_much = "; or, which explains as much here, ";
+  // What leaves clearly more unexplained, or would have made more fail, is none.
+  const double least_against = [&] {
+    double out = HUGE_VAL;
+    for (const Tried& c : causes)
+      if (c.name == best.front().name) out = std::min(out, against(c));
+    return out;
+  }();
+  const auto is_rival = [&](const Tried& c) { return c.of_records || against(c) <= 1.4 * least_against + 1.5; };
   if (!best.front().is_likely) {
     // What cannot be told apart here is said beside it.
     std::set<std::string> same;
     for (const Tried& c : causes)
-      if (c.of > 0 && score(c) >= score(best.front()) - 0.005 && c.name != best.front().name && !is_fitted(c.name)) same.insert(c.name);
-    say_one_of(best.front(), causes, same, 4, as_much);
+      if (c.of > 0 && score(c) >= score(best.front()) - 0.005 && is_rival(c) && c.name != best.front().name && !is_fitted(c.name))
+        same.insert(c.name);
+    // Those that would give the same on other numbers too are other words for it; of the rest only what is no more far-fetched.
+    const bool explains_most = score(best.front()) >= 1.8;
+    const std::set<std::string> alike = explains_most ? compared(run, best.front().name, same).alike : std::set<std::string>();
+    for (const Tried& c : causes)
+      if (alike.contains(c.name) || far_fetched(c) > far_fetched(best.front())) same.erase(c.name);
+    const std::string own = best.front().sentence;
+    say_one_of(best.front(), causes, alike);
+    say_one_of(best.front(), causes, same, 2, as_much, own);
     return best;
   }
   std::set<std::string> others;
   const double least = score(best.front()) - (best.front().of_records ? 0 : 0.02);
   for (const Tried& c : causes)
-    if (c.of > 0 && score(c) >= least && c.misfit <= 0.05 && c.name != best.front().name && !is_fitted(c.name)) others.insert(c.name);
+    if (c.of > 0 && score(c) >= least && c.misfit <= 0.05 && is_rival(c) && c.name != best.front().name && !is_fitted(c.name))
+      others.insert(c.name);
   const Compared there = compared(run, best.front().name, others);
   best.front().is_likely = !there.has_rival;
   // Of thousands that are tried one or another comes within an envelope by chance: what was sought must have the port's own bits.
@@ -243,7 +269,7 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other) {
   if (best.front().is_likely)
     say_one_of(best.front(), causes, there.alike);
   else
-    say_one_of(best.front(), causes, others, 4, as_much);
+    say_one_of(best.front(), causes, others, 2, as_much);
   return best;
 }
 

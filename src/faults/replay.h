@@ -15,8 +15,14 @@ namespace rainref::faults {
 struct Tried : judge::Cause {
   Tried() = default;
   Tried(judge::Cause cause, double how_far = 0) : Cause(std::move(cause)), misfit(how_far) {}
-  double misfit = 0;  ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
+  double misfit = 0;         ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
+  std::int64_t good = 0;     ///< texels that passed and that the mistake moves to where the port is
+  bool is_untested = false;  ///< another run could not be asked about it
+  std::int64_t bad = 0;      ///< those that it moves away from there
 };
+
+/// Places that a mistake leaves unexplained, and those that passed and would not have with it.
+inline double against(const Tried& c) { return static_cast<double>(c.of - c.inside + c.bad); }
 
 class Replay {
  public:
@@ -29,6 +35,9 @@ class Replay {
   virtual std::vector<Fault> solved() { return {}; }
   /// What is fitted to the port, asked where all that explains too little. After these.
   virtual std::vector<Fault> fitted() = 0;
+  /// From now on what is tried meets records too that count nowhere near what fails: a mistake may make them count. False: it did
+  /// already, or there are none.
+  virtual bool widen() { return false; }
   /// How well each explains what fails.
   virtual std::vector<Tried> causes(const std::vector<Fault>& all) const = 0;
 

@@ -109,6 +109,7 @@ Said said(const Probe& p, const Target& t, const Source& s, Put how, Change chan
     if (how == Put::minus && is_part(p, value, source, false))
       return {"term too many: -" + wrong, fmt::format("of {} the term {} is left out", right, wrong)};
   }
+  const std::string closed = wrong.find(' ') != std::string::npos ? "(" + wrong + ")" : wrong;
   switch (how) {
     case Put::instead:
       if (wrong == right)
@@ -116,7 +117,7 @@ Said said(const Probe& p, const Target& t, const Source& s, Put how, Change chan
       return {fmt::format("wrong value: {} for {}", wrong, right), fmt::format("{} stands {} where {} is meant", where, wrong, right)};
     case Put::times:
     case Put::divided_by:
-      return {fmt::format("factor too many: {}", how == Put::times ? wrong : "1 / " + wrong),
+      return {fmt::format("factor too many: {}", how == Put::times ? wrong : "1 / " + closed),
               fmt::format("{} the term {} is {} {}", where, right, how == Put::times ? "multiplied by" : "divided by", wrong)};
     case Put::plus:
     case Put::minus:

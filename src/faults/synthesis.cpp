@@ -101,11 +101,11 @@ class Search {
     const std::size_t n = t.nodes.size();
     std::vector<float> now, numbers(n);
     for (std::size_t c = 0; c < n; ++c) now.push_back(t.now(first_, c));
-    std::size_t verified = 0;
+    std::array<std::size_t, 2> verified{};  // values, numbers
     std::set<std::pair<std::string, std::pair<Put, Change>>> done;
     for (const Source& s : sources_for(first_, t, groups_, numbers_.at(n))) {
       if (s.text == "...") continue;
-      const bool is_number = s.nodes.empty();
+      const bool is_number = s.nodes.empty(), is_ratio = is_number && s.text.find(" / ") != std::string::npos;
       for (const Put how : puts)
         for (const Change change : changes) {
           const bool is_itself = how == Put::instead && !s.nodes.empty() && s.nodes[0] == t.value_at(first_, 0);
@@ -122,11 +122,12 @@ class Search {
             numbers[c] = perturbed::put(now[c], other, how);
             is_same &= numbers[c] == now[c];
           }
-          if (is_same || is_trivial || verified >= most_verified_ || !solvers_[0].may_be(solution, numbers)) continue;
+          if (is_ratio && (how == Put::divided_by || how == Put::over)) continue;  // there are both
+          if (is_same || is_trivial || verified[is_number] >= most_verified_ || !solvers_[0].may_be(solution, numbers)) continue;
           if (done.contains({s.text, {how, change}})) continue;
           take(first_, s, t, places);
           for (Substitution& place : places) place.change = change, place.how = how;
-          ++verified;
+          ++verified[is_number];
           if (!suits(places)) continue;
           done.insert({s.text, {how, change}});
           keep(s.effort + effort_of(how, change), places, said(first_, t, s, how, change));

@@ -207,11 +207,51 @@ void add_neighbours(const Adder& add, const Taps& taps) {
   all("neighbours on the other side alone", "is read at the texel itself in place of the neighbours to the right and above",
       [](int x, int y) { return std::pair(std::min(x, 0), std::min(y, 0)); });
   all("neighbours not reached", "is read at the texel itself in place of its neighbours", [](int, int) { return std::pair(0, 0); });
-  for (const auto& [dx, dy, way] :
-       {std::tuple(1, 0, "one column to the right"), {-1, 0, "one column to the left"}, {0, 1, "one row up"}, {0, -1, "one row down"}}) {
+  for (const auto& [dx, dy, way] : {std::tuple(1, 0, "one column to the right"),
+                                    {-1, 0, "one column to the left"},
+                                    {0, 1, "one row up"},
+                                    {0, -1, "one row down"},
+                                    {-1, -1, "one column to the left and one row down"},
+                                    {1, 1, "one column to the right and one row up"}}) {
     all(fmt::format("read {}", way).c_str(), fmt::format("is read {}", way).c_str(),
         [dx = dx, dy = dy](int x, int y) { return std::pair(x + dx, y + dy); });
   }
+  // One of them alone.
+  std::set<std::pair<int, int>> places;
+  for (const Tap& one : taps.all) places.insert({one.dx, one.dy});
+  constexpr std::size_t most_places = 12;
+  if (places.size() > 1 && places.size() <= most_places)
+    for (const auto& from : places)
+      for (const auto& to : places) {
+        if (from == to) continue;
+        const auto place = [](const std::pair<int, int>& at) {
+          return at.first == 0 && at.second == 0 ? std::string("the texel itself") : fmt::format("({}, {})", at.first, at.second);
+        };
+        add(fmt::format("tap {} at {}", place(from), place(to)),
+            fmt::format("{} is read at {} where {} is meant, columns and rows from the texel itself", in, place(to), place(from)),
+            [from, to](Tap t) {
+              return t.dx == from.first && t.dy == from.second ? Tap{t.load, to.first, to.second, t.channel} : t;
+            });
+      }
+  // Of a texel that is read several times one read alone.
+  constexpr std::size_t most_loads = 16;
+  if (taps.all.size() <= most_loads)
+    for (const Tap& one : taps.all) {
+      const auto is_same = [&](const Tap& t) { return t.dx == one.dx && t.dy == one.dy && t.channel == one.channel; };
+      const auto reads = std::count_if(taps.all.begin(), taps.all.end(), is_same);
+      if (reads < 2) continue;
+      const auto number = std::count_if(taps.all.begin(), taps.all.end(), [&](const Tap& t) { return is_same(t) && t.load <= one.load; });
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (dx == one.dx && dy == one.dy) continue;
+          add(fmt::format("read {} of ({}, {}) at ({}, {})", number, one.dx, one.dy, dx, dy),
+              fmt::format("{} is read at ({}, {}) where ({}, {}) is meant, columns and rows from the texel itself, in read {} of {} of it",
+                          in, dx, dy, one.dx, one.dy, number, reads),
+              [load = one.load, dx, dy](Tap t) {
+                return t.load == load ? Tap{t.load, dx, dy, t.channel} : t;
+              });
+        }
+    }
   // All of one row or one column of them.
   std::set<std::pair<bool, int>> lines;
   for (const Tap& one : taps.all)

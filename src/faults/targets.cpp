@@ -138,10 +138,11 @@ std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
   // A length in heights where it should be in widths, or the reverse.
   if (p.model.height() > 0 && p.model.width() != p.model.height()) {
     const auto width = static_cast<float>(p.model.width()), height = static_cast<float>(p.model.height());
-    out.push_back({{}, {width / height}, "width / height", 1});
-    out.push_back({{}, {height / width}, "height / width", 1});
+    out.push_back({{}, {width / height}, "width / height", 0});
+    out.push_back({{}, {height / width}, "height / width", 0});
   }
-  for (const float number : {2.0f, 3.0f, 4.0f, 0.5f, 0.25f, 3.14159265f, 6.2831853f, 255.0f, 57.29578f, 0.017453293f, 1.0f, -1.0f})
+  for (const auto& [number, name] : {std::pair(3.14159265f, "pi"), std::pair(6.2831853f, "2 pi")}) out.push_back({{}, {number}, name, 3});
+  for (const float number : {2.0f, 3.0f, 4.0f, 0.5f, 0.25f, 255.0f, 57.29578f, 0.017453293f, 1.0f, -1.0f})
     out.push_back({{}, {number}, fmt::format("{:.5g}", number), 3});
   return out;
 }
@@ -179,7 +180,7 @@ void add_later(const Probe& p, const Target& t, std::vector<Source>& out) {
 /// Values met before a target, nearest first, and numbers.
 std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vector<std::vector<std::int32_t>>& groups,
                                 const std::vector<Source>& numbers) {
-  std::vector<Source> out;
+  std::vector<Source> out = numbers;  // few, and asked first: of many that nearly fit not all are
   const std::int32_t before = *std::min_element(t.nodes.begin(), t.nodes.end());
   const auto effort = [&](std::int32_t node) { return is_named(node_of(p, node).op) ? 0 : 1; };
   if (t.nodes.size() > 1)
@@ -199,13 +200,12 @@ std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vect
       }
     }
   std::map<std::uint32_t, std::int32_t> after;
-  for (std::int32_t m = before; m-- > 0 && out.size() < most_sources;) {
+  for (std::int32_t m = before; m-- > 0 && out.size() < most_sources + numbers.size();) {
     const std::int32_t back = ++after[node_of(p, m).shape];
     if (back > most_back || node_of(p, m).op == Op::comparison || node_of(p, m).op == Op::coordinate) continue;
     out.push_back({{m}, {}, words_for(p, m), effort(m)});
   }
   add_later(p, t, out);
-  out.insert(out.end(), numbers.begin(), numbers.end());
   return out;
 }
 

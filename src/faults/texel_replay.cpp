@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 #include "faults/alternative_formulas.h"
 #include "faults/failing_texels.h"
@@ -124,22 +126,40 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
   return m;
 }
 
-/// Share of the texels that passed and where the fault would store clearly other codes than the port did.
-double contradicted(const std::vector<Slot>& slots, const capture::PassModel& model, const FaultyPass& faulty,
-                    const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway,
-                    const std::vector<Texel>& passing) {
+/// What a fault does to texels that passed.
+struct Passing {
+  double contradicted = 0;         ///< share of them where the fault would store clearly other codes than the port did
+  std::int64_t good = 0, bad = 0;  ///< that it moves by more than a few codes: to where the port is, and away from there
+};
+Passing passing_with(const std::vector<Slot>& slots, const capture::PassModel& model, const FaultyPass& faulty,
+                     const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway,
+                     const std::vector<Texel>& passing) {
+  constexpr std::int64_t few_codes = 3;
   std::vector<Array> stored = reference;
+  Passing out;
   std::int64_t against = 0;
   for (const Texel t : passing) {
     faulty.store(t, stored);
-    against += std::any_of(slots.begin(), slots.end(), [&](const Slot& s) {
-      const std::size_t o = static_cast<std::size_t>(s.output), v = static_cast<std::size_t>(&s - slots.data());
-      if (model.is_free(static_cast<int>(v))) return false;
-      const auto code = [&](const std::vector<Array>& a) { return enclosed::ordered_code(s.kind, s.at(a[o], t.x, t.y)); };
-      return gap(code(stored), code(port)) > 2 * leeway.codes[v] + gap(code(reference), code(port));
-    });
+    bool is_against = false;
+    std::int64_t moved = 0, before = 0, after = 0;
+    for (std::size_t v = 0; v < slots.size(); ++v) {
+      if (model.is_free(static_cast<int>(v))) continue;
+      const auto code = [&](const std::vector<Array>& a) {
+        return enclosed::ordered_code(slots[v].kind, slots[v].at(a[static_cast<std::size_t>(slots[v].output)], t.x, t.y));
+      };
+      const std::int64_t with = code(stored), without = code(reference), got = code(port);
+      is_against |= gap(with, got) > 2 * leeway.codes[v] + gap(without, got);
+      moved += gap(with, without);
+      before += gap(without, got);
+      after += gap(with, got);
+    }
+    against += is_against;
+    if (moved <= few_codes) continue;
+    out.good += 4 * after < moved;
+    out.bad += 4 * before < moved && 2 * after > moved;
   }
-  return passing.empty() ? 0 : static_cast<double>(against) / static_cast<double>(passing.size());
+  if (!passing.empty()) out.contradicted = static_cast<double>(against) / static_cast<double>(passing.size());
+  return out;
 }
 
 }  // namespace
@@ -215,7 +235,12 @@ std::optional<Cause> TexelReplay::alternative_formula(const enclosed::Profile& p
   return faults::alternative_formula(probed_.c, port_, profile, mode_, failing_, few_passing_);
 }
 
-Tried TexelReplay::cause(const Fault& d) const {
+bool TexelReplay::widen() { return probed_.model.chooses_records() && !std::exchange(is_wide_, true); }
+
+Tried TexelReplay::cause(const Fault& given) const {
+  std::optional<Fault> wide;
+  if (is_wide_ && given.is_evaluated()) wide.emplace(given).behaviour.reaches_all = true;
+  const Fault& d = wide ? *wide : given;
   Tried cause{{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size())}, 1};
   const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
   if (!faulty.applies()) return cause;
@@ -246,8 +271,10 @@ Tried TexelReplay::cause(const Fault& d) const {
   // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
   // break about as many texels as it explains.
   const std::vector<Texel>& passing = d.is_evaluated() ? few_passing_ : many_passing_;
-  if (contradicted(slots_, probed_.model, faulty, port_, reference_, leeway_, passing) * passing_per_failing_ * 4 > 1)
-    cause.explained = cause.inside = 0;
+  const Passing there = passing_with(slots_, probed_.model, faulty, port_, reference_, leeway_, passing);
+  if (there.contradicted * passing_per_failing_ * 4 > 1) cause.explained = cause.inside = 0;
+  cause.good = there.good;
+  cause.bad = there.bad;
   cause.is_likely = telling * 10 >= cause.of * 9;
   cause.misfit = left / static_cast<double>(failing_.size());
   return cause;

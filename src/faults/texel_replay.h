@@ -28,6 +28,7 @@ class TexelReplay : public Replay {
   std::vector<Fault> deeper() override { return std::move(orders_); }
   std::vector<Fault> solved() override;
   std::vector<Fault> fitted() override;
+  bool widen() override;
   std::vector<Tried> causes(const std::vector<Fault>& all) const override;
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
@@ -39,7 +40,7 @@ class TexelReplay : public Replay {
   TexelReplay(const TexelReplay& of, const capture::PassCase& c, const capture::PassModel& model);
 
  private:
-  Tried cause(const Fault& d) const;
+  Tried cause(const Fault& given) const;
 
   Probed probed_;
   const capture::PassCase* before_;
@@ -51,6 +52,7 @@ class TexelReplay : public Replay {
   std::vector<Texel> failing_, few_passing_, many_passing_;  ///< some of them
   Leeway leeway_;
   double passing_per_failing_ = 0;
+  bool is_wide_ = false;
   Constants constants_;
   std::vector<Fault> orders_;  ///< for deeper()
   std::vector<Probe> probes_;  ///< for solved()

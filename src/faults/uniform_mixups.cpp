@@ -169,7 +169,7 @@ class Replacer {
     if (replacement == value_ || !std::isfinite(replacement)) return;
     Fault d;
     d.name = fmt::format("{} {}", name_, what);
-    d.sentence = fmt::format("{} is {} in place of {}", name_, replacement, value_);
+    d.sentence = fmt::format("{} {}: it is {} in place of {}", name_, what, replacement, value_);
     d.behaviour.fault = perturbed::Fault::constant;
     d.behaviour.constant = value_;
     d.behaviour.replacement = replacement;
@@ -227,7 +227,7 @@ void add_changed_uniforms(std::vector<Fault>& out, const Probed& p, Change chang
 void add_uniform_values(std::vector<Fault>& out, const Probed& p) {
   const auto as = [&](const char* what, auto change) {
     add_changed_uniforms(out, p, change, [what](const std::string& name, float now, float other) {
-      return std::pair(fmt::format("{} {}", name, what), fmt::format("{} is {} in place of {}", name, other, now));
+      return std::pair(fmt::format("{} {}", name, what), fmt::format("{} {}: it is {} in place of {}", name, what, other, now));
     });
   };
   as("left out of a product", [](float) { return 1.0f; });

@@ -41,6 +41,40 @@ std::optional<Row> row_of(const Probe& p, std::int32_t node, bool is_negative = 
   return {};
 }
 
+/// A matrix times a vector: rows, and the vector's components in their order.
+struct Product {
+  std::vector<Row> rows;
+  std::vector<std::int32_t> columns;
+};
+std::optional<Product> product_of(const Probe& p, const std::vector<std::int32_t>& v) {
+  Product out;
+  auto& [rows, columns] = out;
+  const std::size_t n = v.size();
+  for (const std::int32_t node : v) {
+    const std::optional<Row> row = row_of(p, node);
+    if (!row) return {};
+    for (const Row::Term& t : row->terms)
+      if (std::find(columns.begin(), columns.end(), t.of) == columns.end()) columns.push_back(t.of);
+    rows.push_back(*row);
+  }
+  if (n == 0 || columns.size() != n) return {};
+  // In the order of a row that has them all, as it is written: arguments of a call are met in no order that counts.
+  const auto whole = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.terms.size() == n; });
+  if (whole != rows.end())
+    for (std::size_t k = 0; k < n; ++k) columns[k] = whole->terms[k].of;
+  else
+    std::sort(columns.begin(), columns.end());
+  return out;
+}
+/// Operand k of each; empty where one has none.
+std::vector<std::int32_t> operands(const Probe& p, const std::vector<std::int32_t>& v, std::size_t k) {
+  std::vector<std::int32_t> out;
+  for (const std::int32_t node : v)
+    if (const std::int32_t of = node_of(p, node).of[k]; of >= 0) out.push_back(of);
+  if (out.size() < v.size()) out.clear();
+  return out;
+}
+
 bool can_be_had(const Expression& e) {
   if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;
   return std::all_of(e.of.begin(), e.of.end(), can_be_had);
@@ -85,18 +119,31 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
       }
     }
 
-  // Of a matrix times a vector.
-  std::vector<Row> rows;
-  std::vector<std::int32_t> columns;
-  for (const std::int32_t node : v) {
-    const std::optional<Row> row = row_of(p, node);
-    if (!row) return out;
-    for (const Row::Term& t : row->terms)
-      if (std::find(columns.begin(), columns.end(), t.of) == columns.end()) columns.push_back(t.of);
-    rows.push_back(*row);
+  // Of something that takes a matrix times a vector: the vector as it is, there alone.
+  for (const std::size_t k : {0u, 1u}) {
+    const std::optional<Product> inner = product_of(p, operands(p, v, k));
+    if (!inner) continue;
+    std::vector<Expression> made;
+    std::string bare, whole;
+    for (std::size_t c = 0; c < n; ++c) {
+      Expression e = expression_of(p, v[c], 1);
+      if (!e.is_operation() || e.of.size() <= k) break;
+      bare += (c == 0 ? "" : ", ") + words_for(p, inner->columns[c]);
+      whole += (c == 0 ? "" : ", ") + words_for(p, e.of[k].node);
+      e.of[k] = elsewhere(p, inner->columns[c], v[c], v);
+      made.push_back(std::move(e));
+    }
+    if (made.size() == n)
+      add(std::move(made), fmt::format("matrix left out: ({}) for ({}) in {}", bare, whole, vector),
+          fmt::format("in {} ({}) stands in place of ({}): the matrix, or the conversion to other axes, is left out there", vector, bare,
+                      whole));
   }
-  if (columns.size() != n) return out;
-  std::sort(columns.begin(), columns.end());
+
+  // Of a matrix times a vector.
+  const std::optional<Product> own = product_of(p, v);
+  if (!own) return out;
+  const std::vector<Row>& rows = own->rows;
+  const std::vector<std::int32_t>& columns = own->columns;
   const auto of_vector = [&] {
     std::string text = "(";
     for (std::size_t k = 0; k < n; ++k) text += (k == 0 ? "" : ", ") + words_for(p, columns[k]);

@@ -23,6 +23,8 @@ void add_uniforms_of_values(std::vector<Fault>& out, const Probed& p, const std:
 void add_input_mixups(std::vector<Fault>& out, const Probed& p, bool images = true);
 /// What becomes of the numbers of finished record list `output`: another sign, scale, end, member; the list itself reversed or one short.
 void add_member_faults(std::vector<Fault>& out, const Probed& p, std::size_t output);
+/// Coarser levels where the first one of an image is meant.
+void add_level_faults(std::vector<Fault>& out, const Probed& p);
 /// Inputs that count twice or half.
 void add_scaled_inputs(std::vector<Fault>& out, const Probed& p);
 /// Values encoded, clamped or packed on their way to the store; one of several outputs turned or shifted; pixel centres.

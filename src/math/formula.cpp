@@ -82,9 +82,10 @@ Perturbed by_formula(const Formula& formula, const Perturbed& r, const std::arra
       stack.push_back(again(s.op, r, operands));
       continue;
     }
-    const std::optional<float> value = s.kind == FormulaStep::Kind::number ? std::optional(s.number)
-                                       : s.kind == FormulaStep::Kind::part ? at_end(s.path, of, nodes, trace)
-                                                                           : met(s, trace, before);
+    const std::optional<float> value = s.kind == FormulaStep::Kind::number   ? std::optional(s.number)
+                                       : s.kind == FormulaStep::Kind::itself ? std::optional(r.v)
+                                       : s.kind == FormulaStep::Kind::part   ? at_end(s.path, of, nodes, trace)
+                                                                             : met(s, trace, before);
     if (!value) return r;
     stack.push_back(Perturbed::of(*value));
   }

@@ -107,6 +107,7 @@ struct Behaviour {
   std::size_t loaded = 0;                     ///< of these so far: 0 before each invocation
   float column_offset = 0;                    ///< added to the element's own column
   bool is_column_mirrored = false;            ///< the column is column_offset less itself instead
+  bool reaches_all = false;                   ///< records that count at no texel nearby are met too: a mistake may change that
   Coverage* coverage = nullptr;               ///< counts which sides of decisions are taken
   bool follows() const { return trace || substitutions || places[0].fault != PlaceFault::none; }
 };

@@ -31,6 +31,7 @@ struct FormulaStep {
     operation,  ///< `op` of what the last steps gave
     part,       ///< the operand at the end of `path` from the place: which operand, which of that, ...; -1 ends it
     number,
+    itself,  ///< what the place gives as it is
     met,     ///< what was met `back` times ago of a shape
     decided  ///< 1 or 0: the condition of a choice met so long ago
   };
@@ -57,7 +58,7 @@ struct Rewrite {
 };
 
 /// One rewrite, or those of the components of a vector: the first of kind none ends them.
-using Rewrites = std::array<Rewrite, 4>;
+using Rewrites = std::array<Rewrite, 7>;
 
 /// Sets those of the calling thread for a scope.
 class RewriteScope {

@@ -91,8 +91,9 @@ struct Captured {
         for (int x = 0; x < width; x += block)
           near.push_back(of_tile(parallel::Tile{x, y, std::min(x + block, width), std::min(y + block, height)}));
     }
-    std::span<const Record> at(int x, int y) const {
-      if (near.empty()) return records;
+    /// reaches_all: those too that change nothing there, unless a mistake makes them.
+    std::span<const Record> at(int x, int y, bool reaches_all) const {
+      if (near.empty() || reaches_all) return records;
       return near[static_cast<std::size_t>(y / block) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / block)];
     }
 
@@ -157,7 +158,9 @@ struct Bound : Inputs<P> {
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
       } else if constexpr (requires { to.records; }) {
-        to.records = from.at(x, y);
+        bool reaches_all = false;
+        if constexpr (std::is_same_v<N, perturbed::Perturbed>) reaches_all = perturbed::behaviour().reaches_all;
+        to.records = from.at(x, y, reaches_all);
       } else if constexpr (requires { to.planes; }) {
         to.planes = &from.planes;
         to.y = y;
@@ -262,6 +265,9 @@ template <class P, class Text>
 class BoundModel : public capture::ModelOf<Bound<P, Text>> {
  public:
   using capture::ModelOf<Bound<P, Text>>::ModelOf;
+  bool chooses_records() const override {
+    return requires { &P::near; };
+  }
   bool rounds_inside() const override {
     if constexpr (requires { P::rounds_inside(this->pass().uniforms); })
       return P::rounds_inside(this->pass().uniforms);

@@ -225,6 +225,105 @@ TEST(EditFaults, AFunctionThatIsCalledTwiceIsWrongInBothCalls) {
   const auto port = [](const Numbers& in) { return Numbers{((in[0] + in[3]) * 3 + 0.5f) * (std::sqrt(in[1] * in[3]) * 3 + 0.5f)}; };
   EXPECT_THAT(shared(right, port), testing::Contains(AllOf(StartsWith("floor left out: "), testing::EndsWith(", in each such place"))));
 }
+// A value of three components that is tone mapped, or decoded by another curve.
+TEST(EditFaults, ACurveThatIsTooMuchOrAnotherOne) {
+  const auto components = [](const auto& of) {
+    return [of](const Numbers& in) { return std::vector<Perturbed>{of(load(in[0])), of(load(in[1])), of(load(in[2]))}; };
+  };
+  const Pass light = components([](const Perturbed& x) { return Perturbed(3.0f) * x; });
+  EXPECT_THAT(found(light,
+                    [](const Numbers& in) {
+                      return Numbers{3 * in[0] / (1 + 3 * in[0]), 3 * in[1] / (1 + 3 * in[1]), 3 * in[2] / (1 + 3 * in[2])};
+                    },
+                    {3}),
+              testing::Contains(StartsWith("tone mapped by x / (1 + x)")));
+  const Pass decoded = components([](const Perturbed& x) { return pow(x, Perturbed(2.2f)); });
+  const auto srgb = [](float x) { return x < 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); };
+  EXPECT_THAT(found(decoded,
+                    [&](const Numbers& in) {
+                      return Numbers{srgb(in[0]), srgb(in[1]), srgb(in[2])};
+                    },
+                    {2.2f}),
+              testing::Contains(StartsWith("another curve: the sRGB curve, from code to light")));
+}
+// 3 (x - 1) held to [0, 1] where it is not, and the reverse.
+TEST(EditFaults, AClampTooManyOrLeftOut) {
+  const Pass right = [](const Numbers& in) {
+    return std::vector<Perturbed>{(load(in[3]) - Perturbed(1.0f)) * Perturbed(3.0f) + load(in[0])};
+  };
+  const auto held = [](float x) { return std::min(std::max(x, 0.0f), 1.0f); };
+  EXPECT_THAT(first(right, [&](const Numbers& in) { return Numbers{held((in[3] - 1) * 3) + in[0]}; }, {1, 3}), StartsWith("held: "));
+  const Pass clamped = [](const Numbers& in) {
+    return std::vector<Perturbed>{min(max((load(in[3]) - Perturbed(1.0f)) * Perturbed(3.0f), Perturbed(0.0f)), Perturbed(1.0f)) *
+                                  load(in[0])};
+  };
+  EXPECT_THAT(found(clamped, [](const Numbers& in) { return Numbers{(in[3] - 1) * 3 * in[0]}; }, {0, 1, 3}),
+              testing::Contains(StartsWith("clamp left out: ")));
+}
+// w before a root, of which the port multiplies the result; and of a vector.
+TEST(EditFaults, AFactorIsMovedOutward) {
+  const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{sqrt(load(in[0]) * load(in[3])) + load(in[1])}; };
+  EXPECT_THAT(found(right, [](const Numbers& in) { return Numbers{(std::sqrt(in[0]) + in[1]) * in[3]}; }, {}),
+              testing::Contains(StartsWith("moved outward: in.w")));
+  const Pass vector = [](const Numbers& in) {
+    const Perturbed light = Perturbed(3.0f) * load(in[3]);
+    const auto of = [&](float x) { return sqrt(light * load(x)) + Perturbed(0.5f); };
+    return std::vector<Perturbed>{of(in[0]), of(in[1]), of(in[2])};
+  };
+  const auto port = [](const Numbers& in) {
+    const auto of = [&](float x) { return (std::sqrt(3 * x) + 0.5f) * in[3]; };
+    return Numbers{of(in[0]), of(in[1]), of(in[2])};
+  };
+  EXPECT_THAT(found(vector, port, {0.5f, 3}), testing::Contains(StartsWith("moved outward: in.w")));
+}
+// (c x - s y, c y + s x), which the port turns the other way; nothing of it is a number.
+TEST(EditFaults, ARotationByValuesIsTurnedTheOtherWay) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed x = load(in[0]), y = load(in[1]), c = load(in[2]), s = load(in[3]);
+    return std::vector<Perturbed>{c * x - s * y, c * y + s * x};
+  };
+  EXPECT_THAT(found(right,
+                    [](const Numbers& in) {
+                      return Numbers{in[2] * in[0] + in[3] * in[1], in[2] * in[1] - in[3] * in[0]};
+                    },
+                    {}),
+              testing::Contains(StartsWith("turned the other way: ")));
+}
+// Fog over light over a picture, which the port blends in the other order.
+TEST(EditFaults, BlendsInTheOtherOrder) {
+  const auto blend = [](float a, float b, float t) { return a * (1 - t) + b * t; };
+  const Pass right = [](const Numbers& in) {
+    return std::vector<Perturbed>{mix(mix(load(in[0]), Perturbed(3.0f), load(in[1])), Perturbed(5.0f), load(in[2]))};
+  };
+  EXPECT_THAT(found(right, [&](const Numbers& in) { return Numbers{blend(blend(in[0], 5, in[2]), 3, in[1])}; }, {3, 5}),
+              testing::Contains(StartsWith("order of ")));
+}
+// square(x + y) as the sum of squares, and a root of a sum as the sum of roots.
+TEST(EditFaults, AFunctionIsTakenOfEachTerm) {
+  const Pass right = [](const Numbers& in) {
+    return std::vector<Perturbed>{square(load(in[0]) + load(in[1])) + sqrt(load(in[2]) + load(in[3]))};
+  };
+  EXPECT_THAT(found(right, [](const Numbers& in) { return Numbers{in[0] * in[0] + in[1] * in[1] + std::sqrt(in[2] + in[3])}; }, {}),
+              testing::Contains(StartsWith("function of each term: ")));
+  EXPECT_THAT(
+      found(right, [](const Numbers& in) { return Numbers{(in[0] + in[1]) * (in[0] + in[1]) + std::sqrt(in[2]) + std::sqrt(in[3])}; }, {}),
+      testing::Contains(StartsWith("function of each term: ")));
+}
+// A vector in other axes where its own is meant, in one of the two places that take it.
+TEST(EditFaults, AMatrixIsLeftOutInOnePlace) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed x = load(in[0]), y = load(in[1]), w = load(in[3]);
+    const Perturbed u = Perturbed(2.0f) * x + Perturbed(5.0f) * y, v = Perturbed(3.0f) * y;
+    return std::vector<Perturbed>{w * u, w * v, square(u) + square(v)};
+  };
+  EXPECT_THAT(found(right,
+                    [](const Numbers& in) {
+                      const float u = 2 * in[0] + 5 * in[1], v = 3 * in[1];
+                      return Numbers{in[3] * in[0], in[3] * in[1], u * u + v * v};
+                    },
+                    {2, 3, 5}),
+              testing::Contains(AllOf(StartsWith("matrix left out: "), HasSubstr(" in ("))));
+}
 TEST(EditFaults, WhatIsStrangeHasNone) {
   const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{load(in[0]) * Perturbed(3.0f) + load(in[1])}; };
   EXPECT_EQ(first(right, [](const Numbers& in) { return Numbers{std::sin(91 * in[0] + in[2])}; }, {3}), "none");

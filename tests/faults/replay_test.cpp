@@ -101,6 +101,23 @@ TEST(Replay, OfCausesThatComeNearTheNearestIsTaken) {
   EXPECT_EQ(diagnosed(run, nullptr)[0].name, "b");
   EXPECT_TRUE(diagnosed(run, nullptr)[0].is_likely);
 }
+// What passed tells too: of two that explain what fails the one that leaves it as it is is meant, however far-fetched.
+TEST(Replay, OfCausesThatExplainAsMuchTheOneThatBreaksNothingIsTaken) {
+  const auto cause = [](const char* name, std::int64_t bad) {
+    Tried t({name, "", 40, 100, 99, false, true}, 0.01);
+    t.bad = bad;
+    return t;
+  };
+  EXPECT_EQ(best_causes({cause("difference the other way: a - b", 12), cause("input a is b", 0)})[0].name, "input a is b");
+  EXPECT_EQ(best_causes({cause("difference the other way: a - b", 0), cause("input a is b", 0)})[0].name,
+            "difference the other way: a - b");
+}
+// A list that is as it was before the pass: many mistakes keep a pass from doing anything.
+TEST(Replay, WhereNothingWasDoneNoCauseIsLikely) {
+  const auto cause = [](const char* name) { return Tried({name, "", 48, 48, 48, true, true}); };
+  EXPECT_TRUE(best_causes({cause("uniform count is zero")})[0].is_likely);
+  EXPECT_FALSE(best_causes({cause("uniform count is zero"), cause("drops one step late")})[0].is_likely);
+}
 TEST(Replay, AFittedNumberIsNoRivalOfAMistakeWithAName) {
   const auto cause = [](const char* name, int exact) { return Tried({name, "", exact, 100, 100, false, true}, 0.001); };
   EXPECT_EQ(best_causes({cause("a", 10), cause("another value of c", 40)})[0].name, "a");

@@ -1,0 +1,203 @@
+// What is done to a value, or to the components of a vector, too much or otherwise: an encoding, a tone curve, a clamp, a packing.
+#include <array>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "faults/edits.h"
+#include "faults/targets.h"
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::Op;
+using Node = perturbed::Trace::Node;
+using Make = std::function<Expression(const Expression&)>;
+
+Expression product(Expression a, Expression b) { return operation(Op::product, {std::move(a), std::move(b)}); }
+Expression sum(Expression a, Expression b) { return operation(Op::sum, {std::move(a), std::move(b)}); }
+Expression difference(Expression a, Expression b) { return operation(Op::difference, {std::move(a), std::move(b)}); }
+Expression quotient(Expression a, Expression b) { return operation(Op::quotient, {std::move(a), std::move(b)}); }
+Expression power(const Expression& x, float exponent) {
+  return operation(Op::power, {operation(Op::maximum, {x, number_of(0)}), number_of(exponent)});
+}
+Expression clamped(const Expression& x) { return operation(Op::minimum, {operation(Op::maximum, {x, number_of(0)}), number_of(1)}); }
+Expression decoded(const Expression& x) {
+  return operation(Op::choice, {quotient(x, number_of(12.92f)), power(quotient(sum(x, number_of(0.055f)), number_of(1.055f)), 2.4f),
+                                operation(Op::comparison, {x, number_of(0.04045f)})});
+}
+Expression encoded(const Expression& x) {
+  return operation(Op::choice,
+                   {product(x, number_of(12.92f)), difference(product(number_of(1.055f), power(x, 1 / 2.4f)), number_of(0.055f)),
+                    operation(Op::comparison, {x, number_of(0.0031308f)})});
+}
+Expression in_codes(const Expression& x) {
+  return quotient(operation(Op::floor, {sum(product(clamped(x), number_of(255)), number_of(0.5f))}), number_of(255));
+}
+
+struct Curve {
+  const char *name, *formula;  ///< "decoded from sRGB"
+  Make make;
+};
+/// Of colours.
+const std::vector<Curve>& colour_curves() {
+  static const std::vector<Curve> all{
+      {"decoded from sRGB", "the sRGB curve, from code to light", decoded},
+      {"encoded as sRGB", "the sRGB curve, from light to code", encoded},
+      {"to the power 2.2", "x^2.2", [](const Expression& x) { return power(x, 2.2f); }},
+      {"to the power 1/2.2", "x^(1/2.2)", [](const Expression& x) { return power(x, 1 / 2.2f); }},
+      {"tone mapped by x / (1 + x)", "x / (1 + x)", [](const Expression& x) { return quotient(x, sum(number_of(1), x)); }},
+      {"tone mapped by 1 - exp(-x)", "1 - exp(-x)",
+       [](const Expression& x) { return difference(number_of(1), operation(Op::exponential, {operation(Op::negation, {x})})); }},
+      {"rounded to 8 bits", "x in steps of 1/255", in_codes},
+  };
+  return all;
+}
+/// Of any numbers.
+const std::vector<Curve>& plain_curves() {
+  static const std::vector<Curve> all{
+      {"held to [0, 1]", "x held to [0, 1]", clamped},
+      {"unpacked by 2 x - 1", "2 x - 1", [](const Expression& x) { return difference(product(number_of(2), x), number_of(1)); }},
+      {"packed by x / 2 + 1/2", "x / 2 + 1/2", [](const Expression& x) { return sum(product(number_of(0.5f), x), number_of(0.5f)); }},
+      {"less a half", "x - 1/2", [](const Expression& x) { return difference(x, number_of(0.5f)); }},
+      {"and a half", "x + 1/2", [](const Expression& x) { return sum(x, number_of(0.5f)); }},
+  };
+  return all;
+}
+
+/// What the curve of an operation is taken of, and what that curve is; of none no name.
+struct Own {
+  Expression of;
+  std::string name;
+};
+Own own_curve(const Probe& p, std::int32_t node) {
+  const Expression e = expression_of(p, node, 4);
+  if (!e.is_operation()) return {};
+  const auto is_number = [&](const Expression& x, float low, float high) {
+    if (x.node < 0 || x.is_operation() || node_of(p, x.node).op != Op::constant) return false;
+    const float v = node_of(p, x.node).value;
+    return low <= v && v <= high;
+  };
+  if (e.step.op == Op::power && is_number(e.of[1], 0.3f, 3)) return {e.of[0], "power"};
+  if (e.step.op == Op::minimum && e.of[0].is_operation() && e.of[0].step.op == Op::maximum) return {e.of[0].of[0], "clamp"};
+  if (e.step.op == Op::choice)
+    for (const std::size_t k : {0u, 1u}) {
+      const Expression& linear = e.of[k];
+      if (!linear.is_operation() || (linear.step.op != Op::product && linear.step.op != Op::quotient)) continue;
+      for (const std::size_t j : {0u, 1u})
+        if (is_number(linear.of[1 - j], 12.9f, 12.93f) || is_number(linear.of[1 - j], 1 / 12.93f, 1 / 12.9f))
+          return {linear.of[j], "the sRGB curve"};
+    }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::int32_t>& values) {
+  std::vector<Edit> out;
+  const std::string text = words_for(p, values[0]);
+  const auto add = [&](const Curve& curve) {
+    Edit& e = out.emplace_back();
+    for (const std::int32_t node : values) e.made.push_back(curve.make(itself(node)));
+    const bool is_clamp = std::string_view(curve.name).starts_with("held");
+    e.name = is_clamp ? fmt::format("held: {}", text) : fmt::format("{}: {}", curve.name, text);
+    e.sentence = is_clamp ? fmt::format("{} is held to [0, 1], where it should not be", text)
+                          : fmt::format("{} is {}, which it should not be", text, curve.name);
+  };
+  const Op op = node_of(p, values[0]).op;
+  if (op != Op::comparison && op != Op::coordinate && op != Op::level) {
+    for (const Curve& curve : plain_curves()) add(curve);
+    if (values.size() == 3)
+      for (const Curve& curve : colour_curves()) add(curve);
+  }
+  std::vector<Own> own;
+  for (const std::int32_t node : values) own.push_back(own_curve(p, node));
+  for (const Own& one : own)
+    if (one.name.empty() || one.name != own[0].name) return out;
+  for (const Curve& curve : colour_curves()) {
+    Edit& e = out.emplace_back();
+    for (const Own& one : own) e.made.push_back(curve.make(one.of));
+    const std::string of = text_of(p, own[0].of);
+    e.name = fmt::format("another curve: {} for {}", curve.formula, text);
+    e.sentence = fmt::format("of {} the curve {} stands in place of {}", of, curve.formula, own[0].name == "power" ? text : own[0].name);
+  }
+  return out;
+}
+
+std::vector<JointEdit> turned_edits_of(const Probe& p) {
+  std::vector<JointEdit> out;
+  constexpr std::int32_t near = 9;
+  constexpr std::size_t most = 80;
+  const auto is_product = [&](std::int32_t i) { return i >= 0 && (node_of(p, i).op == Op::product || node_of(p, i).op == Op::negation); };
+  std::vector<std::int32_t> all;
+  for (std::int32_t at = 0; at < static_cast<std::int32_t>(p.trace.nodes.size()); ++at) {
+    const Node& n = node_of(p, at);
+    if ((n.op == Op::sum || n.op == Op::difference) && n.occurrence == 0 && is_product(n.of[0]) && is_product(n.of[1])) all.push_back(at);
+  }
+  for (std::size_t i = 0; i + 1 < all.size() && out.size() < most; ++i) {
+    const std::int32_t a = all[i], b = all[i + 1];
+    if (b - a > near || node_of(p, a).shape == node_of(p, b).shape) continue;
+    JointEdit& one = out.emplace_back();
+    one.nodes = {a, b};
+    std::vector<std::string> terms;
+    for (const std::int32_t at : one.nodes) {
+      Expression e = expression_of(p, at, 1);
+      e.step.op = e.step.op == Op::sum ? Op::difference : Op::sum;
+      terms.push_back(words_for(p, node_of(p, at).of[1]));
+      one.edit.made.push_back(std::move(e));
+    }
+    one.edit.name = fmt::format("turned the other way: ({}, {})", words_for(p, a), words_for(p, b));
+    one.edit.sentence = fmt::format("in ({}, {}) the terms {} and {} have the other sign: it is turned the other way", words_for(p, a),
+                                    words_for(p, b), terms[0], terms[1]);
+  }
+  return out;
+}
+
+std::vector<JointEdit> blend_edits_of(const Probe& p) {
+  std::vector<JointEdit> out;
+  constexpr std::size_t longest = 5;  // a path reaches no deeper
+  constexpr std::int32_t near = 14;
+  std::vector<bool> is_below(p.trace.nodes.size());
+  for (const Node& n : p.trace.nodes)
+    if (n.op == Op::mix && n.of[0] >= 0) is_below[static_cast<std::size_t>(n.of[0])] = true;
+  struct Chain {
+    std::int32_t top;
+    std::size_t length;
+  };
+  std::vector<Chain> chains;
+  for (std::int32_t at = 0; at < static_cast<std::int32_t>(p.trace.nodes.size()); ++at) {
+    if (node_of(p, at).op != Op::mix || is_below[static_cast<std::size_t>(at)] || node_of(p, at).occurrence != 0) continue;
+    std::size_t length = 0;
+    for (std::int32_t of = at; of >= 0 && node_of(p, of).op == Op::mix && length < longest; of = node_of(p, of).of[0]) ++length;
+    if (length > 1) chains.push_back({at, length});
+  }
+  const auto add = [&](const std::vector<Chain>& v, std::size_t count) {
+    JointEdit& one = out.emplace_back();
+    for (const Chain& c : v) {
+      one.nodes.push_back(c.top);
+      const Expression whole = expression_of(p, c.top, static_cast<int>(count));
+      std::vector<std::pair<Expression, Expression>> layers;  // from the top
+      const Expression* at = &whole;
+      for (std::size_t k = 0; k < count; ++k, at = &at->of[0]) layers.emplace_back(at->of[1], at->of[2]);
+      Expression made = *at;
+      for (const auto& [value, share] : layers) made = operation(Op::mix, {std::move(made), value, share});
+      one.edit.made.push_back(std::move(made));
+    }
+    const std::string text = words_for(p, v[0].top);
+    one.edit.name = fmt::format("order of {} blends reversed: {}", count, text);
+    one.edit.sentence = fmt::format("in {} the {} values that are blended over each other stand in the other order{}", text, count,
+                                    v.size() > 1 ? ", and so in the other components" : "");
+  };
+  for (std::size_t i = 0; i < chains.size();) {
+    std::vector<Chain> v{chains[i]};
+    while (i + v.size() < chains.size() && v.size() < perturbed::Rewrites().size() && chains[i + v.size()].length == v[0].length &&
+           chains[i + v.size()].top - v.back().top <= near)
+      v.push_back(chains[i + v.size()]);
+    if (v[0].length > 2) add(v, v[0].length);
+    add(v, 2);
+    i += v.size();
+  }
+  return out;
+}
+
+}  // namespace rainref::faults
