@@ -39,6 +39,7 @@ std::vector<Fault> BitsReplay::plain() {
   std::vector<Fault> all = faults_of(pass_, c_, no_model(), before_);
   std::erase_if(all, [](const Fault& d) { return !d.alter_case; });
   add_draw_faults(all, purposes_drawn([&] { static_cast<void>(evaluations_.recompute(c_)); }));
+  add_counter_faults(all, pass_, c_);
   add_whole_mixups(all, p);
   add_input_mixups(all, p, false);
   add_member_faults(all, p, output_);

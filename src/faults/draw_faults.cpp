@@ -1,6 +1,7 @@
 #include "faults/draw_faults.h"
 
 #include <algorithm>
+#include <cstring>
 #include <cstdlib>
 #include <numeric>
 
@@ -95,6 +96,9 @@ void add_mixings(const Add& add) {
   for (const std::size_t k : {0u, 1u})
     set([k](Mixing& m) { m.stirs[k] = false; }, fmt::format("pcg4d without its {} stir", ordinals[k]),
         fmt::format("in pcg4d the {} of the two stirs, x += y w and what follows, is left out", ordinals[k]));
+  set([](Mixing& m) { m.is_stirred_at_once = true; }, "pcg4d stirred at once",
+      "in pcg4d the four lines of a stir, x += y w and what follows, are made at once from the old values, where each should take what the "
+      "lines before it gave");
   const Mixing right;
   for (std::uint8_t k = 0; k < 4; ++k) {
     const auto line = [&](std::uint8_t a, std::uint8_t b) { return fmt::format("{} += {} {}", words[k], words[a], words[b]); };
@@ -229,6 +233,26 @@ void add_draw_faults(std::vector<Fault>& out, const std::vector<random::Purpose>
   add_words(add);
   add_bits(add);
   add_mixings(add);
+}
+
+void add_counter_faults(std::vector<Fault>& out, const capture::PackPass& pass, const capture::PassCase& c) {
+  for (const scene::Member& m : pass.block.members) {
+    if (m.scalar == scene::Scalar::float32 || m.components != 1 || m.name.starts_with("padding")) continue;
+    std::int32_t number;
+    std::memcpy(&number, c.uniforms.data() + m.offset, 4);
+    // One more and one less have plainer names.
+    if (number == 0 || number == 1 || number == -1) continue;
+    for (const std::size_t k : {0u, 1u})
+      for (const bool is_added : {false, true}) {
+        Fault d;
+        d.name = fmt::format("random {} counter {} {}", k == 0 ? "first" : "second", is_added ? "with" : "without", m.name);
+        d.sentence = fmt::format("the {} counter of a block of random words {} {}", k == 0 ? "first" : "second",
+                                 is_added ? "has, added to it," : "lacks its term", m.name);
+        d.draws.emplace().counters_off[k] = is_added ? number : static_cast<std::int32_t>(0u - static_cast<std::uint32_t>(number));
+        d.for_diagnosis = true;
+        out.push_back(std::move(d));
+      }
+  }
 }
 
 std::vector<random::Purpose> purposes_drawn(const std::function<void()>& run) {

@@ -13,6 +13,7 @@
 #include "faults/edits.h"
 #include "faults/place_faults.h"
 #include "faults/targets.h"
+#include "faults/vector_groups.h"
 
 namespace rainref::faults {
 namespace {
@@ -23,7 +24,6 @@ using perturbed::Rewrite;
 using perturbed::RewriteKind;
 using perturbed::Rewrites;
 using Node = perturbed::Trace::Node;
-using Nodes = std::vector<std::int32_t>;
 
 constexpr std::int32_t most_alike = 4;  // of one shape that are tried one by one
 
@@ -37,21 +37,6 @@ bool shows(const Probe& p, std::int32_t node, const Formula& formula) {
     if (!(std::abs(static_cast<double>(value) - right) <= 1e-6 * std::abs(static_cast<double>(right)))) return true;
   }
   return false;
-}
-
-bool are_alike(const Probe& p, const Nodes& v) {
-  std::set<std::uint32_t> shapes;
-  for (const std::int32_t node : v) shapes.insert(node_of(p, node).shape);
-  return shapes.size() < v.size();
-}
-/// In a loop that meets the components, all of one shape, round by round: how many there are; else 0.
-std::int32_t period_of(const Probe& p, const Nodes& v) {
-  const auto n = static_cast<std::int32_t>(v.size());
-  for (std::int32_t k = 0; k < n; ++k) {
-    const Node& node = node_of(p, v[static_cast<std::size_t>(k)]);
-    if (node.shape != node_of(p, v[0]).shape || node.occurrence % n != k) return 0;
-  }
-  return p.trace.met.at(node_of(p, v[0]).shape) % n == 0 ? n : 0;
 }
 
 class Adder {
@@ -120,102 +105,23 @@ class Adder {
   std::size_t made_ = 0, most_;
 };
 
-/// What belongs together as a vector: what a length is taken of, the arguments of named functions, what is alike but for the
-/// component, what the outputs are made of side by side.
-std::vector<Nodes> groups_of(const Probe& p) {
-  std::vector<Nodes> out;
-  std::set<std::vector<std::uint32_t>> done;
-  const auto add = [&](Nodes v) {
-    if (v.size() < 2 || v.size() > 3 || std::any_of(v.begin(), v.end(), [](std::int32_t i) { return i < 0; })) return;
-    if (std::set<std::int32_t>(v.begin(), v.end()).size() < v.size()) return;
-    std::vector<std::uint32_t> shapes;
-    for (const std::int32_t i : v) {
-      if (is_leaf(node_of(p, i).op) || node_of(p, i).op == Op::lookup) return;
-      shapes.push_back(node_of(p, i).shape);
-    }
-    // What is alike in the components is told apart by its order, in a loop from round to round.
-    if (are_alike(p, v) && p.trace.met.at(shapes[0]) > 3 && period_of(p, v) == 0) return;
-    if (done.insert(shapes).second) out.push_back(std::move(v));
-  };
-  for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;) {
+/// Adds what edits_at(node) gives of each place, from the results to what they are made of.
+template <class EditsAt>
+void each_place(Adder& add, const Probe& p, const EditsAt& edits_at) {
+  for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
     const Node& n = node_of(p, at);
-    if (n.occurrence != 0 || n.op != Op::sum || n.of[0] < 0 || n.of[1] < 0) continue;
-    const auto squared = [&](std::int32_t i) { return i >= 0 && node_of(p, i).op == Op::square ? node_of(p, i).of[0] : -1; };
-    const Node& first = node_of(p, n.of[0]);
-    if (first.op == Op::sum) add({squared(first.of[0]), squared(first.of[1]), squared(n.of[1])});
-    add({squared(n.of[0]), squared(n.of[1])});
-  }
-  // What these are made of side by side, as far as it is by the same operations, and what stands there.
-  const auto add_below = [&](Nodes top, std::size_t most) {
-    std::vector<Nodes> open{std::move(top)};
-    for (std::size_t at = 0; at < open.size() && open.size() < most; ++at) {
-      const Nodes v = open[at];
-      if (std::any_of(v.begin(), v.end(), [](std::int32_t i) { return i < 0; })) continue;
-      add(v);
-      if (std::any_of(v.begin(), v.end(), [&](std::int32_t i) { return node_of(p, i).op != node_of(p, v[0]).op; })) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        Nodes& below = open.emplace_back();
-        for (const std::int32_t i : v) below.push_back(node_of(p, i).of[k]);
-      }
-    }
-  };
-  for (const std::vector<std::size_t>& v : vectors_of(p)) add_below({v.begin(), v.end()}, 12);
-  for (std::size_t first = 0; first < p.outputs.size() && first < 8; ++first)
-    for (const std::size_t n : {3u, 2u}) {
-      if (first + n > p.outputs.size()) continue;
-      add_below({p.outputs.begin() + static_cast<std::ptrdiff_t>(first), p.outputs.begin() + static_cast<std::ptrdiff_t>(first + n)}, 300);
-    }
-  // Two beside each other of the same operation of the same operations: members of a record have names of their own.
-  const auto is_alike = [&](const Node& a, const Node& b) {
-    for (std::size_t k = 0; k < a.of.size(); ++k) {
-      if ((a.of[k] < 0) != (b.of[k] < 0)) return false;
-      const bool takes_sum = a.op == Op::choice || a.op == Op::mix;  // of a matrix one row may be a sum, and one a product
-      if (a.of[k] >= 0 && !takes_sum && node_of(p, a.of[k]).op != node_of(p, b.of[k]).op) return false;
-    }
-    return true;
-  };
-  constexpr std::int32_t near = 24;
-  constexpr std::size_t most_pairs = 60;
-  std::size_t pairs = 0;
-  for (std::int32_t b = static_cast<std::int32_t>(p.trace.nodes.size()); b-- > 0 && pairs < most_pairs;) {
-    const Node& second = node_of(p, b);
-    if (second.occurrence != 0 || (second.op != Op::choice && second.op != Op::mix && second.op != Op::sum && second.op != Op::difference))
-      continue;
-    for (std::int32_t a = b - 1; a >= 0 && b - a <= near; --a) {
-      const Node& first = node_of(p, a);
-      if (first.op != second.op) continue;
-      if (first.occurrence == 0 && first.shape != second.shape && is_alike(first, second)) add_below({a, b}, 8), ++pairs;
-      break;
+    if (is_leaf(n.op)) continue;
+    const std::int32_t count = p.trace.met.at(n.shape);
+    if (n.occurrence != 0 && count > most_alike) continue;
+    for (const Edit& e : edits_at(at)) {
+      if (n.occurrence == 0) add(p, {at}, -1, e);
+      if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
+      // Of two or three that are met in each round of a loop.
+      for (const std::int32_t period : {2, 3})
+        if (count > most_alike && count % period == 0 && count <= 8 * period && e.name.starts_with("another member"))
+          for (std::int32_t first = 0; first < period; ++first) add(p, {at}, first, e, period);
     }
   }
-  return out;
-}
-
-/// Channels that one lookup gives.
-std::vector<Nodes> lookups_of(const Probe& p) {
-  std::vector<Nodes> out;
-  std::set<std::uint32_t> done;
-  const auto image = [&](std::int32_t at) {
-    const std::string text = words_for(p, at);
-    const std::size_t dot = text.rfind('.');
-    return dot + 2 == text.size() ? text.substr(0, dot) : std::string();
-  };
-  constexpr std::size_t most = 24;
-  const auto count = static_cast<std::int32_t>(p.trace.nodes.size());
-  constexpr std::int32_t near = 12;  // what a lookup does for its next channel
-  for (std::int32_t at = 0; at < count && out.size() < most; ++at) {
-    if (node_of(p, at).op != Op::lookup || node_of(p, at).occurrence != 0) continue;
-    const std::string name = image(at);
-    if (name.empty() || done.contains(node_of(p, at).shape)) continue;
-    Nodes v{at};
-    for (std::int32_t next = at + 1; next < count && next - v.back() <= near && v.size() < 3; ++next)
-      if (node_of(p, next).op == Op::lookup && node_of(p, next).occurrence == 0 && image(next) == name &&
-          node_of(p, next).shape != node_of(p, v.back()).shape)
-        v.push_back(next);
-    for (const std::int32_t i : v) done.insert(node_of(p, i).shape);
-    if (v.size() > 1) out.push_back(std::move(v));
-  }
-  return out;
 }
 
 }  // namespace
@@ -224,7 +130,7 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
                      bool copies, const std::vector<Probe>& all) {
   Adder add(out, known, most);
   for (const Probe& p : probes) {
-    const std::vector<Nodes> vectors = groups_of(p);
+    const std::vector<Nodes> vectors = vector_groups_of(p);
     for (const Nodes& v : vectors) {
       for (const Edit& e : vector_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
     }
@@ -254,49 +160,33 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     }
     for (const std::vector<std::size_t>& at : vectors_of(p)) {
       const Nodes v(at.begin(), at.end());
-      for (const Edit& e : edits_of(p, v[0], false)) add(p, v, -1, e);
+      for (const Edit& e : edits_of(p, v[0])) add(p, v, -1, e);
+      for (const Edit& e : exchanges_of(p, v[0], false)) add(p, v, -1, e);
     }
-    for (const bool is_rarer : {false, true}) {
-      if (is_rarer) {
-        add.extend();
-        constexpr std::size_t most_joint = 300;
-        for (const auto of_several : {branch_edits_of, constant_edits_of}) {
-          std::vector<JointEdit> joint = of_several(p);
-          if (joint.size() > most_joint) joint.resize(most_joint);
-          for (const JointEdit& e : joint) add(p, e.nodes, -1, e.edit);
-        }
-        // A function of the text that is called several times has an edit in each call.
-        for (const SharedPlace& place : shared_places_of(all)) {
-          if (add.is_full()) break;
-          const Probe& of = all[place.probe];
-          // What is put together otherwise in several places that only look alike is rather a chance.
-          for (const Edit& e : edits_of(of, place.node, false))
-            if (e.name.starts_with("another") || e.name.starts_with("held") || e.name.starts_with("wrapped") ||
-                e.name.starts_with("ceiling"))
-              add.shared(of, place, e);
-        }
-      }
-      for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
-        const Node& n = node_of(p, at);
-        if (is_leaf(n.op)) continue;
-        const std::int32_t count = p.trace.met.at(n.shape);
-        if (n.occurrence != 0 && count > most_alike) continue;
-        if (!is_rarer)
-          for (const Edit& e : value_curve_edits_of(p, {at})) {
-            if (n.occurrence == 0) add(p, {at}, -1, e);
-            if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
-          }
-        if (n.op == Op::lookup) continue;
-        for (const Edit& e : is_rarer ? rarer_edits_of(p, at) : edits_of(p, at, copies)) {
-          if (n.occurrence == 0) add(p, {at}, -1, e);
-          if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
-          // Of two or three that are met in each round of a loop.
-          for (const std::int32_t period : {2, 3})
-            if (count > most_alike && count % period == 0 && count <= 8 * period && e.name.starts_with("another member"))
-              for (std::int32_t first = 0; first < period; ++first) add(p, {at}, first, e, period);
-        }
-      }
+    // What is put together otherwise, then parts in each other's place, of which there are most, then what is rarer.
+    each_place(add, p, [&](std::int32_t at) {
+      std::vector<Edit> made = edits_of(p, at);
+      for (Edit& e : value_curve_edits_of(p, {at})) made.push_back(std::move(e));
+      return made;
+    });
+    each_place(add, p, [&](std::int32_t at) { return exchanges_of(p, at, copies); });
+    add.extend();
+    constexpr std::size_t most_joint = 300;
+    for (const auto of_several : {branch_edits_of, constant_edits_of}) {
+      std::vector<JointEdit> joint = of_several(p);
+      if (joint.size() > most_joint) joint.resize(most_joint);
+      for (const JointEdit& e : joint) add(p, e.nodes, -1, e.edit);
     }
+    // A function of the text that is called several times has an edit in each call.
+    for (const SharedPlace& place : shared_places_of(all)) {
+      if (add.is_full()) break;
+      const Probe& of = all[place.probe];
+      // What is put together otherwise in several places that only look alike is rather a chance.
+      for (const Edit& e : edits_of(of, place.node))
+        if (e.name.starts_with("another") || e.name.starts_with("held") || e.name.starts_with("wrapped") || e.name.starts_with("ceiling"))
+          add.shared(of, place, e);
+    }
+    each_place(add, p, [&](std::int32_t at) { return rarer_edits_of(p, at); });
   }
 }
 

@@ -27,9 +27,8 @@ class Edits {
   Edits(const Probe& p, std::int32_t node, std::vector<Edit>& out)
       : p_(p), node_(node), all_(expression_of(p, node, 3)), text_(words_for(p, node)), out_(out) {}
 
-  void run(bool copies) {
+  void run() {
     if (!all_.is_operation()) return;
-    swaps();
     regrouped();
     of_each_part();
     for (Edit& e : curve_edits_of(p_, node_)) out_.push_back(std::move(e));
@@ -37,6 +36,10 @@ class Edits {
     of_each_term();
     functions();
     updated();
+  }
+  void exchange(bool copies) {
+    if (!all_.is_operation()) return;
+    swaps();
     if (copies) copied();
   }
 
@@ -285,9 +288,14 @@ std::vector<Edit> rarer_edits_of(const Probe& p, std::int32_t node) {
     for (Edit& e : of(p, node)) out.push_back(std::move(e));
   return out;
 }
-std::vector<Edit> edits_of(const Probe& p, std::int32_t node, bool copies) {
+std::vector<Edit> edits_of(const Probe& p, std::int32_t node) {
   std::vector<Edit> out;
-  Edits(p, node, out).run(copies);
+  Edits(p, node, out).run();
+  return out;
+}
+std::vector<Edit> exchanges_of(const Probe& p, std::int32_t node, bool copies) {
+  std::vector<Edit> out;
+  Edits(p, node, out).exchange(copies);
   return out;
 }
 

@@ -43,8 +43,10 @@ struct Edit {
   std::vector<Expression> made;  ///< of each place
   std::string name, sentence;
 };
-/// Of one place. `copies`: parts that stand for each other, too.
-std::vector<Edit> edits_of(const Probe& p, std::int32_t node, bool copies);
+/// Of one place.
+std::vector<Edit> edits_of(const Probe& p, std::int32_t node);
+/// Of one place: parts in each other's place. `copies`: one in place of another, too.
+std::vector<Edit> exchanges_of(const Probe& p, std::int32_t node, bool copies);
 /// Of an operation that is a polynomial of one number: another curve of it. Empty where it is none.
 std::vector<Edit> curve_edits_of(const Probe& p, std::int32_t node);
 /// Of one place: what is made with other things than its own parts.

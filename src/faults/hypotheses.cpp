@@ -155,7 +155,7 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
     std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(p.model.values()));
     for (const Texel at : spread(failing, 4)) p.model.evaluate(at.x, at.y, unused.data());
   });
-  if (!drawn.empty()) add_draw_faults(all, drawn);
+  if (!drawn.empty()) add_draw_faults(all, drawn), add_counter_faults(all, p.pass, p.c);
   add_output_mixups(all, p, before);
   add_tap_faults(all, p);
   add_input_mixups(all, p);

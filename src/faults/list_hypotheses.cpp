@@ -25,6 +25,7 @@ std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCas
   const capture::PassEvaluations* evaluations = judge::evaluations_of(p.c.effect, p.c.pass);
   if (!p.bind && evaluations && evaluations->recompute) {
     add_draw_faults(all, purposes_drawn([&] { static_cast<void>(evaluations->recompute(p.c)); }));
+    add_counter_faults(all, p.pass, p.c);
     add_uniform_values(all, p);
   }
   return all;
@@ -57,7 +58,7 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list, bool stand_
   // Where records stand alone most are none after a few of them; else all are evaluated for each, so that fewer are asked where they
   // are many.
   const std::size_t nodes = probes.empty() ? 1 : probes[0].trace.nodes.size();
-  const std::size_t most = std::min<std::size_t>(600, 1 + (stand_alone ? 40000000 : 8000000) / nodes);
+  const std::size_t most = std::min<std::size_t>(1200, 1 + (stand_alone ? 40000000 : 8000000) / nodes);
   add_shared_place_faults(all, probes, known);
   add_order_faults(all, probes, known, most);
   add_order_faults(all, alike, {}, most);

@@ -6,6 +6,7 @@
 
 #include "faults/edits.h"
 #include "faults/targets.h"
+#include "faults/vector_groups.h"
 
 namespace rainref::faults {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using perturbed::FormulaStep;
 using perturbed::Op;
 using Node = perturbed::Trace::Node;
-using Nodes = std::vector<std::int32_t>;
 
 bool can_be_had(const Expression& e) {
   if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;

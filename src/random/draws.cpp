@@ -26,8 +26,10 @@ std::uint32_t joined(std::uint32_t a, std::uint32_t b, Join by) {
 Block Mixing::hashed(Block v) const {
   for (std::uint32_t& x : v) x = x * multiplier + increment;
   const auto stirred = [&] {
+    const Block before = v;
+    const Block& from = is_stirred_at_once ? before : v;
     for (std::size_t k = 0; k < v.size(); ++k)
-      if (static_cast<int>(k) != line_left_out) v[k] = joined(v[k], v[factors[k][0]] * v[factors[k][1]], stir);
+      if (static_cast<int>(k) != line_left_out) v[k] = joined(v[k], from[factors[k][0]] * from[factors[k][1]], stir);
   };
   if (stirs[0]) stirred();
   for (std::uint32_t& x : v) x = joined(x, is_shift_left ? x << shift : x >> shift, fold);

@@ -23,6 +23,7 @@ struct Mixing {
   Join stir = Join::sum;                                                                 ///< a word and the product of two others
   std::array<std::array<std::uint8_t, 2>, 4> factors{{{1, 3}, {2, 0}, {0, 1}, {1, 2}}};  ///< of that product, for each word
   std::array<bool, 2> stirs{true, true};                                                 ///< whether before and after the fold
+  bool is_stirred_at_once = false;                                                       ///< each line from the words of before the stir
   int line_left_out = -1;                                                                ///< a word that neither stir changes
   Join keyed_by = Join::exclusive_or;                  ///< the counters and the first two words of the key
   std::array<bool, 2> is_keyed{true, true};            ///< whether each counter meets the key at all

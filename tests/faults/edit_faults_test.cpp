@@ -341,6 +341,17 @@ TEST(Draws, ACounterWhoseFactorStandsAtTheOtherTermAndPlacesOfFewerBits) {
   mixed.mixing->keyed_by = random::Join::sum;
   const random::Block key = random::pcg4d({9, 0, static_cast<std::uint32_t>(random::Purpose::screen_drop), 0});
   EXPECT_EQ(mixed.block(9, random::Purpose::screen_drop, 7, 11), random::pcg4d({7 + key[0], 11 + key[1], key[2], key[3]}));
+  mixed.mixing.emplace().is_stirred_at_once = true;
+  const auto at_once = [](random::Block v) {
+    for (std::uint32_t& x : v) x = x * 1664525u + 1013904223u;
+    const auto stir = [&] { v = {v[0] + v[1] * v[3], v[1] + v[2] * v[0], v[2] + v[0] * v[1], v[3] + v[1] * v[2]}; };
+    stir();
+    for (std::uint32_t& x : v) x ^= x >> 16;
+    stir();
+    return v;
+  };
+  const random::Block made = at_once({9, 0, static_cast<std::uint32_t>(random::Purpose::screen_drop), 0});
+  EXPECT_EQ(mixed.block(9, random::Purpose::screen_drop, 7, 11), at_once({7 ^ made[0], 11 ^ made[1], made[2], made[3]}));
   random::Draws low;
   low.turned[2] = 10;
   EXPECT_EQ(low.block(9, random::Purpose::screen_drop, 7, 11)[2] >> 22, random::block(9, random::Purpose::screen_drop, 7, 11)[2] & 1023);
