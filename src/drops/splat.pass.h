@@ -167,7 +167,7 @@ struct SplatPassText {
     std::vector<Stamp<N> > near;
     SplatUniforms u = uniforms;
     for (const Drop& d : SplatPass::counted(uniforms, io.drops.records))
-      if (SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}))
+      if (pass::meets_all<N>() || SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}))
         near.push_back(splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life)));
     u.drop_count = static_cast<std::int32_t>(near.size());
     const bool rounds_each = SplatPass::rounds_inside(u);

@@ -110,6 +110,8 @@ int far_fetched(const Cause& c) {
   if (c.of_records && c.name.ends_with("one step late")) return 4;
   // Channels of a result that hold the same by chance.
   if (!c.name.starts_with("input ") && c.name.find(" with its ") != std::string::npos) return 3;
+  // Where one of two channels is read, the other one in its place is plainer than both exchanged.
+  if (c.name.ends_with("first two channels swapped")) return 1;
   // Half or twice a number is rather a term or factor of what it stands in; and where few records fail, 0 rather another number.
   if (c.name.ends_with(" halved") || c.name.ends_with(" doubled")) return 1 + (parts > 3);
   if (c.name.ends_with(" is zero") && c.of_records && c.of < 8) return 1;
@@ -131,6 +133,12 @@ int far_fetched(const Cause& c) {
                                                               {"unpacked by", 1},
                                                               {"packed by", 1},
                                                               {"less a half", 2},
+                                                              {"taken for its root", 1},
+                                                              {"taken as 1", 1},
+                                                              {"exchanged between", 1},
+                                                              {"without squares", 1},
+                                                              {"factor of another", 1},
+                                                              {"blended for", 1},
                                                               {"and a half", 2},
                                                               {"rounded to 8 bits: ", 2},
                                                               {"moved outward", 2},

@@ -85,6 +85,20 @@ class Adder {
     out_.push_back(std::move(d));
   }
 
+  /// The same at all places where the components look alike so few operations deep.
+  void shared(const Probe& p, const Nodes& v, std::int8_t depth, Edit edit) {
+    edit.name += ", in each such place";
+    edit.sentence += ", and so wherever a vector is made alike: a function that is called several times";
+    const std::size_t before = out_.size();
+    (*this)(p, v, -1, edit);
+    if (out_.size() == before) return;
+    for (std::size_t c = 0; c < v.size(); ++c) {
+      Rewrite& r = (*out_.back().rewrites)[c];
+      r.shape = node_of(p, v[c]).shallow[static_cast<std::size_t>(depth - 1)];
+      r.occurrence = -1;
+      r.depth = depth;
+    }
+  }
   /// At all places that look alike so few operations deep.
   void shared(const Probe& p, const SharedPlace& place, Edit edit) {
     if (is_full()) return;
@@ -94,7 +108,7 @@ class Adder {
     (*this)(p, {place.node}, -1, edit);
     if (out_.size() == before) return;
     Rewrite& r = (*out_.back().rewrites)[0];
-    r.shape = node_of(p, place.node).shallow[static_cast<std::size_t>(place.depth - 1)];
+    r.shape = shape_of(node_of(p, place.node), place);
     r.depth = place.depth;
   }
 
@@ -134,6 +148,21 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     for (const Nodes& v : vectors) {
       for (const Edit& e : vector_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
     }
+    // Of a function that is called several times, in each call.
+    std::map<std::uint32_t, std::set<std::uint32_t>> calls;
+    for (const Node& n : p.trace.nodes) calls[n.shallow[1]].insert(n.shape);
+    std::set<std::vector<std::uint32_t>> asked;
+    for (const Nodes& v : vectors) {
+      std::vector<std::uint32_t> shallow;
+      bool is_called = true;
+      for (const std::int32_t at : v) {
+        shallow.push_back(node_of(p, at).shallow[1]);
+        is_called &= calls[shallow.back()].size() > 1;
+      }
+      if (!is_called || std::set<std::uint32_t>(shallow.begin(), shallow.end()).size() < v.size() || !asked.insert(shallow).second)
+        continue;
+      for (const Edit& e : vector_edits_of(p, v)) add.shared(p, v, 2, e);
+    }
     for (const Nodes& v : vectors)
       for (const Edit& e : value_curve_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
     for (const Nodes& v : lookups_of(p))
@@ -158,8 +187,12 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
       for (const Edit& e : filter.second) every.made.push_back(e.made[0]);
       add(p, filter.first, -1, every);
     }
-    for (const std::vector<std::size_t>& at : vectors_of(p)) {
-      const Nodes v(at.begin(), at.end());
+    std::vector<Nodes> same;
+    for (const std::vector<std::size_t>& at : vectors_of(p)) same.emplace_back(at.begin(), at.end());
+    for (const Nodes& v : vectors)
+      if (!are_alike(p, v) && std::all_of(v.begin(), v.end(), [&](std::int32_t i) { return node_of(p, i).op == node_of(p, v[0]).op; }))
+        same.push_back(v);
+    for (const Nodes& v : same) {
       for (const Edit& e : edits_of(p, v[0])) add(p, v, -1, e);
       for (const Edit& e : exchanges_of(p, v[0], false)) add(p, v, -1, e);
     }
@@ -181,9 +214,14 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     for (const SharedPlace& place : shared_places_of(all)) {
       if (add.is_full()) break;
       const Probe& of = all[place.probe];
-      // What is put together otherwise in several places that only look alike is rather a chance.
-      for (const Edit& e : edits_of(of, place.node))
-        if (e.name.starts_with("another") || e.name.starts_with("held") || e.name.starts_with("wrapped") || e.name.starts_with("ceiling"))
+      // What is put together otherwise in several places that only look alike is rather a chance; in the rounds of a loop it is none.
+      const bool is_loop = place.depth == perturbed::by_sequence;
+      std::vector<Edit> made = edits_of(of, place.node);
+      if (is_loop)
+        for (Edit& e : value_curve_edits_of(of, {place.node})) made.push_back(std::move(e));
+      for (const Edit& e : made)
+        if (is_loop || e.name.starts_with("another") || e.name.starts_with("held") || e.name.starts_with("wrapped") ||
+            e.name.starts_with("ceiling"))
           add.shared(of, place, e);
     }
     each_place(add, p, [&](std::int32_t at) { return rarer_edits_of(p, at); });

@@ -34,6 +34,8 @@ class Edits {
     for (Edit& e : curve_edits_of(p_, node_)) out_.push_back(std::move(e));
     norms();
     of_each_term();
+    lengths();
+    factor_of_other_terms();
     functions();
     updated();
   }
@@ -176,6 +178,63 @@ class Edits {
     }
   }
 
+  /// |a| - b for a a - b b, and the like of sums.
+  void lengths() {
+    if (all_.step.op != Op::sum && all_.step.op != Op::difference && all_.step.op != Op::comparison) return;
+    for (const std::size_t k : {0u, 1u}) {
+      if (!all_.of[k].is_operation() || all_.of[k].step.op != Op::square) continue;
+      Expression e = all_;
+      e.of[k] = all_.of[k].of[0];
+      e.of[1 - k] = operation(Op::root, {operation(Op::maximum, {all_.of[1 - k], number_of(0)})});
+      keep(e, "without squares: " + text_of(p_, e), instead(e) + ": lengths themselves in place of their squares");
+    }
+    // A squared length beside a number that is a square.
+    const auto is_squared_length = [](const Expression& e) {
+      return e.is_operation() && e.step.op == Op::sum && e.of[0].is_operation() && e.of[0].step.op == Op::square &&
+             e.of[1].is_operation() && e.of[1].step.op == Op::square;
+    };
+    for (const std::size_t k : {0u, 1u}) {
+      if (!is_squared_length(all_.of[k]) || !is_constant(p_, all_.of[1 - k])) continue;
+      Expression e = all_;
+      for (Expression& side : e.of) side = operation(Op::root, {operation(Op::maximum, {side, number_of(0)})});
+      keep(e, "without squares: " + text_of(p_, e), instead(e) + ": lengths themselves in place of their squares");
+    }
+  }
+  /// x k + y: k multiplies y, or one of the terms of it, too.
+  void factor_of_other_terms() {
+    if (all_.step.op != Op::sum && all_.step.op != Op::difference) return;
+    std::vector<const Expression*> terms;
+    const std::function<void(const Expression&)> collect = [&](const Expression& e) {
+      if (e.is_operation() && (e.step.op == Op::sum || e.step.op == Op::difference)) {
+        for (const Expression& of : e.of) collect(of);
+      } else {
+        terms.push_back(&e);
+      }
+    };
+    collect(all_);
+    for (const Expression* from : terms) {
+      if (!from->is_operation() || from->step.op != Op::product) continue;
+      for (const std::size_t k : {0u, 1u})
+        for (const Expression* to : terms) {
+          if (to == from || to->node < 0 || from->of[k].node < 0) continue;
+          const std::string factor = words_for(p_, from->of[k].node), term = words_for(p_, to->node);
+          if (is_dots(factor) || is_dots(term)) continue;
+          Expression e = all_;
+          // The same term of the copy, by where it stands.
+          std::vector<Expression*> before, after;
+          parts(all_, before);
+          parts(e, after);
+          for (std::size_t at = 0; at < before.size(); ++at)
+            if (before[at] == to) {
+              *after[at] = operation(Op::product, {*to, from->of[k]});
+              break;
+            }
+          keep(e, fmt::format("factor of another term: {} of {}", factor, term),
+               fmt::format("in {} {} multiplies {} too, which it should not", text_, factor, term));
+        }
+    }
+  }
+
   /// One operation for another.
   void functions() {
     const auto with = [&](Op op, const char* name, const char* why) {
@@ -206,6 +265,12 @@ class Edits {
                     fmt::format("for {} {} is rounded up", text_, text_of(p_, all_.of[0])));
       case Op::minimum:
       case Op::maximum:
+        for (const std::size_t k : {0u, 1u})
+          if (all_.of[k].is_operation() && all_.of[k].step.op == Op::product)
+            for (const std::size_t j : {0u, 1u}) {
+              const Expression e = operation(Op::mix, {all_.of[1 - k], all_.of[k].of[1 - j], all_.of[k].of[j]});
+              keep(e, "blended for the larger or smaller: " + text_of(p_, e), instead(e));
+            }
         if (all_.of[0].is_operation() && all_.of[0].step.op != all_.step.op &&
             (all_.of[0].step.op == Op::minimum || all_.of[0].step.op == Op::maximum)) {
           keep(all_.of[0].of[0], "clamp left out: " + text_,

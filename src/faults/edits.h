@@ -21,6 +21,8 @@ struct Expression {
 Expression number_of(float value);
 /// What a node gives, as a part of what stands there instead.
 Expression itself(std::int32_t node);
+/// A part of expression_of() as the value that stands there, whatever else changes it, in place of what it is made of.
+Expression as_part(const Expression& e);
 Expression operation(perturbed::Op op, std::vector<Expression> of);
 
 /// A node of a probe with what it is made of, so many operations deep; its parts are paths from it.

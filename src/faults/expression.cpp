@@ -28,6 +28,7 @@ Expression built(const Probe& p, std::int32_t node, std::array<std::int8_t, 6> p
     return e;
   }
   e.step.op = op;
+  e.step.path = path;  // for as_part()
   for (int k = 0; k < takes; ++k) {
     std::array<std::int8_t, 6> below = path;
     below[length] = static_cast<std::int8_t>(k);
@@ -79,6 +80,12 @@ Expression itself(std::int32_t node) {
   e.step.kind = Kind::itself;
   e.node = node;
   return e;
+}
+Expression as_part(const Expression& e) {
+  Expression out = e;
+  out.of.clear();
+  out.step.kind = e.step.path[0] < 0 ? Kind::itself : Kind::part;
+  return out;
 }
 Expression operation(Op op, std::vector<Expression> of) {
   Expression e;

@@ -224,7 +224,9 @@ void add_inputs(std::vector<Fault>& out, const PassCase& c, const PassCase* befo
       if (info(i.array.format).channels == 2) {
         for (const int from : {0, 1}) {
           add(from == 0 ? "with its first channel for both" : "with its second channel for both",
-              fmt::format("of {} the same channel is read for both", name), [from](Array& a) { copy_channel(a, from, 1 - from); });
+              fmt::format("of {0} the {1} channel is read for both: {0}.{2} where {0}.{3} is meant", name, from == 0 ? "first" : "second",
+                          "xy"[from], "yx"[from]),
+              [from](Array& a) { copy_channel(a, from, 1 - from); });
           out.back().for_diagnosis = true;
         }
       }

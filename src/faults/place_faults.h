@@ -24,9 +24,11 @@ void add_shared_place_faults(std::vector<Fault>& out, const std::vector<Probe>& 
 struct SharedPlace {
   std::size_t probe;  ///< of those given
   std::int32_t node;
-  std::int8_t depth;   ///< 1 or 2
+  std::int8_t depth;   ///< 1 or 2, or by_sequence
   std::size_t shapes;  ///< how many there are
 };
+/// By what it is known there.
+std::uint32_t shape_of(const perturbed::Trace::Node& n, const SharedPlace& place);
 /// What is said of a mistake there after that of one place.
 std::string words_for_all(const SharedPlace& place);
 std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes);

@@ -155,7 +155,8 @@ std::string Probe::text(std::int32_t node, int depth) const {
   const Node& n = trace.nodes[static_cast<std::size_t>(node)];
   if (is_leaf(n.op)) return names[static_cast<std::size_t>(node)];
   if (n.op == Op::lookup) return text(n.of[2], depth);
-  if (n.op == Op::level || n.op == Op::coordinate || n.op == Op::argument || n.op == Op::bent) return text(n.of[0], depth);
+  if (n.op == Op::level || n.op == Op::coordinate || n.op == Op::argument || n.op == Op::bent || n.op == Op::stored)
+    return text(n.of[0], depth);
   if (depth == 0) return n.op == Op::sum && is_of_column(n) ? text(n.of[0], depth) + " + 0.5" : "...";
   // One deeper with each choice too: the steps of a march choose between each other, and twice as many texts with each step.
   if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth - 1), text(n.of[1], depth - 1));

@@ -27,6 +27,7 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
       case Op::comparison:
       case Op::coordinate:
       case Op::level:
+      case Op::stored:
         return false;
       case Op::sum:
       case Op::difference:
@@ -73,6 +74,24 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
               [](const SharedPlace& a, const SharedPlace& b) { return a.probe != b.probe ? a.probe < b.probe : a.node > b.node; });
     out.insert(out.end(), found.begin(), found.end());
   }
+  // What a loop does in each round, whose first one has other values than those that follow.
+  constexpr std::size_t most_rounds = 400, most_in_loops = 60;
+  std::vector<SharedPlace> in_loops;
+  for (std::size_t k = 0; k < std::min<std::size_t>(probes.size(), 1); ++k) {
+    std::map<std::uint32_t, std::pair<std::int32_t, std::set<std::uint32_t>>> classes;  // the last node, shapes
+    for (std::int32_t at = 0; at < static_cast<std::int32_t>(probes[k].trace.nodes.size()); ++at) {
+      const Node& n = probes[k].trace.nodes[static_cast<std::size_t>(at)];
+      if (n.sequence == 0 || n.op == Op::lookup || n.op == Op::comparison || n.op == Op::coordinate || n.op == Op::level) continue;
+      auto& [node, shapes] = classes[n.sequence];
+      node = at;
+      shapes.insert(n.shape);
+    }
+    for (const auto& [sequence, found] : classes)
+      if (found.second.size() > 1 && found.second.size() < most_rounds && done.insert(found.second).second)
+        in_loops.push_back({k, found.first, perturbed::by_sequence, found.second.size()});
+  }
+  std::sort(in_loops.begin(), in_loops.end(), [](const SharedPlace& a, const SharedPlace& b) { return a.node > b.node; });
+  if (in_loops.size() > most_in_loops) in_loops.resize(most_in_loops);
   // Named functions first; of a long pass fewer, because each is evaluated.
   const auto rarity = [&](const SharedPlace& place) {
     return is_rare(probes[place.probe].trace.nodes[static_cast<std::size_t>(place.node)].op);
@@ -81,10 +100,15 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
   std::size_t nodes = 1;
   for (const Probe& p : probes) nodes = std::max(nodes, p.trace.nodes.size());
   out.resize(std::min(out.size(), std::clamp<std::size_t>(40000 / nodes, 8, most)));
+  out.insert(out.end(), in_loops.begin(), in_loops.end());
   return out;
 }
 
+std::uint32_t shape_of(const Node& n, const SharedPlace& place) {
+  return place.depth == perturbed::by_sequence ? n.sequence : n.shallow[static_cast<std::size_t>(place.depth - 1)];
+}
 std::string words_for_all(const SharedPlace& place) {
+  if (place.depth == perturbed::by_sequence) return ", in every round of a loop";
   return place.shapes > 1
              ? fmt::format(", and so in all {} places that are made alike: a function that is called several times", place.shapes)
              : ", wherever it is made alike: a function that is called several times";
@@ -99,7 +123,7 @@ void add_shared_place_faults(std::vector<Fault>& out, const std::vector<Probe>& 
       Fault d;
       d.name = w.name + ", in each such place";
       d.sentence = w.sentence + words_for_all(place);
-      d.behaviour.places[0] = {n.shallow[static_cast<std::size_t>(place.depth - 1)], -1, w.fault, 0, place.depth};
+      d.behaviour.places[0] = {shape_of(n, place), -1, w.fault, 0, place.depth};
       d.at_texel = [shared](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = shared.get(); };
       d.for_diagnosis = true;
       d.is_one_of_many = true;

@@ -43,6 +43,14 @@ bool is_plain(Put how, Change change) {
   return (how <= Put::from && change <= Change::halved) || change == Change::none || how == Put::instead;
 }
 
+/// What may be written for a number by a slip.
+std::vector<float> other_numbers(float v) {
+  std::vector<float> out{-v, 2 * v, v / 2, 10 * v, v / 10, v + 1, v - 1, v * v, 1 / v, 1 - v, 0.25f, 0.5f, 0.75f, 1.5f, 2.5f};
+  for (int k = 0; k <= 12; ++k) out.push_back(static_cast<float>(k));
+  std::erase_if(out, [&](float other) { return other == v || !std::isfinite(other); });
+  return out;
+}
+
 class Search {
  public:
   Search(const Probed& p, const std::vector<Solvable>& texels, const std::vector<float>& known)
@@ -226,6 +234,19 @@ class Search {
           --left;
           if (suits(places)) keep(s.effort + effort_of(how, Change::none), places, said(first_, t, s, how, Change::none));
         }
+      // Another literal or uniform there alone.
+      if (value >= 0 && node_of(first_, value).op == Op::constant)
+        for (const float number : other_numbers(node_of(first_, value).value)) {
+          for (Substitution& place : places)
+            place.how = Put::instead, place.back = 0, place.ahead = -1, place.number = number, place.change = Change::none;
+          if (left == 0) break;
+          --left;
+          const std::string own = words_for(first_, value), where = words_for(first_, t.nodes[0]);
+          if (suits(places))
+            keep(6, places,
+                 {fmt::format("another value of {} in {}", own, where),
+                  fmt::format("in {} stands {:.6g} in place of {}", where, number, own)});
+        }
       std::size_t tried = 0;
       for (const Source& s : sources_for(first_, t, groups_, none)) {
         if (left < 3 || ++tried > 200) break;
@@ -325,13 +346,14 @@ class Search {
   /// A number in its place, or a factor or a term that is one, where the operand itself is none.
   void number(const Target& t, const Solution& solution) {
     const std::int32_t value = t.value_at(first_, 0);
-    if (value >= 0 && node_of(first_, value).op == Op::constant) return;
+    const bool is_constant = value >= 0 && node_of(first_, value).op == Op::constant;
     const std::size_t n = t.nodes.size();
     std::vector<Substitution> places = t.places(first_);
     for (const Put how : {Put::instead, Put::times, Put::plus}) {
       const float now = t.now(first_, 0);
       const double at = solution.at[0];
       if (how == Put::instead && n > 1) continue;
+      if (is_constant && how != Put::instead) continue;
       const auto number = static_cast<float>(how == Put::instead ? at : how == Put::times ? at / now : at - now);
       if (!std::isfinite(number)) continue;
       for (Substitution& place : places) place.how = how, place.number = number, place.back = 0, place.change = Change::none;

@@ -164,7 +164,8 @@ void add_later(const Probe& p, const Target& t, std::vector<Source>& out) {
     bool follows = is_in(at);
     for (const std::int32_t of : n.of) follows = follows || (of >= 0 && is_of_target[static_cast<std::size_t>(of)]);
     is_of_target[static_cast<std::size_t>(at)] = follows;
-    if (follows || n.op == Op::comparison || n.op == Op::coordinate || n.op == Op::level || n.op == Op::argument) continue;
+    if (follows || n.op == Op::comparison || n.op == Op::coordinate || n.op == Op::level || n.op == Op::argument || n.op == Op::stored)
+      continue;
     const std::string text = words_for(p, at);
     if (text.find_first_not_of(".+-*/ ()") == std::string::npos || !names.insert({text, n.value}).second) continue;
     if (n.op == Op::constant) {

@@ -59,6 +59,11 @@ const std::vector<Curve>& plain_curves() {
       {"held to [0, 1]", "x held to [0, 1]", clamped},
       {"unpacked by 2 x - 1", "2 x - 1", [](const Expression& x) { return difference(product(number_of(2), x), number_of(1)); }},
       {"packed by x / 2 + 1/2", "x / 2 + 1/2", [](const Expression& x) { return sum(product(number_of(0.5f), x), number_of(0.5f)); }},
+      {"taken for its root", "sqrt(x)",
+       [](const Expression& x) {
+         return operation(Op::root, {operation(Op::maximum, {x, number_of(0)})});
+       }},
+      {"taken as 1", "1", [](const Expression&) { return number_of(1); }},
       {"less a half", "x - 1/2", [](const Expression& x) { return difference(x, number_of(0.5f)); }},
       {"and a half", "x + 1/2", [](const Expression& x) { return sum(x, number_of(0.5f)); }},
   };

@@ -119,6 +119,23 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
       }
     }
 
+  // One operand of each component in the other one.
+  for (const std::size_t k : {0u, 1u}) {
+    const std::vector<std::int32_t> all = operands(p, v, k);
+    if (all.empty() || n != 2 || all[0] == all[1] || operands(p, v, 1 - k).empty()) continue;
+    std::vector<Expression> made;
+    for (const std::size_t c : {0u, 1u}) {
+      Expression e = expression_of(p, v[c], 1);
+      if (!e.is_operation() || e.of.size() != 2) break;
+      e.of[k] = elsewhere(p, all[1 - c], v[c], v);
+      made.push_back(std::move(e));
+    }
+    if (made.size() == n)
+      add(std::move(made), fmt::format("exchanged between components: {} and {} in {}", words_for(p, all[0]), words_for(p, all[1]), vector),
+          fmt::format("in {} {} and {} stand in each other's place, each in the other component", vector, words_for(p, all[0]),
+                      words_for(p, all[1])));
+  }
+
   // Of something that takes a matrix times a vector: the vector as it is, there alone.
   for (const std::size_t k : {0u, 1u}) {
     const std::optional<Product> inner = product_of(p, operands(p, v, k));

@@ -32,7 +32,7 @@ bool is_weighted(const Probe& p, std::int32_t node) {
 }
 bool collect(const Probe& p, const Expression& e, float weight, std::vector<Tap>& out, bool is_top = false) {
   if (!is_top && is_weighted(p, e.node)) {
-    out.push_back({weight, e});
+    out.push_back({weight, as_part(e)});
     return true;
   }
   if (e.is_operation() && (e.step.op == Op::sum || e.step.op == Op::difference))

@@ -58,6 +58,7 @@ int operands_of(Op op) {
     case Op::coordinate:
     case Op::level:
     case Op::argument:
+    case Op::stored:
       return 1;
     case Op::mix:
     case Op::smoothstep:

@@ -105,6 +105,7 @@ struct Behaviour {
   Substitutions* substitutions = nullptr;     ///< other values for operands; start()ed before each invocation
   const std::vector<float>* loads = nullptr;  ///< what the texels loaded by integers are instead, in order
   std::size_t loaded = 0;                     ///< of these so far: 0 before each invocation
+  std::uint64_t recent = 0;                   ///< the last ten operations, six bits each: 0 before each invocation
   float column_offset = 0;                    ///< added to the element's own column
   bool is_column_mirrored = false;            ///< the column is column_offset less itself instead
   bool reaches_all = false;                   ///< records that count at no texel nearby are met too: a mistake may change that
@@ -212,6 +213,10 @@ class Perturbed {
     return behaviour().follows() ? follow(op, result, {&of...}) : result;
   }
   static bool met(bool result, const Perturbed& a, const Perturbed& b) { return behaviour().follows() ? follow(result, a, b) : result; }
+
+  static bool meets_all() { return behaviour().reaches_all; }
+  /// What a result is given: a place of its own, where something else may stand than where the same value counts otherwise.
+  Perturbed as_stored() const { return met(Op::stored, *this, *this); }
 
   /// Its place in Behaviour::trace; -1: none.
   std::int32_t node() const { return node_; }

@@ -76,6 +76,7 @@ Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of) {
     case Op::level:
     case Op::argument:
     case Op::bent:
+    case Op::stored:
       return a;
     case Op::comparison:
       return a.v < b.v ? Perturbed::of(1.0f) : b.v < a.v ? Perturbed::of(0.0f) : r;
@@ -294,6 +295,8 @@ void Perturbed::leaf(Op op, std::uint32_t shape) {
   shape_.fill(hashed(static_cast<std::uint32_t>(op) + 1, shape));
   Behaviour& b = behaviour();
   if (b.substitutions) b.substitutions->meet(shape_[0], v);
+  if (b.trace && b.trace->nodes.empty()) b.recent = 0;
+  b.recent = b.recent << 6 | (static_cast<std::uint64_t>(op) + 1);
   if (!b.trace) return;
   node_ = static_cast<std::int32_t>(b.trace->nodes.size());
   b.trace->nodes.push_back({op, v, shape_[0], b.trace->met[shape_[0]]++});
@@ -303,12 +306,15 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   Perturbed r = result;
   if (unseen > 0) return r;
   Behaviour& b = behaviour();
-  // depth[k] sees k operations below this one.
-  std::array<std::uint32_t, 4> depth;
+  if (b.trace && b.trace->nodes.empty()) b.recent = 0;
+  b.recent = b.recent << 6 | (static_cast<std::uint64_t>(op) + 1);
+  // depth[k] sees k operations below this one; the last of them the operations before it.
+  std::array<std::uint32_t, 5> depth;
   depth.fill(hashed(0, static_cast<std::uint32_t>(op) + 1));
   for (const Perturbed* operand : of)
-    for (std::size_t k = 1; k < depth.size(); ++k) depth[k] = hashed(depth[k], operand->shape_[k - 1]);
-  const std::uint32_t shape = depth.back();
+    for (std::size_t k = 1; k <= whole_depth; ++k) depth[k] = hashed(depth[k], operand->shape_[k - 1]);
+  const std::uint32_t shape = depth[whole_depth];
+  depth[by_sequence] = hashed(static_cast<std::uint32_t>(b.recent), static_cast<std::uint32_t>(b.recent >> 32));
   for (Place& place : b.places) {
     if (place.fault == PlaceFault::none || place.shape != depth[static_cast<std::size_t>(place.depth)]) continue;
     const std::int32_t occurrence = place.seen++;
@@ -351,6 +357,7 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed* operand) { return operand->node_; });
   std::transform(of.begin(), of.end(), node.with.begin(), [](const Perturbed* operand) { return operand->v; });
   node.shallow = {depth[1], depth[2]};
+  node.sequence = depth[by_sequence];
   r.node_ = static_cast<std::int32_t>(b.trace->nodes.size());
   b.trace->nodes.push_back(node);
   return r;

@@ -45,7 +45,8 @@ enum class Op : std::uint8_t {
   lookup,
   level,     ///< of detail
   argument,  ///< a component of a vector that a named function of several is given
-  bent       ///< of a refracted ray, and the same of the ray before
+  bent,      ///< of a refracted ray, and the same of the ray before
+  stored     ///< what a channel of a result is given
 };
 
 /// What one mistake makes of the operation at a place.
@@ -86,6 +87,8 @@ enum class PlaceFault : std::uint8_t {
 /// How many operations below it the shape of a place sees; with fewer it is found wherever a text looks alike so far down, as where
 /// a function of it is called several times with arguments of other kinds.
 constexpr std::int8_t whole_depth = 3;
+/// A place known by the operations that were done just before it: of a loop the same in every round, whatever its values came from.
+constexpr std::int8_t by_sequence = 4;
 
 struct Place {
   std::uint32_t shape = 0;
@@ -183,6 +186,7 @@ struct Trace {
     std::array<std::int32_t, 4> of{-1, -1, -1, -1};  ///< nodes; -1: none, or a number of unknown origin
     std::array<float, 4> with{};                     ///< the operands themselves
     std::array<std::uint32_t, 2> shallow{};          ///< shapes one and two operations deep
+    std::uint32_t sequence = 0;                      ///< of the last operations up to it
   };
   std::vector<Node> nodes;
   std::map<std::uint32_t, std::int32_t> met;  ///< of each shape so far

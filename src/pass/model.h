@@ -158,9 +158,7 @@ struct Bound : Inputs<P> {
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
       } else if constexpr (requires { to.records; }) {
-        bool reaches_all = false;
-        if constexpr (std::is_same_v<N, perturbed::Perturbed>) reaches_all = perturbed::behaviour().reaches_all;
-        to.records = from.at(x, y, reaches_all);
+        to.records = from.at(x, y, meets_all<N>());
       } else if constexpr (requires { to.planes; }) {
         to.planes = &from.planes;
         to.y = y;
@@ -266,7 +264,11 @@ class BoundModel : public capture::ModelOf<Bound<P, Text>> {
  public:
   using capture::ModelOf<Bound<P, Text>>::ModelOf;
   bool chooses_records() const override {
-    return requires { &P::near; };
+    bool is_any = false;
+    each<P>(this->pass().captured, [&](const auto& member) {
+      is_any |= requires { member.records; };
+    });
+    return is_any;
   }
   bool rounds_inside() const override {
     if constexpr (requires { P::rounds_inside(this->pass().uniforms); })

@@ -42,20 +42,27 @@ struct NumberCursors {
     N* out = nullptr;
     int channels = 0;
     Rounding rounding = Rounding::rne;  ///< of the store that follows
+    /// A number that follows what is done sees the place.
+    static N to_result(const N& value) {
+      if constexpr (requires { value.as_stored(); })
+        return value.as_stored();
+      else
+        return value;
+    }
     Result(Out) {}
     Result(Out, Out) {}
-    void operator()(N v) const { out[0] = v; }
+    void operator()(N v) const { out[0] = to_result(v); }
     /// The first two channels of a format that may have more; those are 0.
     void operator()(N first, N second) const {
-      out[0] = first;
-      out[1] = second;
+      out[0] = to_result(first);
+      out[1] = to_result(second);
       for (int c = 2; c < channels; ++c) out[c] = N(0.0f);
     }
     void operator()(const scalar::Vec3<N>& v, N w) const {
-      out[0] = v.x;
-      out[1] = v.y;
-      out[2] = v.z;
-      out[3] = w;
+      out[0] = to_result(v.x);
+      out[1] = to_result(v.y);
+      out[2] = to_result(v.z);
+      out[3] = to_result(w);
     }
   };
 };
