@@ -63,7 +63,8 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
     m.hold(2 * image(Format::r16f, columns, rows) + image(Format::rgba16f, columns, rows) +
            (s.corrected ? image(Format::r32f, columns, rows) : 0));  // height, mask, normal, wiped
     if (s.surface.height_tau > 0) m.hold(image(Format::r16f, columns, rows));
-    if (s.condensation.on) m.hold(image(Format::r32f, columns, rows) + image(Format::r16f, columns, rows));  // clear_time, condensation
+    if (s.condensation.on) m.hold(image(Format::r32f, columns, rows) + image(Format::r16f, columns, rows));      // clear_time, condensation
+    if (s.smear.on && (k == 0 || !of.wipers.blades.empty())) m.hold(2 * image(Format::rgba16f, columns, rows));  // laid, smear
     wet_more += wet.held() - dry.held();
     wet_most = std::max(wet_most, wet.peak() - wet.held());
   }

@@ -6,6 +6,7 @@
 #include "windshield/mist.pass.h"
 #include "windshield/motion_host.h"
 #include "windshield/panes.h"
+#include "windshield/soften.pass.h"
 #include "windshield/wipe_drops.h"
 
 namespace rainref::windshield {
@@ -50,6 +51,11 @@ WetPane::WetPane(const Settings& settings, int number, const parallel::Executor&
   mask_ = make_mask(settings_.surface);
   if (corrected_) wiped_ = make_wiped(settings_.surface);
   normal_ = Image(Format::rgba16f, w, h);
+  if (settings_.smear.on && has_blades_) {
+    laid_ = make_laid(settings_.surface);
+    smear_ = make_laid(settings_.surface);
+    profile_ = smear_profile(settings_.smear, settings_.seed);
+  }
   if (!settings_.condensation.on) return;
   clear_time_ = make_clear_time(settings_.condensation, settings_.surface);
   condensation_ = Image(Format::r16f, w, h);
@@ -134,6 +140,7 @@ void WetPane::list_state(state::Items& items) {
   water_.list_state(items);
   if (settings_.surface.height_tau > 0) items.image("height", height_);
   if (settings_.condensation.on) items.image("clear_time", clear_time_);
+  if (has_blades_ && settings_.smear.on) items.image("laid", laid_);
   if (!has_blades_) return;
   if (corrected_)
     items.image("wiped", wiped_);
@@ -155,7 +162,25 @@ void WetPane::leave_traces(const pass::Moment& now, int frame) {
   }
 
   if (has_blades_) wipe_texture(now, frame);
+  if (has_blades_ && settings_.smear.on) leave_smear(now);
   if (settings_.condensation.on) condense(now, frame);
+}
+
+void WetPane::leave_smear(const pass::Moment& now) {
+  SmearUniforms uniforms = smear_uniforms(settings_.smear, settings_.surface);
+  uniforms.wiper_count = static_cast<std::int32_t>(wipers_.size());
+  pass::HostIo<SmearPass> io;
+  io.height = height_;
+  io.wiped = wiped_;
+  io.laid = laid_;
+  io.wipers = wipers_;
+  io.profile = profile_;
+  io.smear = smear_;
+  io.new_laid = laid_;
+  pass::Run<SmearPass> run(uniforms, corrected_, settings_.surface.rounding, io);
+  run.start(now);
+  run.tiles(executor_, 16, 64);  // few blades reach a tile of it
+  run.finish(now);
 }
 
 void WetPane::condense(const pass::Moment& now, int frame) {
@@ -197,6 +222,21 @@ void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTextur
   seen.glints = lights;
   seen.colour = colour;
   draw_all(pass::Run<CompositePass>(view_, corrected_, settings_.surface.rounding, seen), now, executor_, before);
+}
+
+void WetPane::soften(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
+                     Image& colour) const {
+  if (!has_blades_) return;
+  pass::HostIo<SoftenPass> io;
+  io.blurred.set(pyramid.view(), levels);
+  const std::vector<Deflection> turns = deflections(settings_.smear);
+  io.deflections = turns;
+  io.smear = smear_;
+  io.colour = colour;
+  io.softened = colour;
+  draw_all(
+      pass::Run<SoftenPass>(soften_uniforms(settings_.smear, view_, levels.front().width()), corrected_, settings_.surface.rounding, io),
+      now, executor_);
 }
 
 void WetPane::mist(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const {

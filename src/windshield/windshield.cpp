@@ -145,6 +145,7 @@ void Windshield::State::look_through(const pass::Moment& now) {
     of_pane.step = static_cast<int>(k);
     Image& seen = k == 0 ? colour : pane_colour;
     panes[k]->composite(of_pane, *pyramid, levels, scene.depth, lights, seen, k == 0 ? refreshed : 0);
+    if (settings.smear.on) panes[k]->soften(of_pane, *pyramid, levels, seen);
     if (settings.condensation.on) panes[k]->mist(of_pane, *pyramid, levels, seen);
     if (k == 0) continue;
     pass::HostIo<JoinPanesPass> io;
@@ -267,6 +268,10 @@ const Image& Windshield::film(int pane) const {
 const Image& Windshield::normal(int pane) const {
   const FloatingPointGuard guard;
   return state_->pane(pane).normal();
+}
+const Image& Windshield::smear(int pane) const {
+  const FloatingPointGuard guard;
+  return state_->pane(pane).smear();
 }
 const Image& Windshield::condensation(int pane) const {
   const FloatingPointGuard guard;

@@ -87,6 +87,8 @@ const std::vector<Branch> branches{
      "wrong constant"},
     {"Mist", "windshield-corrected", {"condensation.on=true", "condensation.tau=0.5"}, "condense", "wrong constant"},
     {"ThroughMist", "windshield-corrected", {"condensation.on=true", "condensation.blur_lod=1.3"}, "mist", "wrong constant"},
+    {"Smear", "windshield-corrected", {"smear.on=true", "smear.drying=2"}, "smear", "wrong constant"},
+    {"ThroughSmear", "windshield-corrected", {"smear.on=true", "smear.spread=9"}, "soften", "wrong constant"},
     {"Inside", "windshield-corrected", {"interior.on=true"}, "interior", "wrong constant"},
     {"Trails", "windshield-as-published", {"windshield.height_tau=0.3"}, "persist", "wrong constant"},
     {"Panes", "windshield-corrected", {"windshield.panes=1.7 0.6 0.9, 1.7 0.1 0.9, 1.6 0.6 1.6"}, "join_panes", "wrong constant"},
