@@ -13,9 +13,9 @@ namespace rainref::windshield {
 
 struct SmearSettings {
   bool on = false;
-  double wear = 0.3;      ///< 0 a new blade, 1 a ragged one: more and thicker streaks
-  double drying = 0.6;    ///< time in which the thickest streak dries [s]
-  double most = 0.8;      ///< share of the light that the thickest streak scatters
+  double wear = 0.3;        ///< 0 a new blade, 1 a ragged one: more and thicker streaks
+  double drying = 0.6;      ///< time in which the thickest streak dries [s]
+  double most = 0.8;        ///< share of the light that the thickest streak scatters
   double spread_deg = 3.5;  ///< angle beyond which none is turned
 };
 
