@@ -88,16 +88,19 @@ drops::Exposure WetPane::exposure(std::int64_t n, double t, const VehicleState& 
 
 void WetPane::step(const pass::Moment& now, std::int64_t n, double t, const VehicleState& car, const Weather& weather) {
   const WindshieldFrameUniforms frame_uniforms = windshield_frame_uniforms(glass_, car, weather.wind(t), settings_.gravity, corrected_);
-  drops::GlassFrame moving{};
   pass::HostIo<WindshieldFramePass> given;
-  given.glass_frame.list = [&] { return RecordView{&moving, 1, sizeof moving}; };
-  run<WindshieldFramePass>(now, frame_uniforms, given, [&] { moving = windshield_frame(frame_uniforms, corrected_); });
+  given.glass_frame.list = [&] { return RecordView{&forces_, 1, sizeof forces_}; };
+  run<WindshieldFramePass>(now, frame_uniforms, given, [&] { forces_ = windshield_frame(frame_uniforms, corrected_); });
 
   water_.spawn(now, exposure(n, t, car, weather), n);
-  water_.integrate(now, moving);
+  water_.integrate(now, forces_);
 
   if (has_blades_) wipe(now, n, t);
   if (corrected_) water_.merge(now, n);
+}
+
+void WetPane::take_forces(double t, const VehicleState& car, const Weather& weather) {
+  forces_ = windshield_frame(windshield_frame_uniforms(glass_, car, weather.wind(t), settings_.gravity, corrected_), corrected_);
 }
 
 // As published the first frame has no frame before it: the blades stand.
@@ -152,7 +155,7 @@ void WetPane::leave_traces(const pass::Moment& now, int frame) {
   const Rounding rounding = settings_.surface.rounding;
   const bool persists = settings_.surface.height_tau > 0;
   if (persists) std::swap(height_, previous_height_);
-  water_.splat(now, settings_.splat, height_);
+  water_.splat(now, settings_.splat, forces_, height_);
   if (persists) {
     pass::HostIo<PersistPass> io;
     io.height = height_;

@@ -40,6 +40,8 @@ class WetPane {
   /// Of a step like step(): the blades alone, whose way of a frame the passes on its textures take. For a frame that was simulated
   /// elsewhere.
   void sweep(std::int64_t n, double t, double dt);
+  /// Likewise the forces on its drops in that step, by which they lean.
+  void take_forces(double t, const VehicleState& car, const Weather& weather);
 
   const Settings& settings() const { return settings_; }
   /// Records of the frame's steps, in order.
@@ -72,7 +74,8 @@ class WetPane {
   PlaneFrame plane_;
   CompositeUniforms view_;
   drops::WetGlass water_;
-  std::vector<Wiper> wipers_;  ///< of the frame
+  drops::GlassFrame forces_{};  ///< of the last step
+  std::vector<Wiper> wipers_;   ///< of the frame
   Image height_, mask_, wiped_, normal_;
   Image previous_height_;            ///< where it persists
   Image laid_, smear_, profile_;     ///< with smear, of a pane with blades

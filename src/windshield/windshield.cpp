@@ -41,6 +41,7 @@ void Windshield::State::list(state::Items& items) {
       pane->begin_frame();
       for (std::int64_t n = std::max<std::int64_t>(0, steps - settings.substeps); n < steps; ++n)
         pane->sweep(n, static_cast<double>(n) * step_time(), step_time());
+      if (const double last = static_cast<double>(steps - 1) * step_time(); steps > 0) pane->take_forces(last, vehicle.at(last), weather);
     }
   });
 }

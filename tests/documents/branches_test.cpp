@@ -87,6 +87,7 @@ const std::vector<Branch> branches{
      "wrong constant"},
     {"Mist", "windshield-corrected", {"condensation.on=true", "condensation.tau=0.5"}, "condense", "wrong constant"},
     {"ThroughMist", "windshield-corrected", {"condensation.on=true", "condensation.blur_lod=1.3"}, "mist", "wrong constant"},
+    {"Lean", "windshield-corrected", {"windshield.lean=1"}, "splat", "wrong constant"},
     {"Smear", "windshield-corrected", {"smear.on=true", "smear.drying=2"}, "smear", "wrong constant"},
     {"ThroughSmear", "windshield-corrected", {"smear.on=true", "smear.spread=9"}, "soften", "wrong constant"},
     {"Inside", "windshield-corrected", {"interior.on=true"}, "interior", "wrong constant"},
