@@ -121,6 +121,10 @@ TEST(Smear, ALampIsDrawnOutAcrossTheArcs) {
     }
   }
   ASSERT_GT(sum, 0);
+  EXPECT_GT(yy, 30 * xx);
+  // Weights that fall as (1 - t)^2 to t = 17/16 of 21.5 pixels (below) have a tenth of its square as variance; the lamp's own pixels,
+  // which are left out, and its two texels add some.
+  EXPECT_NEAR(yy / sum, 0.1 * (21.5 * 17 / 16) * (21.5 * 17 / 16), 4);
   // tan 3.5 degrees of the image plane, whose half is tan 20 degrees, is 21.5 pixels; then a texel or two of the level.
   EXPECT_GT(within, 0.999 * sum);
 }
