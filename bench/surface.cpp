@@ -63,8 +63,8 @@ void naive(const drops::SplatUniforms& u, std::span<const drops::Drop> all, Imag
     for (int y = y0; y < y1; ++y) {
       Half* row = height.row<Half>(y);
       for (int x = x0; x < x1; ++x) {
-        const F drop = drops::scalar::splat_contribution(u, drops::SplatKernel::paraboloid, s, F(static_cast<float>(x) + 0.5f),
-                                                         F(static_cast<float>(y) + 0.5f));
+        const F drop = drops::scalar::splat_contribution<false>(u, drops::SplatKernel::paraboloid, s, F(static_cast<float>(x) + 0.5f),
+                                                                F(static_cast<float>(y) + 0.5f));
         store(row + x, F::load(row + x) + drop, Rounding::rne);
       }
     }

@@ -86,9 +86,11 @@ class Windshield {
   /// The live drops of a pane, in slot order.
   std::vector<DropView> drops(int pane = 0) const;
   MassBalance mass_balance(int pane = 0) const;
-  const Image& height(int pane = 0) const;        ///< r16f [mm]
-  const Image& mask(int pane = 0) const;          ///< r16f: 1 just wiped; 0 everywhere on a further pane without wipers
-  const Image& film(int pane = 0) const;          ///< corrected: r32f, whole mass units in a texel
+  const Image& height(int pane = 0) const;  ///< r16f [mm]
+  const Image& mask(int pane = 0) const;    ///< r16f: 1 just wiped; 0 everywhere on a further pane without wipers
+  const Image& film(int pane = 0) const;    ///< corrected: r32f, whole mass units in a texel
+  /// corrected, with smear.on, of a pane with blades: rgba16f, x, y along the blade that left the film, z its thickness, 1 the thickest
+  const Image& smear(int pane = 0) const;
   const Image& condensation(int pane = 0) const;  ///< corrected, with condensation.on: r16f, share of the light that the mist scatters
   const Image& normal(int pane = 0) const;        ///< rgba16f: normal in the axes of the glass
   // Of the picture:

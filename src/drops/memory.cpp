@@ -10,11 +10,12 @@
 
 namespace rainref::drops {
 
-MemoryPeak memory(const Settings& s, int columns, int rows, std::int64_t live) {
+MemoryPeak memory(const Settings& s, int columns, int rows, std::int64_t live, bool lean) {
   const auto drops = static_cast<std::uint64_t>(live);
   MemoryPeak m;
   m.hold(DropArrays::memory_bytes(s.capacity));
   m.hold(drops * (sizeof(Drop) + sizeof(StampRecord)));  // listed, and to be drawn
+  if (lean) m.hold(drops * sizeof(LeanRecord));
   if (!s.corrected) return m;
   m.hold(Image::memory_bytes(Format::r32f, columns, rows));
   // merge: place, radius and cell by slot; cell and slot; place, radius, mass, id and slot by cell; the larger one; the cells.

@@ -45,8 +45,15 @@ std::vector<MemberParameter<SplatKeys>> splat_members(const std::string& prefix)
       real<&SplatKeys::smallest_radius>(key("smallest_radius"), "texel", 0, 16,
                                         "A smaller drop is drawn this wide and as much lower, so that no drop falls between texels.")
           .only(correct),
+      real<&SplatKeys::lean>(key("lean"), "1", 0, 1,
+                             "Share in which drops that contact-angle hysteresis holds lean with gravity, wind and the car: longer, wider "
+                             "and steeper below; 0: all are round.")
+          .only(correct),
   };
 }
+
+constexpr double longest = 0.3, tapered = 0.3;  // of a drop that is just held
+constexpr double steepest = 89 * degree, most_skewed = 0.95;
 
 }  // namespace
 
@@ -82,6 +89,57 @@ double kernel_volume(SplatKernel kernel) {
     default:
       return pi;
   }
+}
+
+double kernel_moment(SplatKernel kernel) {
+  switch (kernel) {
+    case SplatKernel::paraboloid:
+      return 1.0 / 6;
+    case SplatKernel::quartic:
+      return 1.0 / 8;
+    case SplatKernel::smoothstep:
+      return 5.0 / 42;
+    case SplatKernel::hemisphere:
+      return 1.0 / 5;
+    default:
+      return 1.0 / 4;
+  }
+}
+
+Pull pull_on_drops(const Settings& s, const PlaneFrame& frame, const GlassFrame& glass) {
+  const IntegrateUniforms one = integrate_uniforms(s, frame, 1);
+  const double hold = static_cast<double>(one.hold);
+  const auto in_plane = [&](const float(&v)[2]) {
+    const double along = static_cast<double>(v[0]), up = static_cast<double>(v[1]);
+    return std::array<double, 2>{frame[0] * along + frame[1] * up, frame[2] * up};
+  };
+  const std::array<double, 2> gravity = in_plane(glass.gravity), wind = in_plane(glass.wind);
+  const double push = static_cast<double>(one.wind_push) * __builtin_sqrt(wind[0] * wind[0] + wind[1] * wind[1]);
+  Pull pull;
+  if (!(hold > 0)) return pull;
+  pull.gravity = {gravity[0] / hold, gravity[1] / hold};
+  pull.wind = {push * wind[0] / hold, push * wind[1] / hold};
+  pull.wetting = {s.advancing_deg * degree, s.receding_deg * degree};
+  return pull;
+}
+
+SplatUniforms splat_uniforms(const SplatSettings& s, const Pull& pull) {
+  SplatUniforms u = splat_uniforms(s);
+  if (!(s.keys.lean > 0) || !(pull.wetting.advancing > 0)) return u;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    u.gravity[axis] = static_cast<float>(pull.gravity[axis]);
+    u.wind[axis] = static_cast<float>(pull.wind[axis]);
+  }
+  const auto tangent = [](double angle) {
+    const Real64 below(std::min(angle, steepest));
+    return (sin_real(below) / cos_real(below)).v;
+  };
+  const double advancing = tangent(pull.wetting.advancing), receding = tangent(pull.wetting.receding);
+  u.longer = static_cast<float>(s.keys.lean * longest);
+  u.taper = static_cast<float>(s.keys.lean * tapered);
+  u.skew = static_cast<float>(s.keys.lean * std::min((advancing - receding) / (advancing + receding), most_skewed));
+  u.moment = static_cast<float>(kernel_moment(s.keys.kernel));
+  return u;
 }
 
 SplatUniforms splat_uniforms(const SplatSettings& s) {

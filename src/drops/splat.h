@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "drops/host.h"
+#include "drops/physics.h"
 #include "drops/records.h"
 #include "drops/splat_kernels.h"
 #include "rainref/executor.h"
@@ -25,6 +27,7 @@ struct SplatKeys {
   double drop_radius = 4e-3;     ///< as-published: of a drop of mass 1 [m]
   double drop_height = 0.8;      ///< as-published: of a drop of mass 1 [mm]
   double smallest_radius = 1.5;  ///< corrected: what a drop is drawn with at least [texel]
+  double lean = 0;               ///< corrected: share in which held drops lean; 0: all are round
 };
 /// The scene keys of SplatKeys, behind "prefix.".
 std::vector<scene::Parameter> splat_parameters(const std::string& prefix);
@@ -38,13 +41,26 @@ struct SplatSettings {
   std::array<double, 3> frame{1, 0, 1};
   double contact_angle = 0.6;  ///< corrected: of the drops' caps, in (0, pi) [rad]
 };
+/// What pulls on the drops of a glass, over what hysteresis holds, for a drop of one mass unit; in axes of the plane.
+struct Pull {
+  std::array<double, 2> gravity{}, wind{};
+  Wetting wetting{};  ///< how steep drops are where they advance and recede
+};
+/// glass_frame as integrate takes it, of a corrected glass.
+Pull pull_on_drops(const Settings& settings, const PlaneFrame& frame, const GlassFrame& glass);
 
 /// Base radius of a spherical cap of one mass unit of water [m]; that of m mass units is m^(1/3) times as large.
 double cap_radius(double contact_angle);
 /// Volume under a kernel of radius 1 and height 1.
 double kernel_volume(SplatKernel kernel);
+/// Mean of the squared distance from a line through its middle, under such a kernel.
+double kernel_moment(SplatKernel kernel);
 /// Everything but the number of drops. In double, each rounded once.
 SplatUniforms splat_uniforms(const SplatSettings& settings);
+/// With drops that lean, as far as the settings say. One that is just held is 1.3 times as long as round, of the order of what A. I.
+/// ElSherbini and A. M. Jacobi measured (J. Colloid Interface Sci. 273, 2004), and its slopes at both ends are as the tangents of the
+/// contact angles; its taper is chosen.
+SplatUniforms splat_uniforms(const SplatSettings& settings, const Pull& pull);
 
 /// Room that splat works in, kept from frame to frame.
 struct SplatScratch {

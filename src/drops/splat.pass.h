@@ -2,6 +2,11 @@
 //
 //   height = film + drops in slot order,    a drop gives h kernel(q),    q = |distance in the plane of the glass| / R
 //
+// Contact-angle hysteresis holds a drop by its line: the more pulls on it, the longer it is, the wider below, and the steeper where
+// it would advance. With a along the pull and b across, in lengths of its own,
+//   gives h (1 + K a) kernel(q),    q^2 = (a / L)^2 + (b / (1 + T a / L))^2,    h over L (1 + T K <a^2>)
+// which keeps its volume, and lays its centre of mass below its middle. T = K = 0, L = 1: round.
+//
 // R and h grow as the cube root of the mass. as-published measures each axis by its own length, so frame[1] is 0 there;
 // corrected measures in the plane, where a drop is round on sheared glass too. Needs drop-inl.h.
 #ifndef RAINREF_FN
@@ -22,7 +27,7 @@ namespace rainref::drops {
 /// Its lanes are written by hand, drop by drop: see splat_kernels.cpp.
 struct SplatPass {
   static constexpr pass::About about{
-      "splat", "The height of the water: every live drop, in slot order; corrected: on the film.", {1}, {1}, {}, "ordered_scatter"};
+      "splat", "The height of the water: every live drop, in slot order; corrected: on the film.", {1}, {2}, {"length"}, "ordered_scatter"};
   using Uniforms = SplatUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -37,7 +42,13 @@ struct SplatPass {
          member<&U::kernel>("kernel", "1", {0, 4}, "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
          member<&U::blend>("blend", "1", {0, 2}, "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
          member<&U::drop_count>("drop_count", "1", {0, DropArrays::most_slots}, "Drops in the list."),
-         member<&U::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a mass unit in a texel.")});
+         member<&U::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a mass unit in a texel."),
+         member<&U::gravity>("gravity", "1", {-1e9, 1e9}, "corrected: pull on a drop of mass 1, in plane axes, over what holds it."),
+         member<&U::wind>("wind", "1", {-1e9, 1e9}, "corrected: the same of the wind."),
+         member<&U::longer>("longer", "1", scene::share, "corrected: of a drop that is just held, its length more than round."),
+         member<&U::taper>("taper", "1", scene::share, "corrected: its width's slope along its half length."),
+         member<&U::skew>("skew", "1", scene::share, "corrected: its height's slope along its half length."),
+         member<&U::moment>("moment", "1", scene::share, "corrected: mean squared place along it, over its half length squared.")});
   }
   /// Whether a drop may add something to a tile of texels. Others surely add nothing: this one ends a texel and a fiftieth of its radius
   /// further out than the text says.
@@ -50,7 +61,8 @@ struct SplatPass {
     // From the middle of the tile to the farthest centre in it, and a texel more.
     const double columns = 0.5 * (t.x1 - t.x0) + 0.5, rows = 0.5 * (t.y1 - t.y0) + 0.5;
     const double around = magnitude(u.frame[0]) * columns + (magnitude(u.frame[1]) + magnitude(u.frame[2])) * rows;
-    const double needed = (__builtin_sqrt(plane_x * plane_x + plane_y * plane_y) - around) / 1.02;  // of the radius
+    const double reach = 1.02 * static_cast<double>(lean_reach(u));
+    const double needed = (__builtin_sqrt(plane_x * plane_x + plane_y * plane_y) - around) / reach;  // of the radius
     const double scale = u.radius_scale;
     return needed < u.smallest_radius || needed * needed * needed < scale * scale * scale * d.mass;
   }
@@ -83,12 +95,28 @@ struct SplatPass {
 template <class N>
 struct Stamp {
   N x, y, radius, inverse_radius_sq, height;
+  // Of one that leans: a unit vector in the plane, 1 over its half length and half width, slopes.
+  N lean_x, lean_y, inverse_length, inverse_radius, taper, skew;
   RAINREF_FN Stamp() {}
 };
 /// x / max(x, least): the share of a drop's own radius in the one that it is drawn with.
 template <class N>
 RAINREF_FN N over_larger(N x, float least) {
   return x / max(x, N(least));
+}
+/// Which way a drop leans, and how far: 1 where hysteresis just holds it, and where it slides.
+template <class N>
+struct Lean {
+  N x, y, load;
+};
+template <class N>
+RAINREF_FN Lean<N> lean_of(const SplatUniforms& u, N root) {
+  const N root_sq = square(root);
+  const N x = root_sq * N(u.gravity[0]) + root * N(u.wind[0]), y = root_sq * N(u.gravity[1]) + root * N(u.wind[1]);
+  const N size = length(x, y), inverse = N(1.0f) / max(size, N(1e-6f));
+  // On which nothing pulls is round whatever the way.
+  const auto is_pulled = size > N(1e-6f);
+  return {select(is_pulled, x * inverse, N(1.0f)), select(is_pulled, y * inverse, N(0.0f)), min(size, N(1.0f))};
 }
 template <class N>
 RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position_v, N mass, N life) {
@@ -99,7 +127,19 @@ RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position
   s.radius = max(own, N(u.smallest_radius));
   s.inverse_radius_sq = N(1.0f) / square(s.radius);
   // A drop drawn wider than it is keeps its volume.
-  const N height = (N(u.height_scale) * root) * square(over_larger(own, u.smallest_radius));
+  N height = (N(u.height_scale) * root) * square(over_larger(own, u.smallest_radius));
+  if (leans(u)) {
+    const N one(1.0f);
+    const Lean<N> lean = lean_of(u, root);
+    const N stretched = one + N(u.longer) * lean.load;
+    s.lean_x = lean.x;
+    s.lean_y = lean.y;
+    s.inverse_radius = one / s.radius;
+    s.inverse_length = s.inverse_radius / stretched;
+    s.taper = N(u.taper) * lean.load;
+    s.skew = N(u.skew) * lean.load;
+    height = height / (stretched * (one + (s.taper * s.skew) * N(u.moment)));
+  }
   s.height = select(life > N(0.0f), height, N(0.0f));
   return s;
 }
@@ -122,10 +162,15 @@ RAINREF_FN N splat_profile(SplatKernel kernel, N q_sq) {
   }
 }
 /// What a drop gives to the texel with its centre at (x, y) [texel].
-template <class N>
+template <bool is_leaning, class N>
 RAINREF_FN N splat_contribution(const SplatUniforms& u, SplatKernel kernel, const Stamp<N>& s, N x, N y) {
   const N column = x - s.x, row = y - s.y;
   const N plane_x = N(u.frame[0]) * column + N(u.frame[1]) * row, plane_y = N(u.frame[2]) * row;
+  if constexpr (is_leaning) {
+    const N one(1.0f), a = (s.lean_x * plane_x + s.lean_y * plane_y) * s.inverse_length;
+    const N b = ((s.lean_x * plane_y - s.lean_y * plane_x) * s.inverse_radius) / max(one + s.taper * a, N(0.0625f));
+    return (s.height * max(one + s.skew * a, N(0.0f))) * splat_profile(kernel, square(a) + square(b));
+  }
   return s.height * splat_profile(kernel, (square(plane_x) + square(plane_y)) * s.inverse_radius_sq);
 }
 template <class N>
@@ -140,7 +185,9 @@ RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, int x, 
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
   N height(0.0f);
   for (int i = 0; i < u.drop_count; ++i) {
-    const N drop = splat_contribution(u, static_cast<SplatKernel>(u.kernel), stamps[i], fx, fy);
+    const auto kernel = static_cast<SplatKernel>(u.kernel);
+    const N drop =
+        leans(u) ? splat_contribution<true>(u, kernel, stamps[i], fx, fy) : splat_contribution<false>(u, kernel, stamps[i], fx, fy);
     height = blended(splat_blend(static_cast<SplatBlend>(u.blend), height, drop));
   }
   return height;

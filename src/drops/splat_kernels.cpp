@@ -33,8 +33,11 @@ void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops
   const int n = Lanes::size(), drop_count = static_cast<int>(drops.size()), height = static_cast<int>(u.size[1]);
   const float shear = u.frame[1] / u.frame[2];
   const float columns = wider * __builtin_sqrtf(1.0f + shear * shear) / u.frame[0], rows = wider / u.frame[2];
-  HWY_ALIGN float in[4][HWY_MAX_BYTES / sizeof(float)] = {}, made[5][HWY_MAX_BYTES / sizeof(float)];
+  HWY_ALIGN float in[4][HWY_MAX_BYTES / sizeof(float)] = {}, made[11][HWY_MAX_BYTES / sizeof(float)];
+  const bool are_leaning = leans(u);
+  const float reach = lean_reach(u);
   StampRecord seen[drops_of_chunk];
+  std::vector<LeanRecord> lean(are_leaning ? drops.size() : 0);
   int seen_count = 0;
   std::array<std::uint32_t, Bands::most + 1> count{};
   for (int first = 0; first < drop_count; first += n) {
@@ -49,11 +52,17 @@ void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops
     const Stamp<Lanes> s = splat_stamp(u, Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2]), Lanes::load(in[3]));
     const Lanes fields[5] = {s.x, s.y, s.radius, s.inverse_radius_sq, s.height};
     for (int f = 0; f < 5; ++f) hn::Store(fields[f].v, Lanes::D(), made[f]);
+    if (are_leaning) {
+      const Lanes leaning[6] = {s.lean_x, s.lean_y, s.inverse_length, s.inverse_radius, s.taper, s.skew};
+      for (int f = 0; f < 6; ++f) hn::Store(leaning[f].v, Lanes::D(), made[5 + f]);
+    }
     for (int k = 0; k < lanes; ++k) {
-      const float x = made[0][k], y = made[1][k], radius = made[2][k];
+      const float x = made[0][k], y = made[1][k], radius = reach * made[2][k];
       const float half_width = radius * columns + more, half_height = radius * rows + more;
       const int first_row = past(y - half_height, height), end_row = past(y + half_height - 1, height);
       if (!(made[4][k] > 0 && x + half_width > 0 && x - half_width < u.size[0] && first_row < end_row)) continue;
+      if (are_leaning)
+        lean[static_cast<std::size_t>(seen_count)] = {made[5][k], made[6][k], made[7][k], made[8][k], made[9][k], made[10][k]};
       seen[seen_count++] = {x, y, radius, made[3][k], made[4][k], half_width, first_row, end_row};
       for (int band = first_row / bands.rows; band <= (end_row - 1) / bands.rows; ++band) ++count[static_cast<std::size_t>(band)];
     }
@@ -64,18 +73,21 @@ void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops
     total += count[band];
   }
   if (out.stamps.size() < total) out.stamps.resize(total);
+  if (are_leaning && out.leans.size() < total) out.leans.resize(total);
   auto next = out.first;
   for (int i = 0; i < seen_count; ++i) {
     for (int band = seen[i].first_row / bands.rows; band <= (seen[i].end_row - 1) / bands.rows; ++band) {
-      out.stamps[next[static_cast<std::size_t>(band)]++] = seen[i];
+      const std::size_t to = next[static_cast<std::size_t>(band)]++;
+      out.stamps[to] = seen[i];
+      if (are_leaning) out.leans[to] = lean[static_cast<std::size_t>(i)];
     }
   }
 }
 
 /// What a band draws on: halves of the texture itself, or floats that are stored when all drops are in.
-template <SplatKernel kernel, class Target>
-HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const StampRecord& r, int row0, int row1, int width,
-                              const Target& row_of) {
+template <SplatKernel kernel, bool is_leaning, class Target>
+HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const StampRecord& r, const LeanRecord* lean, int row0, int row1,
+                              int width, const Target& row_of) {
   const int n = Lanes::size();
   const SplatBlend blend = static_cast<SplatBlend>(u.blend);
   Stamp<Lanes> s;
@@ -83,8 +95,16 @@ HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const S
   s.y = Lanes(r.y);
   s.inverse_radius_sq = Lanes(r.inverse_radius_sq);
   s.height = Lanes(r.height);
+  if constexpr (is_leaning) {
+    s.lean_x = Lanes(lean->x);
+    s.lean_y = Lanes(lean->y);
+    s.inverse_length = Lanes(lean->inverse_length);
+    s.inverse_radius = Lanes(lean->inverse_radius);
+    s.taper = Lanes(lean->taper);
+    s.skew = Lanes(lean->skew);
+  }
   const auto blend_at = [&](auto* row, int x, float fy) RAINREF_LAMBDA {
-    const Lanes drop = splat_contribution(u, kernel, s, Lanes::index(x) + Lanes(0.5f), Lanes(fy));
+    const Lanes drop = splat_contribution<is_leaning>(u, kernel, s, Lanes::index(x) + Lanes(0.5f), Lanes(fy));
     // Rows of sums have room for a whole vector.
     const int count = std::is_same_v<decltype(row), float*> ? n : std::min(n, width - x);
     store(row + x, splat_blend(blend, Lanes::load(row + x), drop), rounding, count);
@@ -106,12 +126,13 @@ HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const S
   }
 }
 
-// Calls drawn(stamp) for every stamp of the band, in slot order.
+// Calls drawn(stamp, how it leans or null) for every stamp of the band, in slot order.
 template <class Drawn>
 HWY_INLINE HWY_ATTR void for_stamps_of(std::span<const StampChunk> chunks, int band, const Drawn& drawn) {
   const std::size_t b = static_cast<std::size_t>(band);
   for (const StampChunk& chunk : chunks) {
-    for (std::uint32_t i = chunk.first[b]; i < chunk.first[b + 1]; ++i) drawn(chunk.stamps[i]);
+    for (std::uint32_t i = chunk.first[b]; i < chunk.first[b + 1]; ++i)
+      drawn(chunk.stamps[i], chunk.leans.empty() ? nullptr : &chunk.leans[i]);
   }
 }
 
@@ -124,24 +145,25 @@ HWY_INLINE void copy_film_row(const Image& film, int y, float* to) {
   to[width + 1] = from[width - 1];
 }
 
-template <SplatKernel kernel>
+template <SplatKernel kernel, bool is_leaning>
 void band_of(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
   const SplatUniforms u = job.uniforms;
   Image& image = *job.height;
   const int n = Lanes::size(), width = image.width(), y0 = band * bands.rows, y1 = std::min(image.height(), y0 + bands.rows);
-  const auto rows_of = [&](const StampRecord& r, auto&& row_of) RAINREF_LAMBDA {
-    draw<kernel>(u, job.rounding, r, std::max(y0, r.first_row), std::min(y1, r.end_row), width, row_of);
+  const auto rows_of = [&](const StampRecord& r, const LeanRecord* lean, auto&& row_of) RAINREF_LAMBDA {
+    draw<kernel, is_leaning>(u, job.rounding, r, lean, std::max(y0, r.first_row), std::min(y1, r.end_row), width, row_of);
   };
   if (job.half_accumulation) {
     for (int y = y0; y < y1; ++y) std::memset(image.row<Half>(y), 0, static_cast<std::size_t>(width) * sizeof(Half));
-    for_stamps_of(chunks, band,
-                  [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); }); });
+    for_stamps_of(chunks, band, [&](const StampRecord& r, const LeanRecord* lean) RAINREF_LAMBDA {
+      rows_of(r, lean, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); });
+    });
     return;
   }
   const std::size_t pitch = static_cast<std::size_t>(width + n);
   std::vector<float> sums(pitch * static_cast<std::size_t>(y1 - y0));
   const auto sum_row = [&](int y) RAINREF_LAMBDA { return sums.data() + pitch * static_cast<std::size_t>(y - y0); };
-  for_stamps_of(chunks, band, [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, sum_row); });
+  for_stamps_of(chunks, band, [&](const StampRecord& r, const LeanRecord* lean) RAINREF_LAMBDA { rows_of(r, lean, sum_row); });
   const std::size_t film_pitch = pitch + 2;
   std::vector<float> film(job.film ? 3 * film_pitch : 0);
   float* rows[3] = {film.data(), film.data() + film_pitch, film.data() + 2 * film_pitch};
@@ -161,19 +183,23 @@ void band_of(const SplatJob& job, Bands bands, int band, std::span<const StampCh
     }
   }
 }
-void SplatBand(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
+template <bool is_leaning>
+void band_of_kernel(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
   switch (static_cast<SplatKernel>(job.uniforms.kernel)) {
     case SplatKernel::paraboloid:
-      return band_of<SplatKernel::paraboloid>(job, bands, band, chunks);
+      return band_of<SplatKernel::paraboloid, is_leaning>(job, bands, band, chunks);
     case SplatKernel::quartic:
-      return band_of<SplatKernel::quartic>(job, bands, band, chunks);
+      return band_of<SplatKernel::quartic, is_leaning>(job, bands, band, chunks);
     case SplatKernel::smoothstep:
-      return band_of<SplatKernel::smoothstep>(job, bands, band, chunks);
+      return band_of<SplatKernel::smoothstep, is_leaning>(job, bands, band, chunks);
     case SplatKernel::hemisphere:
-      return band_of<SplatKernel::hemisphere>(job, bands, band, chunks);
+      return band_of<SplatKernel::hemisphere, is_leaning>(job, bands, band, chunks);
     case SplatKernel::disc:
-      return band_of<SplatKernel::disc>(job, bands, band, chunks);
+      return band_of<SplatKernel::disc, is_leaning>(job, bands, band, chunks);
   }
+}
+void SplatBand(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
+  leans(job.uniforms) ? band_of_kernel<true>(job, bands, band, chunks) : band_of_kernel<false>(job, bands, band, chunks);
 }
 #undef RAINREF_LAMBDA
 RAINREF_TARGET_END(drops)

@@ -13,9 +13,15 @@ namespace rainref::drops {
 
 /// A drop as splat_stamp gives it, and the texels that it may touch.
 struct StampRecord {
-  float x, y, radius, inverse_radius_sq, height;
+  float x, y;
+  float radius;  ///< of the circle that holds it
+  float inverse_radius_sq, height;
   float half_width;                 ///< of the columns that it reaches [texel]
   std::int32_t first_row, end_row;  ///< half open
+};
+/// How one leans, as splat_stamp gives it.
+struct LeanRecord {
+  float x, y, inverse_length, inverse_radius, taper, skew;
 };
 /// Bands of rows cut the texture by its height alone.
 struct Bands {
@@ -28,6 +34,7 @@ Bands splat_bands(int height);
 /// reaches several stands in each of them.
 struct StampChunk {
   std::vector<StampRecord> stamps;
+  std::vector<LeanRecord> leans;                     ///< of each of them, where drops lean
   std::array<std::uint32_t, Bands::most + 1> first;  ///< stamps [first[b], first[b + 1]) reach band b
 };
 constexpr int drops_of_chunk = 2048;

@@ -31,8 +31,19 @@ struct SplatUniforms {
   std::int32_t blend;     ///< a SplatBlend
   std::int32_t drop_count;
   float film_scale;  ///< corrected: height of a mass unit in a texel [mm]
+  // corrected: how drops lean, that hysteresis holds on their line.
+  float gravity[2];  ///< pull of gravity and inertia on a drop of mass 1, in axes of the plane, over what holds it; with mass^(2/3)
+  float wind[2];     ///< the same of the wind; with mass^(1/3)
+  float longer;      ///< of a drop that hysteresis just holds: what its length is more than round
+  float taper;       ///< its width's slope along its half length
+  float skew;        ///< its height's slope along its half length
+  float moment;      ///< mean of the squared place along it under the kernel, over its half length squared
 };
+/// Whether drops are anything but round.
+inline bool leans(const SplatUniforms& u) { return u.longer != 0 || u.taper != 0 || u.skew != 0; }
+/// No drop reaches further than this many of its radii.
+inline float lean_reach(const SplatUniforms& u) { return 1 + (u.longer > u.taper ? u.longer : u.taper); }
 
-static_assert(sizeof(SplatUniforms) == 48);
+static_assert(sizeof(SplatUniforms) == 80);
 
 }  // namespace rainref::drops

@@ -76,9 +76,9 @@ void WetGlass::merge(const pass::Moment& now, std::int64_t n) {
   run<MergePass>(now, uniforms, std::move(io), [&] { return merger_.run(executor_, drops, uniforms, film); });
 }
 
-void WetGlass::splat(const pass::Moment& now, const SplatSettings& splat, Image& height) {
+void WetGlass::splat(const pass::Moment& now, const SplatSettings& splat, const GlassFrame& glass, Image& height) {
   list();
-  SplatUniforms uniforms = splat_uniforms(splat);
+  SplatUniforms uniforms = settings_.corrected ? splat_uniforms(splat, pull_on_drops(settings_, frame_, glass)) : splat_uniforms(splat);
   uniforms.drop_count = static_cast<std::int32_t>(listed_.size());
   pass::HostIo<SplatPass> io;
   io.drops = listed_;

@@ -28,8 +28,8 @@ class WetGlass {
   void integrate(const pass::Moment& now, const GlassFrame& glass);
   /// corrected.
   void merge(const pass::Moment& now, std::int64_t n);
-  /// The pass of a frame. height: r16f, of the film's size.
-  void splat(const pass::Moment& now, const SplatSettings& splat, Image& height);
+  /// The pass of a frame. glass: of its last step; height: r16f, of the film's size.
+  void splat(const pass::Moment& now, const SplatSettings& splat, const GlassFrame& glass, Image& height);
 
   /// The live drops as records, in slot order; valid until the next call or pass.
   RecordView list();

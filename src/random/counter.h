@@ -44,6 +44,7 @@ enum class Purpose : std::uint32_t {
   screen_cell = 62,
   screen_drop = 63,
   splash_crown = 64,
+  wiper_smear = 65,
   picture_dither = 70
 };
 

@@ -60,7 +60,7 @@ struct Flow::State {
       frame = frames;
       steps = warm_up_steps() + static_cast<std::int64_t>(frame) * settings.substeps;
       if (frame > 0)
-        water.splat(moment(nullptr, 0, 1 / settings.fps), splat, height);
+        water.splat(moment(nullptr, 0, 1 / settings.fps), splat, forces, height);
       else
         clear_height();
     });
@@ -86,7 +86,7 @@ void Flow::simulate(Recorder* recorder) {
   const double fps = s.settings.fps;
   const int substeps = s.settings.substeps;
   for (int substep = 0; substep < substeps; ++substep) s.step(s.moment(recorder, substep, 1 / (fps * substeps)));
-  s.water.splat(s.moment(recorder, 0, 1 / fps), s.splat, s.height);
+  s.water.splat(s.moment(recorder, 0, 1 / fps), s.splat, s.forces, s.height);
   ++s.frame;
 }
 

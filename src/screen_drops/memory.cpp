@@ -31,7 +31,7 @@ MemoryPeak memory(const Settings& s, const FlowSettings* flow, double seconds) {
     if (flow != nullptr) {
       const double arrivals = drops::flux(flow->drops, 0, -flow->wind).drops * flow->pane[0] * flow->pane[1] * seconds;
       const auto live = static_cast<std::int64_t>(std::min(std::ceil(arrivals), static_cast<double>(flow->drops.capacity)));
-      m.then(drops::memory(flow->drops, flow->splat.width, flow->splat.height, live));
+      m.then(drops::memory(flow->drops, flow->splat.width, flow->splat.height, live, flow->splat.lean > 0));
       m.hold(Image::memory_bytes(Format::r16f, flow->splat.width, flow->splat.height));
     }
   } else {

@@ -27,11 +27,13 @@ const std::vector<capture::PassEvaluations>& evaluations() {
          "a record has the ends of its blade as places on the glass and as pivot, axis and "
          "radii, rounded each; the pass takes the others than the port",
          bind_wipe_from_ends}}},
+      {"smear", pass::bind<SmearPass, scalar::SmearPassText>},
       {"condense", pass::bind<CondensePass, scalar::CondensePassText>},
       {"normals", pass::bind<NormalsPass, scalar::NormalsPassText>},
       {"blur_pyramid", blur_pyramid::bind_blur},
       {"falling_rain", pass::bind<FallingRainPass, scalar::FallingRainPassText>},
       {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
+      {"soften", pass::bind<SoftenPass, scalar::SoftenPassText>},
       {"mist", pass::bind<MistPass, scalar::MistPassText>},
       {"join_panes", pass::bind<JoinPanesPass, scalar::JoinPanesPassText>},
       {"interior", pass::bind<InteriorPass, scalar::InteriorPassText>},

@@ -7,6 +7,7 @@
 #include "pass/info.h"
 #include "windshield/motion_info.h"
 #include "windshield/picture_info.h"
+#include "windshield/smear.pass.h"
 #include "windshield/surface.h"
 #include "windshield/windshield_frame.pass.h"
 #include "windshield/wipe_drops.pass.h"
@@ -34,6 +35,7 @@ EffectInfo make() {
                  drops::splat_info({"wipe_drops", "merge"}),
                  pass::info_of<PersistPass>(),
                  pass::info_of<WipeTexturePass>(),
+                 pass::info_of<SmearPass>(),
                  pass::info_of<CondensePass>(),
                  pass::info_of<NormalsPass>(),
                  blur_pyramid::blur_info("", ""),
@@ -45,6 +47,7 @@ EffectInfo make() {
   info.buffers.push_back(
       {"previous_height", "r16f", "Height of the frame before, wiped.", "mm", {0, 8}, "none", "none", "none", "", "", "as-published"});
   append(info.buffers, pass::buffers_of<WipeTexturePass>());
+  append(info.buffers, pass::buffers_of<SmearPass>());
   append(info.buffers, pass::buffers_of<CondensePass>());
   append(info.buffers, pass::buffers_of<NormalsPass>());
   append(info.buffers, blur_pyramid::blur_buffers());

@@ -1,9 +1,10 @@
-// composite, mist, join_panes and interior in lanes; compiled once for each SIMD target.
+// composite, soften, mist, join_panes and interior in lanes; compiled once for each SIMD target.
 #include "pass/run.h"
 #include "windshield/composite.pass.h"
 #include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
+#include "windshield/soften.pass.h"
 
 #define RAINREF_KERNELS "windshield/kernels_picture.cpp"
 #include "math/foreach_target.h"
@@ -20,9 +21,11 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
+#include "windshield/soften.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 RAINREF_PASS_ROWS(CompositePass)
+RAINREF_PASS_ROWS(SoftenPass)
 RAINREF_PASS_ROWS(MistPass)
 RAINREF_PASS_ROWS(JoinPanesPass)
 RAINREF_PASS_ROWS(InteriorPass)
@@ -30,6 +33,7 @@ RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 RAINREF_PASS_DISPATCH(windshield, CompositePass)
+RAINREF_PASS_DISPATCH(windshield, SoftenPass)
 RAINREF_PASS_DISPATCH(windshield, MistPass)
 RAINREF_PASS_DISPATCH(windshield, JoinPanesPass)
 RAINREF_PASS_DISPATCH(windshield, InteriorPass)

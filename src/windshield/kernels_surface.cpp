@@ -8,6 +8,7 @@
 #include "windshield/normals.pass.h"
 #include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
+#include "windshield/wiper_reach.h"
 
 #define RAINREF_KERNELS "windshield/kernels_surface.cpp"
 #include "math/foreach_target.h"
@@ -26,23 +27,11 @@ RAINREF_TARGET_BEGIN(windshield)
 #undef RAINREF_LAMBDA
 
 // What a wiper may cover, in the plane [m]; outside, its coverage is exactly 0.
-struct Reach {
-  float x0, y0, x1, y1;
-};
 Reach reach_of(const WipeTextureUniforms& u, bool corrected, const Wiper& w) {
-  Reach r{1e30f, 1e30f, -1e30f, -1e30f};
-  const auto hold = [&](float x, float y) { r = {std::min(r.x0, x), std::min(r.y0, y), std::max(r.x1, x), std::max(r.y1, y)}; };
-  float more = w.half_width + u.edge_width + 1e-3f;
-  if (corrected) {
-    for (const float* axis : {w.previous_axis, w.axis}) {
-      for (const float radius : {w.inner_radius, w.outer_radius}) hold(w.pivot[0] + radius * axis[0], w.pivot[1] + radius * axis[1]);
-    }
-    // The arc's sagitta, 1 - cos(turn / 2) of the radius, is at most (1 - cos(turn)) / 2 of it.
-    more += w.outer_radius * 0.5f * (1.001f - (w.previous_axis[0] * w.axis[0] + w.previous_axis[1] * w.axis[1]));
-  } else {
-    for (const float* end : {w.inner, w.outer}) hold(end[0] * u.axis_length[0], end[1] * u.axis_length[1]);
-  }
-  return {r.x0 - more, r.y0 - more, r.x1 + more, r.y1 + more};
+  if (corrected) return sector_reach(w, u.edge_width);
+  Reach r;
+  for (const float* end : {w.inner, w.outer}) r.hold(end[0] * u.axis_length[0], end[1] * u.axis_length[1]);
+  return r.wider(w.half_width + u.edge_width + 1e-3f);
 }
 
 template <bool corrected>

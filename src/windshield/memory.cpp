@@ -57,13 +57,15 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   for (int k = 0; k <= static_cast<int>(s.panes.size()); ++k) {
     const Settings of = settings_of_pane(s, k);
     const int columns = of.surface.width, rows = of.surface.height;
-    const MemoryPeak dry = drops::memory(of.drops, columns, rows, 0),
-                     wet = drops::memory(of.drops, columns, rows, most_drops(of, vehicle, weather, frames));
+    const bool lean = of.splat.keys.lean > 0;
+    const MemoryPeak dry = drops::memory(of.drops, columns, rows, 0, lean),
+                     wet = drops::memory(of.drops, columns, rows, most_drops(of, vehicle, weather, frames), lean);
     m.hold(dry.held());
     m.hold(2 * image(Format::r16f, columns, rows) + image(Format::rgba16f, columns, rows) +
            (s.corrected ? image(Format::r32f, columns, rows) : 0));  // height, mask, normal, wiped
     if (s.surface.height_tau > 0) m.hold(image(Format::r16f, columns, rows));
-    if (s.condensation.on) m.hold(image(Format::r32f, columns, rows) + image(Format::r16f, columns, rows));  // clear_time, condensation
+    if (s.condensation.on) m.hold(image(Format::r32f, columns, rows) + image(Format::r16f, columns, rows));      // clear_time, condensation
+    if (s.smear.on && (k == 0 || !of.wipers.blades.empty())) m.hold(2 * image(Format::rgba16f, columns, rows));  // laid, smear
     wet_more += wet.held() - dry.held();
     wet_most = std::max(wet_most, wet.peak() - wet.held());
   }

@@ -5,14 +5,15 @@
 #include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
+#include "windshield/soften.pass.h"
 
 namespace rainref::windshield {
 using namespace rainref::scene;
 using namespace rainref::capture;
 
 std::vector<PassInfo> picture_passes() {
-  return {pass::info_of<CompositePass>(), pass::info_of<MistPass>(), pass::info_of<JoinPanesPass>(), pass::info_of<InteriorPass>(),
-          pass::display_info("composite")};
+  return {pass::info_of<CompositePass>(), pass::info_of<SoftenPass>(),   pass::info_of<MistPass>(),
+          pass::info_of<JoinPanesPass>(), pass::info_of<InteriorPass>(), pass::display_info("composite")};
 }
 
 std::vector<BufferInfo> picture_buffers() {
@@ -20,6 +21,19 @@ std::vector<BufferInfo> picture_buffers() {
   std::vector<BufferInfo> all{{"glints", "records", "Lights that drops mirror.", "1", one, "none", "none", "none", "", "Glint"}};
   all.push_back(
       {"streaks", "records", "Drops that fall behind the glass, far ones first.", "1", {-1e6, 1e6}, "none", "none", "none", "", "Streak"});
+  all.push_back({"profile", "r16f", "Thickness of the film that a blade leaves, from its inner end to its outer one.", "1", one, "none",
+                 "none", "none", "", "", "corrected"});
+  all.push_back({"deflections",
+                 "records",
+                 "Angles by which a blade's film turns light.",
+                 "1",
+                 {-1, 1},
+                 "none",
+                 "none",
+                 "none",
+                 "",
+                 "Deflection",
+                 "corrected"});
   all.push_back({"taps", "records", "Places that the picture behind the mist is the mean of.", "1", one, "none", "none", "none", "", "Tap",
                  "corrected"});
   const std::vector<BufferInfo> colour = pass::buffers_of<CompositePass>();
@@ -32,18 +46,21 @@ std::vector<BufferInfo> picture_buffers() {
 }
 
 std::vector<UniformBlock> picture_records() {
-  return {record<Streak>(
-              "Streak",
-              {member<&Streak::opened>("opened", "texel", "Its middle when the shutter opens: column and row of the scene's picture."),
-               member<&Streak::closed>("closed", "texel", "The same when it closes."),
-               member<&Streak::radius>("radius", "texel", "Half its width, at least half a texel."),
-               member<&Streak::depth>("depth", "m", "Along the view axis."),
-               member<&Streak::opacity>("opacity", "1", "Share of the exposure and of the width in which it covers a point of its way."),
-               member<&Streak::radiance>("radiance", "1", "Linear RGB.")}),
-          record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."),
-                              member<&Tap::y>("y", "1", "See x.")}),
-          record<Glint>("Glint", {member<&Glint::direction>("direction", "1", "Unit, toward the light, camera axes: right, up, forward."),
-                                  member<&Glint::radiance>("radiance", "1", "Linear RGB.")})};
+  return {
+      record<Streak>(
+          "Streak",
+          {member<&Streak::opened>("opened", "texel", "Its middle when the shutter opens: column and row of the scene's picture."),
+           member<&Streak::closed>("closed", "texel", "The same when it closes."),
+           member<&Streak::radius>("radius", "texel", "Half its width, at least half a texel."),
+           member<&Streak::depth>("depth", "m", "Along the view axis."),
+           member<&Streak::opacity>("opacity", "1", "Share of the exposure and of the width in which it covers a point of its way."),
+           member<&Streak::radiance>("radiance", "1", "Linear RGB.")}),
+      record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."),
+                          member<&Tap::y>("y", "1", "See x.")}),
+      record<Deflection>("Deflection", {member<&Deflection::tangent>("tangent", "1", "Of the angle, along the blade that left the film."),
+                                        member<&Deflection::weight>("weight", "1", "Share of the scattered light.")}),
+      record<Glint>("Glint", {member<&Glint::direction>("direction", "1", "Unit, toward the light, camera axes: right, up, forward."),
+                              member<&Glint::radiance>("radiance", "1", "Linear RGB.")})};
 }
 
 const std::vector<MemberParameter<PictureSettings>>& picture_parameters() {

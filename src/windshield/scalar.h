@@ -1,5 +1,5 @@
-// The scalar evaluations of the picture: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of this
-// room do not pull them into the lanes.
+// The scalar evaluations of the picture and of smear: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of
+// this room do not pull them into the lanes.
 #pragma once
 
 #include "image/footprint.h"
@@ -12,6 +12,9 @@
 #include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
+#include "windshield/smear.pass.h"
+#include "windshield/soften.pass.h"
+#include "windshield/surface_scalar.h"
 
 namespace rainref::windshield::scalar {
 using namespace rainref::scalar;
@@ -27,6 +30,8 @@ using namespace rainref::scalar;
 #include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
+#include "windshield/smear.pass.h"
+#include "windshield/soften.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

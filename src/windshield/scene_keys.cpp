@@ -50,6 +50,20 @@ const std::vector<MemberParameter<Settings>>& falling_members() {
       real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops over that of physics.")};
   return table;
 }
+/// The film that blades leave.
+const std::vector<MemberParameter<Settings>>& smear_members() {
+  using S = Settings;
+  using W = SmearSettings;
+  static const std::vector<MemberParameter<S>> table{
+      boolean<&S::smear, &W::on>("smear.on", "Blades leave a thin film in streaks, which dries behind them.").only(correct),
+      real<&S::smear, &W::wear>("smear.wear", "1", 0, 1, "Wear of the blades: 0 new; 1 ragged, with more and thicker streaks.")
+          .only(correct),
+      real<&S::smear, &W::drying>("smear.drying", "s", 0.01, 60, "Time in which the thickest streak dries.").only(correct),
+      real<&S::smear, &W::most>("smear.most", "1", 0, 1, "Share of the light that the thickest streak scatters.").only(correct),
+      real<&S::smear, &W::spread_deg>("smear.spread", "deg", 0.01, 20, "Largest angle by which it turns light, along the blade.")
+          .only(correct)};
+  return table;
+}
 /// The mist of condensed water on the glass.
 const std::vector<MemberParameter<Settings>>& condensation_members() {
   using S = Settings;
@@ -106,6 +120,7 @@ std::vector<Parameter> make() {
   append(all, parameters_of(scene_members()));
   append(all, effect::sequence_parameters());
   append(all, parameters_of(falling_members()));
+  append(all, parameters_of(smear_members()));
   append(all, parameters_of(condensation_members()));
   append(all, parameters_of(interior_members()));
   append(all, parameters_of(picture_parameters()));
@@ -161,6 +176,7 @@ Settings settings_from(const Config& config) {
   apply(picture_parameters(), config, s.picture);
   apply(scene_members(), config, s);
   apply(falling_members(), config, s);
+  apply(smear_members(), config, s);
   apply(condensation_members(), config, s);
   apply(interior_members(), config, s);
   s.picture.width = static_cast<int>(config.integer2("run.size")[0]);

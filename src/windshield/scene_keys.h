@@ -14,6 +14,7 @@
 #include "windshield/interior.h"
 #include "windshield/motion_host.h"
 #include "windshield/picture.h"
+#include "windshield/smear.h"
 #include "windshield/surface.h"
 #include "windshield/vehicle.h"
 #include "windshield/weather.h"
@@ -42,6 +43,7 @@ struct Settings {
   PictureSettings picture;
   std::array<int, 2> scene_size{1280, 720};
   FallingRainSettings falling;
+  SmearSettings smear;
   CondensationSettings condensation;
   InteriorSettings interior;
   double street_start = 0;

@@ -6,6 +6,7 @@
 #include "windshield/mist.pass.h"
 #include "windshield/motion_host.h"
 #include "windshield/panes.h"
+#include "windshield/soften.pass.h"
 #include "windshield/wipe_drops.h"
 
 namespace rainref::windshield {
@@ -50,6 +51,11 @@ WetPane::WetPane(const Settings& settings, int number, const parallel::Executor&
   mask_ = make_mask(settings_.surface);
   if (corrected_) wiped_ = make_wiped(settings_.surface);
   normal_ = Image(Format::rgba16f, w, h);
+  if (settings_.smear.on && has_blades_) {
+    laid_ = make_laid(settings_.surface);
+    smear_ = make_laid(settings_.surface);
+    profile_ = smear_profile(settings_.smear, settings_.seed);
+  }
   if (!settings_.condensation.on) return;
   clear_time_ = make_clear_time(settings_.condensation, settings_.surface);
   condensation_ = Image(Format::r16f, w, h);
@@ -82,16 +88,19 @@ drops::Exposure WetPane::exposure(std::int64_t n, double t, const VehicleState& 
 
 void WetPane::step(const pass::Moment& now, std::int64_t n, double t, const VehicleState& car, const Weather& weather) {
   const WindshieldFrameUniforms frame_uniforms = windshield_frame_uniforms(glass_, car, weather.wind(t), settings_.gravity, corrected_);
-  drops::GlassFrame moving{};
   pass::HostIo<WindshieldFramePass> given;
-  given.glass_frame.list = [&] { return RecordView{&moving, 1, sizeof moving}; };
-  run<WindshieldFramePass>(now, frame_uniforms, given, [&] { moving = windshield_frame(frame_uniforms, corrected_); });
+  given.glass_frame.list = [&] { return RecordView{&forces_, 1, sizeof forces_}; };
+  run<WindshieldFramePass>(now, frame_uniforms, given, [&] { forces_ = windshield_frame(frame_uniforms, corrected_); });
 
   water_.spawn(now, exposure(n, t, car, weather), n);
-  water_.integrate(now, moving);
+  water_.integrate(now, forces_);
 
   if (has_blades_) wipe(now, n, t);
   if (corrected_) water_.merge(now, n);
+}
+
+void WetPane::take_forces(double t, const VehicleState& car, const Weather& weather) {
+  forces_ = windshield_frame(windshield_frame_uniforms(glass_, car, weather.wind(t), settings_.gravity, corrected_), corrected_);
 }
 
 // As published the first frame has no frame before it: the blades stand.
@@ -134,6 +143,7 @@ void WetPane::list_state(state::Items& items) {
   water_.list_state(items);
   if (settings_.surface.height_tau > 0) items.image("height", height_);
   if (settings_.condensation.on) items.image("clear_time", clear_time_);
+  if (has_blades_ && settings_.smear.on) items.image("laid", laid_);
   if (!has_blades_) return;
   if (corrected_)
     items.image("wiped", wiped_);
@@ -145,7 +155,7 @@ void WetPane::leave_traces(const pass::Moment& now, int frame) {
   const Rounding rounding = settings_.surface.rounding;
   const bool persists = settings_.surface.height_tau > 0;
   if (persists) std::swap(height_, previous_height_);
-  water_.splat(now, settings_.splat, height_);
+  water_.splat(now, settings_.splat, forces_, height_);
   if (persists) {
     pass::HostIo<PersistPass> io;
     io.height = height_;
@@ -155,7 +165,25 @@ void WetPane::leave_traces(const pass::Moment& now, int frame) {
   }
 
   if (has_blades_) wipe_texture(now, frame);
+  if (has_blades_ && settings_.smear.on) leave_smear(now);
   if (settings_.condensation.on) condense(now, frame);
+}
+
+void WetPane::leave_smear(const pass::Moment& now) {
+  SmearUniforms uniforms = smear_uniforms(settings_.smear, settings_.surface);
+  uniforms.wiper_count = static_cast<std::int32_t>(wipers_.size());
+  pass::HostIo<SmearPass> io;
+  io.height = height_;
+  io.wiped = wiped_;
+  io.laid = laid_;
+  io.wipers = wipers_;
+  io.profile = profile_;
+  io.smear = smear_;
+  io.new_laid = laid_;
+  pass::Run<SmearPass> run(uniforms, corrected_, settings_.surface.rounding, io);
+  run.start(now);
+  run.tiles(executor_, 16, 64);  // few blades reach a tile of it
+  run.finish(now);
 }
 
 void WetPane::condense(const pass::Moment& now, int frame) {
@@ -197,6 +225,21 @@ void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTextur
   seen.glints = lights;
   seen.colour = colour;
   draw_all(pass::Run<CompositePass>(view_, corrected_, settings_.surface.rounding, seen), now, executor_, before);
+}
+
+void WetPane::soften(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
+                     Image& colour) const {
+  if (!has_blades_) return;
+  pass::HostIo<SoftenPass> io;
+  io.blurred.set(pyramid.view(), levels);
+  const std::vector<Deflection> turns = deflections(settings_.smear);
+  io.deflections = turns;
+  io.smear = smear_;
+  io.colour = colour;
+  io.softened = colour;
+  draw_all(
+      pass::Run<SoftenPass>(soften_uniforms(settings_.smear, view_, levels.front().width()), corrected_, settings_.surface.rounding, io),
+      now, executor_);
 }
 
 void WetPane::mist(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const {

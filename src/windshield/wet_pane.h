@@ -30,7 +30,9 @@ class WetPane {
   /// composite: the scene through it, into a picture of the camera's size. `before`: seconds that the host spent on it already.
   void composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
                  const Image& scene_depth, std::span<const Glint> lights, Image& colour, double before);
-  /// mist, on what composite made; for panes with condensation.
+  /// soften, on what composite made; for a scene with smear.
+  void soften(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const;
+  /// mist, on that; for panes with condensation.
   void mist(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const;
 
   /// What it holds between frames; the blades of a frame are given anew by the steps of it.
@@ -38,6 +40,8 @@ class WetPane {
   /// Of a step like step(): the blades alone, whose way of a frame the passes on its textures take. For a frame that was simulated
   /// elsewhere.
   void sweep(std::int64_t n, double t, double dt);
+  /// Likewise the forces on its drops in that step, by which they lean.
+  void take_forces(double t, const VehicleState& car, const Weather& weather);
 
   const Settings& settings() const { return settings_; }
   /// Records of the frame's steps, in order.
@@ -49,6 +53,7 @@ class WetPane {
   const Image& height() const { return height_; }
   const Image& mask() const { return mask_; }
   const Image& normal() const { return normal_; }
+  const Image& smear() const { return smear_; }
   const Image& condensation() const { return condensation_; }
   const Image& film() const { return water_.film; }
 
@@ -58,6 +63,7 @@ class WetPane {
   std::vector<Wiper> swept(std::int64_t n, double t, double dt) const;
   void wipe(const pass::Moment& now, std::int64_t n, double t);
   void wipe_texture(const pass::Moment& now, int frame);
+  void leave_smear(const pass::Moment& now);
   void condense(const pass::Moment& now, int frame);
   drops::Exposure exposure(std::int64_t n, double t, const VehicleState& car, const Weather& weather) const;
 
@@ -68,9 +74,11 @@ class WetPane {
   PlaneFrame plane_;
   CompositeUniforms view_;
   drops::WetGlass water_;
-  std::vector<Wiper> wipers_;  ///< of the frame
+  drops::GlassFrame forces_{};  ///< of the last step
+  std::vector<Wiper> wipers_;   ///< of the frame
   Image height_, mask_, wiped_, normal_;
   Image previous_height_;            ///< where it persists
+  Image laid_, smear_, profile_;     ///< with smear, of a pane with blades
   Image clear_time_, condensation_;  ///< with condensation
 };
 

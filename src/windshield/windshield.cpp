@@ -41,6 +41,7 @@ void Windshield::State::list(state::Items& items) {
       pane->begin_frame();
       for (std::int64_t n = std::max<std::int64_t>(0, steps - settings.substeps); n < steps; ++n)
         pane->sweep(n, static_cast<double>(n) * step_time(), step_time());
+      if (const double last = static_cast<double>(steps - 1) * step_time(); steps > 0) pane->take_forces(last, vehicle.at(last), weather);
     }
   });
 }
@@ -145,6 +146,7 @@ void Windshield::State::look_through(const pass::Moment& now) {
     of_pane.step = static_cast<int>(k);
     Image& seen = k == 0 ? colour : pane_colour;
     panes[k]->composite(of_pane, *pyramid, levels, scene.depth, lights, seen, k == 0 ? refreshed : 0);
+    if (settings.smear.on) panes[k]->soften(of_pane, *pyramid, levels, seen);
     if (settings.condensation.on) panes[k]->mist(of_pane, *pyramid, levels, seen);
     if (k == 0) continue;
     pass::HostIo<JoinPanesPass> io;
@@ -267,6 +269,10 @@ const Image& Windshield::film(int pane) const {
 const Image& Windshield::normal(int pane) const {
   const FloatingPointGuard guard;
   return state_->pane(pane).normal();
+}
+const Image& Windshield::smear(int pane) const {
+  const FloatingPointGuard guard;
+  return state_->pane(pane).smear();
 }
 const Image& Windshield::condensation(int pane) const {
   const FloatingPointGuard guard;

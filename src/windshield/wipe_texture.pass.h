@@ -87,8 +87,8 @@ struct PlanePoint {
   N x, y;
   RAINREF_FN PlanePoint(N x_, N y_) : x(x_), y(y_) {}
 };
-template <class N>
-RAINREF_FN PlanePoint<N> texel_in_plane(const WipeTextureUniforms& u, int x, int y) {
+template <class N, class Uniforms>
+RAINREF_FN PlanePoint<N> texel_in_plane(const Uniforms& u, int x, int y) {
   const N column = N::index(x) + N(0.5f), row(static_cast<float>(y) + 0.5f);
   return PlanePoint<N>(N(u.frame[0]) * column + N(u.frame[1]) * row, N(u.frame[2]) * row);
 }

@@ -34,8 +34,10 @@ bool with_defined_pass(const capture::PassCase& c, const F& f) {
   RAINREF_PASS("edge_splash", "splash", !c.corrected(), edge_splash::PublishedSplashPass, edge_splash::scalar::PublishedSplashPassText);
   RAINREF_PASS("windshield", "wipe_texture", true, windshield::WipeTexturePass, windshield::scalar::WipeTexturePassText);
   RAINREF_PASS("windshield", "normals", true, windshield::NormalsPass, windshield::scalar::NormalsPassText);
+  RAINREF_PASS("windshield", "smear", true, windshield::SmearPass, windshield::scalar::SmearPassText);
   RAINREF_PASS("windshield", "condense", true, windshield::CondensePass, windshield::scalar::CondensePassText);
   RAINREF_PASS("windshield", "composite", true, windshield::CompositePass, windshield::scalar::CompositePassText);
+  RAINREF_PASS("windshield", "soften", true, windshield::SoftenPass, windshield::scalar::SoftenPassText);
   RAINREF_PASS("windshield", "mist", true, windshield::MistPass, windshield::scalar::MistPassText);
   RAINREF_PASS("windshield", "interior", true, windshield::InteriorPass, windshield::scalar::InteriorPassText);
   RAINREF_PASS("rainy_glass", "bake_raindrops", true, rainy_glass::BakeRaindropsPass, rainy_glass::scalar::BakeRaindropsPassText);

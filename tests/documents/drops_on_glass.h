@@ -167,12 +167,21 @@ inline bool splat(const Run& r, int x, int y, float* out) {
     const float mass = std::max(r.of("drops", i, "mass"), 0.0f), root = r.unless("mass for its root", cube_root(mass), mass);
     const float own = r.unless("diameter for radius", 1.0f, 0.5f) * (r.u("radius_scale") * root);
     const float radius = std::max(own, r.u("smallest_radius")), shrunk = own / radius;
-    const float h = r.of("drops", i, "life") > 0 ? (r.u("height_scale") * root) * (shrunk * shrunk) : 0;
+    float h = r.of("drops", i, "life") > 0 ? (r.u("height_scale") * root) * (shrunk * shrunk) : 0;
     const int across = r.unless("place turned", 0, 1);
     const Float2 place{r.of("drops", i, "position", across), r.of("drops", i, "position", 1 - across)};
     const Float2 away = centre - Float2{place.x * r.u("size", 0), place.y * r.u("size", 1)};
     const Float2 in_plane = plane(r, away);
-    const float squared = dot(in_plane, in_plane) * (1 / (radius * radius)), cap = std::max(constant(r, 1, 1.1f) - squared, 0.0f);
+    float squared = dot(in_plane, in_plane) * (1 / (radius * radius));
+    if (r.taken().corrected() && (r.u("longer") != 0 || r.u("taper") != 0 || r.u("skew") != 0)) {
+      const Float2 F{root * root * r.u("gravity", 0) + root * r.u("wind", 0), root * root * r.u("gravity", 1) + root * r.u("wind", 1)};
+      const float load = std::min(length(F), 1.0f), t = r.u("taper") * load, k = r.u("skew") * load, l = 1 + r.u("longer") * load;
+      const Float2 d = length(F) > 1e-6f ? (1 / std::max(length(F), 1e-6f)) * F : Float2{1, 0};
+      const float a = dot(d, in_plane) * ((1 / radius) / l), b = cross(d, in_plane) * (1 / radius) / std::max(1 + t * a, 0.0625f);
+      h = h / (l * (1 + t * k * r.u("moment"))) * std::max(1 + constant(r, 1, 0.9f) * k * a, 0.0f);
+      squared = a * a + b * b;
+    }
+    const float cap = std::max(constant(r, 1, 1.1f) - squared, 0.0f);
     const float shape = kernel == 0   ? cap
                         : kernel == 1 ? cap * cap
                         : kernel == 2 ? 1 - smoothstep(0, 1, std::sqrt(squared))
@@ -259,6 +268,9 @@ integrate         m = max(mass, 1)^(1/3),  i = 1/m,  j = i i;   |x| of glass vec
          R"(of a drop   root = max(mass, 0)^(1/3),  own = radius_scale · root,  R = max(own, smallest_radius),
             h = (height_scale · root) (own / R)²,  0 for a dead drop
 gives       h · kernel(q²),  q² = |(frame.x Δx + frame.y Δy, frame.z Δy)|² (1/R²),  (Δx, Δy) = (x, y) − position · size
+leaning     corrected, longer, taper or skew not 0:  F = root² gravity + root wind,  d = F (1/max(|F|, 10⁻⁶)), (1, 0) unless |F| > 10⁻⁶,  load = min(|F|, 1)
+            l = 1 + longer load,  t = taper load,  k = skew load,  h = h / (l (1 + t k moment)),  P = (frame.x Δx + frame.y Δy, frame.z Δy)
+            a = d·P ((1/R) / l),  b = cross(d, P) (1/R) / max(1 + t a, 1/16);  gives h max(1 + k a, 0) · kernel(a² + b²)
 kernel      0: max(1 − q², 0)   1: max(1 − q², 0)²   2: 1 − smoothstep(0, 1, q)   3: √max(1 − q², 0)   4: 1 where q² ≤ 1
 blend       in the order of the list, from 0:  0: add   1: max   2: add, rounded to half after each drop
 corrected   + film_scale · tent(film),  tent(a, b, c) = ½ b + ¼ (a + c) of columns, then of rows, edge texels repeated)"}}},

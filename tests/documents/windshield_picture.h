@@ -99,11 +99,52 @@ inline bool join_panes(const Run& r, int x, int y, float* out) {
   return true;
 }
 
+inline bool smear(const Run& r, int x, int y, float* out) {
+  const Float2 p = plane(r, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+  Float3 film = r.rgb("laid", x, y);
+  for (const Wiper& w : wipers_of(r)) {
+    const Float2 away = p - w.pivot;
+    const float size = length(away), along = saturate((size - w.inner_radius) / (w.outer_radius - w.inner_radius)),
+                inverse = 1 / std::max(size, 1e-6f);
+    film = mix(film, Float3{away.x * inverse, away.y * inverse, r.linear("profile", along, 0.5f)}, coverage_of(r, w, p));
+  }
+  film.z = film.z * (1 - std::min(r.at("height", x, y) * r.u("inverse_water"), 1.0f));
+  out[0] = out[4] = film.x;
+  out[1] = out[5] = film.y;
+  out[2] = std::max(film.z - constant(r, 1, 0.9f) * (r.u("drying") * r.at("wiped", x, y)), 0.0f);
+  out[6] = film.z;
+  out[3] = out[7] = 1;
+  return true;
+}
+
 inline bool condense(const Run& r, int x, int y, float* out) {
   const float taken = std::min(r.at("height", x, y) * r.u("inverse_water"), 1.0f), wiped = r.at("wiped", x, y);
   const float grown = std::min(r.at("clear_time", x, y) + r.u("dt"), r.u("limit")) * (1 - constant(r, 1, 0.9f) * taken);
   out[1] = std::min(grown, wiped < r.u("wiped_limit") ? wiped : r.u("limit"));
   out[0] = r.u("most") * (1 - exponential(-(out[1] * r.u("inverse_tau"))));
+  return true;
+}
+
+inline bool soften(const Run& r, int x, int y, float* out) {
+  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
+  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
+  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const Float3 film = r.linear3("smear", saturate(u), saturate(v));
+  const float share = on ? r.u("most") * film.z : 0;
+  const Float2 G{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
+  const Float2 S{0.5f + G.x * r.u("scene_scale", 0), 0.5f + G.y * r.u("scene_scale", 1)};
+  const Float3 A = film.x * r.u3("plane_x") + film.y * r.u3("plane_y");
+  const Float2 turned{(A.x - A.z * G.x) * r.u("scene_scale", 0), (A.y - A.z * G.y) * r.u("scene_scale", 1)};
+  Float3 colour = r.rgb("colour", x, y), sum;
+  for (int i = 0; i < r.whole("deflection_count"); ++i) {
+    const float tangent = r.of("deflections", i, "tangent");
+    sum = sum + r.of("deflections", i, "weight") * r.trilinear3("blurred", S.x + tangent * turned.x, S.y + tangent * turned.y, r.u("lod"));
+  }
+  if (share > 0) colour = mix(colour, sum, constant(r, 1, 0.9f) * share);
+  out[0] = colour.x;
+  out[1] = colour.y;
+  out[2] = colour.z;
+  out[3] = 1;
   return true;
 }
 
@@ -253,6 +294,20 @@ blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t�
                   colour = mix(mix(sharp(S′), blur(S′), wetness · wet · (1 − vis)), inner · blur(S′), F)
                   glints as above with film = vis (1 − mask²) for vis and eye = −d, facing −N;   mix(cabin, colour, on glass))"}}},
       {{"windshield-corrected"},
+       "smear",
+       "wrong constant",
+       smear,
+       nullptr,
+       {coverage_of_blades,
+        {document,
+         R"(wipe_texture      D = min(seg to the blade before, seg to the blade now, max(inner_radius − |r|, |r| − outer_radius, 0) + 2 (beside + behind)), r = p − pivot
+                  beside = max(σ cross(r, previous_axis), σ cross(axis, r), 0),  behind = max(−r·(previous_axis + axis), 0),  σ = −1 where direction < 0, else 1
+                  blades from inner_radius · axis to outer_radius · axis about the pivot
+smear             film = laid.xyz;  each wiper in order, coverage its own, p and r as above:
+                  film = mix(film, (r (1 / max(|r|, 10⁻⁶)), profile at (saturate((|r| − inner_radius) / (outer_radius − inner_radius)), ½)), coverage)
+                  taken = min(height · inverse_water, 1);   film.z = film.z (1 − taken);   laid = (film, 1)
+                  smear = (film.x, film.y, max(film.z − drying · wiped, 0), 1))"}}},
+      {{"windshield-corrected"},
        "condense",
        "wrong constant",
        condense,
@@ -260,6 +315,16 @@ blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t�
        {{document,
          R"(condense          taken = min(height · inverse_water, 1);   wiped = limit unless wiped < wiped_limit
                   clear_time = min(min(clear_time + dt, limit) (1 − taken), wiped);   condensation = most (1 − exp(−(clear_time · inverse_tau))))"}}},
+      {{"windshield-corrected"},
+       "soften",
+       "wrong constant",
+       soften,
+       nullptr,
+       {composite_of_both,
+        {document,
+         R"(soften            film = smear at (u, v);  share = most · film.z, 0 beside the glass;   (u, v), G and S as above
+                  A = film.x plane_x + film.y plane_y;   turned = (A.xy − A.z G) scene_scale
+                  where share > 0: colour = mix(colour, sum over deflections, in order, of weight · level lod at S + tangent · turned, share), trilinear)"}}},
       {{"windshield-corrected"},
        "mist",
        "wrong constant",

@@ -119,27 +119,29 @@ inline float segment(Float2 p, Float2 a, Float2 b) {
   const float t = saturate(dot(p - a, b - a) / std::max(dot(b - a, b - a), 1e-12f));
   return length(p - a - t * (b - a));
 }
+/// Of one blade at a place of the plane.
+inline float coverage_of(const Run& r, const Wiper& w, Float2 p) {
+  float distance;
+  if (!r.taken().corrected()) {
+    const auto in_plane = [&](Float2 uv) { return Float2{uv.x * r.u("axis_length", 0), uv.y * r.u("axis_length", 1)}; };
+    distance = segment(p, in_plane(w.inner), in_plane(w.outer));
+  } else {
+    const Float2 away = p - w.pivot;
+    const float size = length(away), sigma = w.direction < 0 ? -1.0f : 1.0f;
+    const float beside = std::max({sigma * cross(away, w.previous_axis), sigma * cross(w.axis, away), 0.0f});
+    const float behind = std::max(-dot(away, w.previous_axis + w.axis), 0.0f);
+    const auto blade = [&](Float2 axis) { return segment(away, w.inner_radius * axis, w.outer_radius * axis); };
+    const float sector = std::max({w.inner_radius - size, size - w.outer_radius, 0.0f}) + 2 * (beside + behind);
+    distance = std::min({blade(w.previous_axis), blade(w.axis), sector});
+    if (r.is("the blade before forgotten")) distance = std::min(blade(w.axis), sector);
+  }
+  const float edge = r.unless("edge's width multiplies", r.u("edge_width"), 1 / r.u("edge_width"));
+  return saturate(constant(r, 0.5f, 0.7f) + (w.half_width - distance) / edge);
+}
 inline float coverage(const Run& r, int x, int y) {
   const Float2 p = plane(r, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
   float most = 0;
-  for (const Wiper& w : wipers_of(r)) {
-    float distance;
-    if (!r.taken().corrected()) {
-      const auto in_plane = [&](Float2 uv) { return Float2{uv.x * r.u("axis_length", 0), uv.y * r.u("axis_length", 1)}; };
-      distance = segment(p, in_plane(w.inner), in_plane(w.outer));
-    } else {
-      const Float2 away = p - w.pivot;
-      const float size = length(away), sigma = w.direction < 0 ? -1.0f : 1.0f;
-      const float beside = std::max({sigma * cross(away, w.previous_axis), sigma * cross(w.axis, away), 0.0f});
-      const float behind = std::max(-dot(away, w.previous_axis + w.axis), 0.0f);
-      const auto blade = [&](Float2 axis) { return segment(away, w.inner_radius * axis, w.outer_radius * axis); };
-      const float sector = std::max({w.inner_radius - size, size - w.outer_radius, 0.0f}) + 2 * (beside + behind);
-      distance = std::min({blade(w.previous_axis), blade(w.axis), sector});
-      if (r.is("the blade before forgotten")) distance = std::min(blade(w.axis), sector);
-    }
-    const float edge = r.unless("edge's width multiplies", r.u("edge_width"), 1 / r.u("edge_width"));
-    most = std::max(most, saturate(constant(r, 0.5f, 0.7f) + (w.half_width - distance) / edge));
-  }
+  for (const Wiper& w : wipers_of(r)) most = std::max(most, coverage_of(r, w, p));
   return most;
 }
 inline bool wipe_texture_published(const Run& r, int x, int y, float* out) {
@@ -157,6 +159,11 @@ inline bool wipe_texture_corrected(const Run& r, int x, int y, float* out) {
   return true;
 }
 
+inline const From coverage_of_blades{
+    "docs/effects/windshield.md",
+    R"(**wipe_texture**: coverage = the largest over wipers of saturate(½ + (half_width − D) / edge_width), D the distance below from the texel's centre in
+the plane (`frame` is in metres a texel here). seg(p, a, b): t = saturate((p − a)·(b − a) / max(|b − a|², 10⁻¹²)), |p − a − t (b − a)|.)"};
+
 inline std::vector<Written> wipers_passes() {
   const std::string document = "docs/effects/windshield.md";
   const From capture{
@@ -164,10 +171,6 @@ inline std::vector<Written> wipers_passes() {
       R"(                  captured: live and in the quad, or |r − along · axis|² ≤ half_width²,  along = clamp(r·axis, inner_radius, outer_radius)
                   glass(x, y) = (inverse_frame.x x + inverse_frame.y y, inverse_frame.z y)
 cross(a, b) = a.x b.y − a.y b.x.)"};
-  const From coverage_of_blades{
-      document,
-      R"(**wipe_texture**: coverage = the largest over wipers of saturate(½ + (half_width − D) / edge_width), D the distance below from the texel's centre in
-the plane (`frame` is in metres a texel here). seg(p, a, b): t = saturate((p − a)·(b − a) / max(|b − a|², 10⁻¹²)), |p − a − t (b − a)|.)"};
   return {
       {{"windshield-as-published"},
        "wipe_drops",

@@ -16,6 +16,7 @@ struct Case {
   SplatSettings settings;
   double mass;
   bool film;
+  Pull pull = {};
 };
 std::vector<Case> cases(int width, int height) {
   std::vector<Case> all;
@@ -29,6 +30,13 @@ std::vector<Case> cases(int width, int height) {
           s.keys.drop_radius = radius;
           const double mass = corrected ? std::pow(radius / splat_uniforms(s).radius_scale, 3) : 1;
           all.push_back({s, mass, corrected});
+          if (corrected) {
+            // The largest of any_drops slide.
+            SplatSettings leaning = s;
+            leaning.keys.lean = 1;
+            const double root = std::cbrt(mass);
+            all.push_back({leaning, mass, true, {{0.3 / (root * root), -1.2 / (root * root)}, {0.4 / root, 0.5 / root}, {0.9, 0.3}}});
+          }
           if (!corrected) {
             s.keys.half_accumulation = false;
             all.push_back({s, mass, false});
@@ -47,8 +55,8 @@ std::vector<Case> cases(int width, int height) {
   }
   return ::testing::AssertionSuccess();
 }
-Image plain_image(const SplatSettings& s, const std::vector<Drop>& drops, const Image* film) {
-  const SplatUniforms u = splat_uniforms(s);
+Image plain_image(const SplatSettings& s, const std::vector<Drop>& drops, const Image* film, const Pull& pull) {
+  const SplatUniforms u = splat_uniforms(s, pull);
   const auto stamps = stamps_of<F>(u, drops);
   Image image(Format::r16f, s.keys.width, s.keys.height);
   for (int y = 0; y < s.keys.height; ++y) {
@@ -74,13 +82,13 @@ TEST_F(SplatDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
       if (number++ % 5 != width % 5) continue;
       const std::vector<Drop> drops = any_drops(75, static_cast<unsigned>(width), c.mass);
       const Image* under = c.film ? &film : nullptr;
-      const Image expected = plain_image(c.settings, drops, under);
+      const Image expected = plain_image(c.settings, drops, under, c.pull);
       for (const std::string& target : simd_targets()) {
         select_simd_target(target);
         for (parallel::Executor& executor : executors) {
           const int threads = executor.threads();
           executor.shuffle_tiles(static_cast<std::uint64_t>(threads + width));
-          ASSERT_TRUE(equal(splatted(executor, c.settings, drops, under), expected))
+          ASSERT_TRUE(equal(splatted(executor, c.settings, drops, under, c.pull), expected))
               << target << ", " << threads << " threads, width " << width << ", case " << number;
         }
       }
@@ -94,13 +102,13 @@ TEST_F(SplatDeterminism, EveryCaseOnALargeTexture) {
   for (const Case& c : cases(width, height)) {
     const std::vector<Drop> drops = any_drops(60, 11, c.mass);
     const Image* under = c.film ? &film : nullptr;
-    const Image expected = plain_image(c.settings, drops, under);
+    const Image expected = plain_image(c.settings, drops, under, c.pull);
     double sum = 0;
     for (int x = 0; x < width; ++x) sum += at(expected, x, 90);
     EXPECT_GT(sum, 0) << "something is there";
     for (const std::string& target : simd_targets()) {
       select_simd_target(target);
-      ASSERT_TRUE(equal(splatted(two_threads(), c.settings, drops, under), expected)) << target;
+      ASSERT_TRUE(equal(splatted(two_threads(), c.settings, drops, under, c.pull), expected)) << target;
     }
   }
 }
@@ -125,7 +133,7 @@ TEST_F(SplatDeterminism, FloatsAreWithinRoundingOfDoubles) {
   for (const Case& c : cases(width, height)) {
     if (c.settings.keys.kernel == SplatKernel::disc) continue;  // its edge is a decision
     const std::vector<Drop> drops = any_drops(60, 12, c.mass);
-    const SplatUniforms u = splat_uniforms(c.settings);
+    const SplatUniforms u = splat_uniforms(c.settings, c.pull);
     const auto floats = stamps_of<F>(u, drops);
     const auto doubles = stamps_of<D>(u, drops);
     double worst = 0, top = 0;

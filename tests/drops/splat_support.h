@@ -39,10 +39,10 @@ inline Drop drop_at(double u, double v, double mass, std::uint32_t id = 0) {
   return {{static_cast<float>(u), static_cast<float>(v)}, {0, 0}, static_cast<float>(mass), 1, id, 0};
 }
 inline Image splatted(const parallel::Executor& executor, const SplatSettings& s, const std::vector<Drop>& drops,
-                      const Image* film = nullptr) {
+                      const Image* film = nullptr, const Pull& pull = {}) {
   Image height(Format::r16f, s.keys.width, s.keys.height);
   SplatScratch scratch;
-  splat(executor, splat_uniforms(s), s.keys.half_accumulation, s.keys.rounding, drops, film, height, scratch);
+  splat(executor, splat_uniforms(s, pull), s.keys.half_accumulation, s.keys.rounding, drops, film, height, scratch);
   return height;
 }
 inline const parallel::Executor& two_threads() {

@@ -225,7 +225,7 @@ TEST(StateItems, HoldWhatPassesReadOfBefore) {
       }
     }
   }
-  EXPECT_EQ(wanted["windshield corrected"], (std::set<std::string>{"clear_time", "film", "life", "wiped"}));
+  EXPECT_EQ(wanted["windshield corrected"], (std::set<std::string>{"clear_time", "film", "laid", "life", "wiped"}));
   for (const auto& [which, names] : wanted) {
     for (const std::string& name : names) EXPECT_TRUE(listed[which].contains(name)) << which << ": " << name;
   }

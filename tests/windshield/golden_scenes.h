@@ -70,6 +70,10 @@ inline std::vector<GoldenScene> golden_scenes() {
                     std::string(wet_drive) + "[rain]\nrate = 120\n[falling_rain]\non = true\nexposure = 0.02\ngain = 10\n"});
   scenes.push_back({"windshield/corrected/condensation", "corrected",
                     std::string(wet_drive) + "[rain]\nrate = 120\n[condensation]\non = true\ntau = 2\n"});
+  scenes.push_back({"windshield/corrected/smear", "corrected",
+                    std::string(wet_drive) + "[rain]\nrate = 120\nsmallest_drop = 0.8\n[smear]\non = true\nwear = 0.6\n"});
+  scenes.push_back(
+      {"windshield/corrected/lean", "corrected", std::string(wet_drive) + "lean = 0.8\n[rain]\nrate = 120\nsmallest_drop = 0.8\n"});
   scenes.push_back({"windshield/corrected/interior", "corrected",
                     std::string(wet_drive) + "[rain]\nrate = 120\n[interior]\non = true\nlight = 0.1\n[camera]\nvertical_fov_deg = 44\n"});
   // Three panes and a weather that changes.

@@ -9,6 +9,12 @@ layout(std140, binding = 0) uniform SplatUniforms {
   int blend;              //  36  [1] 0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does.
   int drop_count;         //  40  [1] Drops in the list.
   float film_scale;       //  44  [mm] corrected: height of a mass unit in a texel.
+  vec2 gravity;           //  48  [1] corrected: pull on a drop of mass 1, in plane axes, over what holds it.
+  vec2 wind;              //  56  [1] corrected: the same of the wind.
+  float longer;           //  64  [1] corrected: of a drop that is just held, its length more than round.
+  float taper;            //  68  [1] corrected: its width's slope along its half length.
+  float skew;             //  72  [1] corrected: its height's slope along its half length.
+  float moment;           //  76  [1] corrected: mean squared place along it, over its half length squared.
 } u;
 struct Drop {
   vec2 position;    //   0  [1] Glass coordinates u, v.
@@ -40,6 +46,16 @@ float contribution(Drop drop, ivec2 texel) {
   if (drop.life <= 0.0) height = 0.0;
   vec2 to = vec2(texel) + 0.5 - drop.position * u.size;
   vec2 plane = vec2(u.frame.x * to.x + u.frame.y * to.y, u.frame.z * to.y);
+  if (u.longer != 0.0 || u.taper != 0.0 || u.skew != 0.0) {
+    vec2 pull = root * root * u.gravity + root * u.wind;
+    float size = length(pull), load = min(size, 1.0);
+    vec2 way = size > 1e-6 ? pull * (1.0 / max(size, 1e-6)) : vec2(1.0, 0.0);
+    float stretched = 1.0 + u.longer * load, taper = u.taper * load, skew = u.skew * load, inverse = 1.0 / radius;
+    float a = (way.x * plane.x + way.y * plane.y) * (inverse / stretched);
+    float b = ((way.x * plane.y - way.y * plane.x) * inverse) / max(1.0 + taper * a, 0.0625);
+    height = height / (stretched * (1.0 + (taper * skew) * u.moment));
+    return (height * max(1.0 + skew * a, 0.0)) * profile(a * a + b * b);
+  }
   return height * profile((plane.x * plane.x + plane.y * plane.y) * (1.0 / (radius * radius)));
 }
 

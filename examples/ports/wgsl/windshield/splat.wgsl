@@ -9,6 +9,12 @@ struct SplatUniforms {
   blend : i32,            //  36  [1] 0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does.
   drop_count : i32,       //  40  [1] Drops in the list.
   film_scale : f32,       //  44  [mm] corrected: height of a mass unit in a texel.
+  gravity : vec2<f32>,    //  48  [1] corrected: pull on a drop of mass 1, in plane axes, over what holds it.
+  wind : vec2<f32>,       //  56  [1] corrected: the same of the wind.
+  longer : f32,           //  64  [1] corrected: of a drop that is just held, its length more than round.
+  taper : f32,            //  68  [1] corrected: its width's slope along its half length.
+  skew : f32,             //  72  [1] corrected: its height's slope along its half length.
+  moment : f32,           //  76  [1] corrected: mean squared place along it, over its half length squared.
 }
 @group(0) @binding(0) var<uniform> u: SplatUniforms;
 struct Drop {
@@ -43,6 +49,20 @@ fn contribution(drop: Drop, texel: vec2i) -> f32 {
   let height = u.height_scale * root * (share * share);
   let to = vec2f(texel) + 0.5 - drop.position * u.size;
   let plane = vec2f(u.frame.x * to.x + u.frame.y * to.y, u.frame.z * to.y);
+  if (u.longer != 0.0 || u.taper != 0.0 || u.skew != 0.0) {
+    let pull = root * root * u.gravity + root * u.wind;
+    let size = length(pull);
+    let load = min(size, 1.0);
+    let way = select(vec2f(1.0, 0.0), pull * (1.0 / max(size, 1e-6)), size > 1e-6);
+    let stretched = 1.0 + u.longer * load;
+    let taper = u.taper * load;
+    let skew = u.skew * load;
+    let inverse = 1.0 / radius;
+    let a = (way.x * plane.x + way.y * plane.y) * (inverse / stretched);
+    let b = ((way.x * plane.y - way.y * plane.x) * inverse) / max(1.0 + taper * a, 0.0625);
+    let kept = height / (stretched * (1.0 + (taper * skew) * u.moment));
+    return (kept * max(1.0 + skew * a, 0.0)) * profile(a * a + b * b);
+  }
   return height * profile((plane.x * plane.x + plane.y * plane.y) * (1.0 / (radius * radius)));
 }
 
