@@ -57,9 +57,8 @@ double kernel_volume(SplatKernel kernel);
 double kernel_moment(SplatKernel kernel);
 /// Everything but the number of drops. In double, each rounded once.
 SplatUniforms splat_uniforms(const SplatSettings& settings);
-/// With drops that lean, as far as the settings say. One that is just held is 1.3 times as long as round, of the order of what A. I.
-/// ElSherbini and A. M. Jacobi measured (J. Colloid Interface Sci. 273, 2004), and its slopes at both ends are as the tangents of the
-/// contact angles; its taper is chosen.
+/// With drops that lean, as far as the settings say. One that is just held is 1.3 times as long as round, which is chosen, as its taper
+/// is; its slopes at both ends are as the tangents of the contact angles.
 SplatUniforms splat_uniforms(const SplatSettings& settings, const Pull& pull);
 
 /// Room that splat works in, kept from frame to frame.
