@@ -105,7 +105,7 @@ TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
   Words words(7);
   int passes = 0, built = 0;
   std::set<std::string> faults;
-  const std::int64_t rounds = judge::test::count_from("RAINREF_SCENES", 12);
+  const std::int64_t rounds = judge::test::count_from("RAINREF_SCENES", 30);
   // Half of the panes that are drawn turn their outer side to the eye.
   const auto are_enough = [&] { return (name == "windshield" ? 12 : 6) * built > rounds && passes > rounds; };
   for (std::int64_t round = 0; round < rounds || (!are_enough() && round < 10 * rounds); ++round) {
