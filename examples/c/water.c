@@ -21,8 +21,8 @@ static void my_display(const rr_array* right, unsigned char* pixels) {
 }
 
 int main(void) {
-  const char* set[] = {"rain.rate = 20", "run.size = [96, 54]"};
-  const rr_open_options options = {.struct_bytes = sizeof options, .set = set, .set_count = 2};
+  const char* set[] = {"rain.rate = 20", "run.size = [96, 54]", "environment.width = 256"};  // the default takes seconds
+  const rr_open_options options = {.struct_bytes = sizeof options, .set = set, .set_count = 3};
   rr_simulation* sim;
   check(rr_open("effect = 'puddle'", &options, &sim));  // or rr_open_file("puddle/default.toml", ...)
   rr_array wave = {.struct_bytes = sizeof wave};

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "rainref/error.h"
 #include "rainref/simulation.h"
@@ -10,8 +11,9 @@ using namespace rainref;
 
 namespace {
 
-void tell(const std::string& effect, const parallel::Executor& executor) {
-  Simulation scene({"", {"effect=" + effect, "run.size=[32, 18]"}}, executor);
+void tell(const std::string& effect, std::vector<std::string> keys, const parallel::Executor& executor) {
+  keys.insert(keys.end(), {"effect=" + effect, "run.size=[32, 18]"});
+  Simulation scene({"", keys}, executor);
   scene.simulate();
   scene.next_frame();
   std::printf("%s %d:", scene.effect().c_str(), scene.frame());
@@ -30,7 +32,9 @@ void tell(const std::string& effect, const parallel::Executor& executor) {
 
 int main() try {
   const parallel::Executor executor(2);
-  for (const char* effect : {"puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"}) tell(effect, executor);
+  tell("puddle", {"environment.width=64"}, executor);  // the street around, as coarse as pictures this small need it
+  tell("windshield", {"scene.size=[64, 36]"}, executor);
+  for (const char* effect : {"edge_splash", "screen_drops", "rainy_glass"}) tell(effect, {}, executor);
   Simulation({"", {"effect=pudle"}}, executor);
   return 1;
 } catch (const Error& e) {

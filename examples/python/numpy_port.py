@@ -18,7 +18,7 @@ def my_port(inputs, uniforms, case):
     return wave_step(inputs, uniforms, (sampling.address[0], sampling.border[0]))
 
 
-KEYS = {"run.size": (320, 180), "rain.rate": 20, "puddle.grid": (384, 256)}
+KEYS = {"run.size": (320, 180), "environment.width": 64, "rain.rate": 20, "puddle.grid": (384, 256)}  # waves do not see the street
 sim = rr.open("puddle/default.toml", KEYS)
 verdict = rr.judge(sim, ports=[my_port], frames=(0, 1, 12), profile="vulkan")
 print(verdict)

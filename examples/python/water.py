@@ -10,7 +10,7 @@ import numpy as np
 import rainref as rr
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
-sim = rr.open("puddle/default.toml", {"run.size": (320, 180), "rain.rate": 20})
+sim = rr.open("puddle/default.toml", {"run.size": (320, 180), "environment.width": 512, "rain.rate": 20})
 for frame in sim.frames(4):  # other threads of Python run meanwhile
     height = frame["wave"]  # float16 [m], a copy; frame.view("wave", 0) is none, and ends with the frame
     if frame.index == 1:

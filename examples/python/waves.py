@@ -13,7 +13,7 @@ import rainref as rr
 from wave_step import impulse
 
 OUT = Path(sys.argv[1]) if len(sys.argv) > 1 else None
-sim = rr.open("puddle", {"run.size": (160, 90), "rain.rate": 40, "puddle.grid": (192, 128)})
+sim = rr.open("puddle", {"run.size": (160, 90), "rain.rate": 40, "puddle.grid": (192, 128), "environment.width": 256})
 for frame in sim.frames(30):
     pass
 print(sim, "rain", sim.parameters["rain.rate"].value, sim.parameters["rain.rate"].unit)
@@ -23,7 +23,7 @@ if OUT:
 # %% Measure the waves' dispersion. One step of the wave is one frame here; a torus of water has plane waves as its modes.
 SIDE, STEPS = 128, 400
 sim = rr.open("puddle", {
-    "run.size": (8, 8), "run.fps": 240.0, "puddle.step_rate": 240.0, "puddle.grid": (SIDE, SIDE), "puddle.shape": "basin",
+    "run.size": (8, 8), "environment.width": 64, "run.fps": 240.0, "puddle.step_rate": 240.0, "puddle.grid": (SIDE, SIDE), "puddle.shape": "basin",
     "puddle.boundary": "periodic", "puddle.storage": "rg32f", "puddle.damping": 0.99, "puddle.drop_intensity": 4, "rain.rate": 20})
 value = {key: sim.parameters[f"puddle.{key}"].value for key in ("wave_speed", "step_rate", "cell_size")}
 courant = value["wave_speed"] / value["step_rate"] / value["cell_size"]
@@ -120,7 +120,7 @@ def wrong_port(i, u):
     return computed(i, u, 3.9)  # a constant that looks harmless
 
 
-scene = {"effect": "puddle", "run.size": (64, 36), "puddle.grid": (96, 64), "rain.rate": 60}
+scene = {"effect": "puddle", "run.size": (64, 36), "environment.width": 64, "puddle.grid": (96, 64), "rain.rate": 60}
 good = rr.judge(rr.open(scene), right_port, frames=(2, 6))
 bad = rr.judge(rr.open(scene), wrong_port, frames=(2, 6))
 print(good)

@@ -31,7 +31,7 @@ TEST_F(BadPicture, Missing) {
 }
 
 TEST_F(BadPicture, OfASceneFileNamesItsPlace) {
-  std::filesystem::remove(folder / "sky.png");
+  std::filesystem::remove(folder / "sky.npy");
   before = folder.names();
   expect_refusal({"hash", "corrected.toml"}, 4,
                  AllOf(StartsWith("corrected.toml:7:1: environment.image: "), HasSubstr("No such file or directory")));

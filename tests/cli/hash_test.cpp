@@ -84,10 +84,10 @@ TEST_F(HashVerb, AFileOfTheSceneLiesBesideItOneOfTheCommandLineWhereTheUserStand
   const std::vector<std::string> plain = hash({"corrected.toml"});
   std::filesystem::create_directory(folder / "sub");
   std::filesystem::rename(folder / "corrected.toml", folder / "sub/corrected.toml");
-  std::filesystem::copy(folder / "sky.png", folder / "sub/sky.png");
-  std::filesystem::rename(folder / "sky.png", folder / "mine.png");
+  std::filesystem::copy(folder / "sky.npy", folder / "sub/sky.npy");
+  std::filesystem::rename(folder / "sky.npy", folder / "mine.npy");
   EXPECT_EQ(hash({"sub/corrected.toml"}), plain);
-  EXPECT_EQ(hash({"sub/corrected.toml", "--set", "environment.image=mine.png"}), plain);
+  EXPECT_EQ(hash({"sub/corrected.toml", "--set", "environment.image=mine.npy"}), plain);
 }
 
 // Without a picture the surroundings are made here; the one test that pays for them.

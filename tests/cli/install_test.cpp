@@ -52,10 +52,17 @@ class Installation : public CommandLine {
     EXPECT_EQ(::pclose(pipe), 0) << command << '\n' << out;
     return out;
   }
-  /// The program of an installation into one folder that then becomes another.
+  /// The program of an installation into one folder that then becomes another. All tests have links to the files of one, so that they
+  /// may remove and replace them, but not write into them.
   Circumstances installed() const {
-    output(fmt::format(RAINREF_CMAKE " --install '" RAINREF_BUILD "' --config " RAINREF_CONFIG " --prefix first"));
-    std::filesystem::rename(folder / "first", folder / "moved");
+    static const TemporaryFolder all;
+    if (all.names().empty()) {
+      output(
+          fmt::format(RAINREF_CMAKE " --install '" RAINREF_BUILD "' --config " RAINREF_CONFIG " --prefix '{}'", (all / "first").string()));
+      std::filesystem::rename(all / "first", all / "made");
+    }
+    using Options = std::filesystem::copy_options;
+    std::filesystem::copy(all / "made", folder / "moved", Options::recursive | Options::create_hard_links | Options::copy_symlinks);
     Circumstances c;
     c.program = folder / "moved/bin/rainref";
     return c;
@@ -188,9 +195,12 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   EXPECT_EQ(path_of("prefix"), folder / "moved");
   EXPECT_EQ(path_of("includedir"), folder / "moved/include");
   output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR
-                     "/examples/cpp/simulate.cpp -o by_pkg_config $({} --cflags --libs rainref)",
+                     "/examples/cpp/film.cpp -o by_pkg_config $({} --cflags --libs rainref)",
                      RAINREF_CXX_COMPILER, config));
-  EXPECT_EQ(output("./by_pkg_config"), simulated);
+  const std::string splashes = contents(folder / "splashes.png");
+  std::filesystem::remove(folder / "splashes.png");
+  EXPECT_EQ(output("./by_pkg_config"), "");
+  EXPECT_EQ(contents(folder / "splashes.png"), splashes);
   output(fmt::format("cc -std=c11 -pedantic -Werror " RAINREF_SOURCE_DIR
                      "/examples/c/water.c -o c_by_pkg_config $(PKG_CONFIG_PATH='{}' pkg-config --cflags --libs rainref-c)",
                      pc));

@@ -66,7 +66,7 @@ TEST_F(PerfectPort, OfEdgeSplashIsGreen) {
 }
 // The README's own example. A loose and a tight profile and one frame here, as it takes longest; the script has the others.
 TEST_F(PerfectPort, OfThePuddleIsGreen) {
-  expect_green("puddle/default.toml", {{"vulkan", {1.74, 0.2}}, {"cuda", {0.19, 0.19}}}, {"--at", "12"});
+  expect_green("puddle/default.toml", {{"vulkan", {1.74, 0.2}}, {"cuda", {0.19, 0.19}}}, {"--at", "12", "--set", "environment.width=256"});
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST_F(PictureNotes, SaySceneSeedVersionFrameVariantAndHash) {
       EXPECT_EQ(note(file, "frame"), std::to_string(frame));
       EXPECT_EQ(note(file, "scene"), fmt::format("effect = \"puddle\"\nvariant = \"corrected\"\nseed = 11\nrun.frames = {}\n"
                                                  "run.size = [24, 16]\npuddle.grid = [40, 30]\npuddle.cell_size = 0.02\n"
-                                                 "puddle.ground_image = \"sky.png\"\nrain.rate = 40.0\nenvironment.image = \"sky.png\"\n",
+                                                 "puddle.ground_image = \"sky.npy\"\nrain.rate = 40.0\nenvironment.image = \"sky.npy\"\n",
                                                  frame + 1));
       EXPECT_EQ(note(file, "scene_hash"), note("o/puddle.0000.png", "scene_hash"));
       // What `rainref hash` prints of this frame's display.
@@ -90,7 +90,7 @@ TEST_F(PictureNotes, APictureIsASceneThatMakesItAgain) {
     // Every value that --set takes: texts, pairs, triples, numbers.
     run({scene + ".toml", "-o", scene, "--image", "both", "--frames", "4", "--set", "seed=3", "--set",
          "camera.position=[0.25, 0.5, 1.75]"});
-    fs::copy_file(folder / "sky.png", folder / (scene + "/sky.png"));  // what a scene names lies beside it
+    fs::copy_file(folder / "sky.npy", folder / (scene + "/sky.npy"));  // what a scene names lies beside it
     for (const char* kind : {"png", "exr"}) {
       const std::string picture = fmt::format("{}/puddle.0003.{}", scene, kind), again = fmt::format("{}_{}", scene, kind);
       run({picture, "-o", again, "--image", kind});
@@ -108,7 +108,7 @@ TEST_F(PictureNotes, APictureIsASceneThatMakesItAgain) {
 // They read the picture's bytes as TOML.
 TEST_F(PictureNotes, APictureIsPackedAndSweptAsAnyScene) {
   run({"corrected.toml", "-o", "o", "--image", "both", "--frames", "4"});
-  fs::copy_file(folder / "sky.png", folder / "o/sky.png");
+  fs::copy_file(folder / "sky.npy", folder / "o/sky.npy");
   for (const std::string picture : {"o/puddle.0003.png", "o/puddle.0003.exr"}) {
     SCOPED_TRACE(picture);
     const Outcome packed = run_rainref(folder.path(), {"pack", picture, "-o", "pack", "--passes", "display", "--at", "3"});

@@ -82,7 +82,7 @@ TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
   EXPECT_EQ(s["frames"], 2);
   EXPECT_GT(s["seconds"].get<double>(), 0);
   EXPECT_EQ(s["inputs"][0]["key"], "environment.image");
-  EXPECT_EQ(s["inputs"][0]["file"], "sky.png");
+  EXPECT_EQ(s["inputs"][0]["file"], "sky.npy");
   EXPECT_EQ(s["inputs"][0]["lossy"], false);
   EXPECT_EQ(s["inputs"][0]["decoded_hash"], image_io::read(folder / "sky.png").decoded_hash.text());
   std::vector<std::string> passes;

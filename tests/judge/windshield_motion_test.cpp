@@ -137,7 +137,7 @@ TEST(WindshieldMotion, TheReferenceIsThePacksAndAPerturbedWithoutVariations) {
 
 // RAINREF_EVALUATIONS sets how many devices are drawn for each pass, as in honesty_test.cpp.
 TEST(WindshieldMotion, NoConformingDeviceIsOutside) {
-  const std::int64_t each = std::max<std::int64_t>(1, count_from("RAINREF_EVALUATIONS", 30000) / 3000);
+  const std::int64_t each = std::max<std::int64_t>(1, count_from("RAINREF_EVALUATIONS", 12000) / 3000);
   for (const std::string& variant : variants) {
     for (const std::string& pass : moving) {
       const std::vector<ListCase> cases = list_cases(variant, pass);

@@ -34,6 +34,7 @@ TEST(WaveDefinition, GivesTheBitsOfTheLanes) {
           s.smallest_drop = 1;
           s.shape = variant == Variant::corrected && width > 20 ? Shape::natural : Shape::basin;
           s.rim_width = width % 2 ? 0.2 : 0;  // 4 cells
+          s.bed_columns = 64;
           select_simd_target(targets[static_cast<std::size_t>(width) % targets.size()]);
           Puddle puddle = puddle_of(s);
           const auto cases = rainref::test::captured(effect_info(), variant == Variant::corrected, "wave_step", [&](Recorder& recorder) {

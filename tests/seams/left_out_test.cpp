@@ -15,6 +15,8 @@ namespace {
 
 using testing::HasSubstr;
 
+const std::string street = "environment.width=64";  // coarse: it is not what is tested
+
 Simulation opened(std::vector<std::string> set) {
   static const parallel::Executor executor;
   set.insert(set.end(), {"run.size=[32, 18]"});
@@ -34,14 +36,14 @@ void expect_refused(const std::function<void()>& call, ExitCode code, const std:
 TEST(LeftOut, AConfigurationOfEmbreeIsRefusedWithoutIt) {
   expect_refused(
       [] {
-        opened({"effect=\"puddle\"", "compositor.picture=\"traced\"", "compositor.embree_config=\"isa=sse2\""}).next_frame();
+        opened({"effect=\"puddle\"", "compositor.picture=\"traced\"", "compositor.embree_config=\"isa=sse2\"", street}).next_frame();
       },
       ExitCode::usage, "compositor.embree_config = \"isa=sse2\": this build of rainref traces rays without Embree");
 }
 
 TEST(LeftOut, OfPicturesInFilesPngAloneIsWrittenWithoutOpenImageIO) {
   const TemporaryFolder folder;
-  Simulation puddle = opened({"effect=\"puddle\""});
+  Simulation puddle = opened({"effect=\"puddle\"", street});
   puddle.next_frame();
   EXPECT_FALSE(puddle.picture().empty());
   puddle.write_png(folder.path() / "a.png");

@@ -68,8 +68,8 @@ inline std::vector<StateScene> state_scenes() {
     windshield("plain", {});
     windshield("film", {"scene.image=" + tiny_film(), "sequence.count=40"});
     windshield("panes", {"scene.moves=false", "windshield.panes=1.0 0.75 0.95, 1.9 0.8 1.0, 1.1 0.7 1.4", "pane_1_wipers.count=1"});
-    windshield("behind", {"scene.moves=false", "falling_rain.on=true", "falling_rain.gain=8", "falling_rain.exposure=0.01",
-                          corrected ? "windshield.substeps=3" : "seed=3"});
+    windshield("behind", {"scene.moves=false", "falling_rain.on=true", "falling_rain.gain=8", "falling_rain.far=2",
+                          "falling_rain.exposure=0.01", corrected ? "windshield.substeps=3" : "seed=3"});
     windshield("weather", {"scene.moves=false", "rain.key_frames=0 30; 1 150", "wipers.key_frames=0 slow; 0.3 fast; 0.9 off",
                            "world.wind_key_frames=0 0 0 0; 1 3 -6 0", "windshield.rounding=rtz"});
     std::erase_if(all.back().text.set,
