@@ -109,7 +109,10 @@ int far_fetched(const Cause& c) {
   if (c.of_records && (c.name.ends_with("without a record") || c.name.ends_with("not written"))) return 8;
   if (c.of_records && c.name.ends_with("one step late")) return 4;
   // A channel that is never written is as plain as what can be left out in few places.
-  if (!c.name.starts_with("input ") && c.name.find(" without its ") + 14 == c.name.size()) return -1;
+  static constexpr std::string_view channel = " without its ";  // and its letter
+  const bool is_channel =
+      c.name.size() > channel.size() + 1 && c.name.compare(c.name.size() - channel.size() - 1, channel.size(), channel) == 0;
+  if (!c.name.starts_with("input ") && is_channel) return -1;
   // Channels of a result that hold the same by chance.
   if (!c.name.starts_with("input ") && c.name.find(" with its ") != std::string::npos) return 3;
   // Where one of two channels is read, the other one in its place is plainer than both exchanged.

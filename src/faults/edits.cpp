@@ -283,9 +283,6 @@ class Edits {
         return;
     }
   }
-  static Expression clamped(const Expression& e) {
-    return operation(Op::minimum, {operation(Op::maximum, {e, number_of(0)}), number_of(1)});
-  }
 
   /// A part as it is after a step, elsewhere in the pass: life - dt for life.
   void updated() {
@@ -313,10 +310,6 @@ class Edits {
         *to = kept;
       }
     }
-  }
-  static bool can_be_had(const Expression& e) {
-    if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;
-    return std::all_of(e.of.begin(), e.of.end(), [](const Expression& of) { return can_be_had(of); });
   }
 
   /// One part in the place of another.

@@ -21,6 +21,10 @@ struct Expression {
 Expression number_of(float value);
 /// What a node gives, as a part of what stands there instead.
 Expression itself(std::int32_t node);
+/// Whether all of it is there: elsewhere() gives parts that cannot be had.
+bool can_be_had(const Expression& e);
+/// x held to [0, 1].
+Expression clamped(const Expression& x);
 /// A part of expression_of() as the value that stands there, whatever else changes it, in place of what it is made of.
 Expression as_part(const Expression& e);
 Expression operation(perturbed::Op op, std::vector<Expression> of);

@@ -81,6 +81,11 @@ Expression itself(std::int32_t node) {
   e.node = node;
   return e;
 }
+bool can_be_had(const Expression& e) {
+  if (e.step.kind == Kind::part && e.step.path[0] < 0) return false;
+  return std::all_of(e.of.begin(), e.of.end(), can_be_had);
+}
+Expression clamped(const Expression& x) { return operation(Op::minimum, {operation(Op::maximum, {x, number_of(0)}), number_of(1)}); }
 Expression as_part(const Expression& e) {
   Expression out = e;
   out.of.clear();

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "capture/bound_texture.h"
 #include "faults/case_adder.h"
 #include "faults/whole_faults.h"
 #include "math/half.h"
@@ -19,44 +21,39 @@ bool has_floats(const Array& a) {
   const FormatInfo::Kind kind = info(a.format).kind;
   return kind == FormatInfo::float16 || kind == FormatInfo::float32;
 }
-int size_of(int size, std::size_t level) { return std::max(1, size >> level); }
-float number_at(const Array& a, std::size_t level, int x, int y, int channel) {
-  const FormatInfo& f = info(a.format);
-  const int width = size_of(a.width, level), height = size_of(a.height, level);
-  const std::size_t texel = static_cast<std::size_t>(std::clamp(y, 0, height - 1)) * static_cast<std::size_t>(width) +
-                            static_cast<std::size_t>(std::clamp(x, 0, width - 1));
-  const std::byte* at = a.levels[level].data() + texel * a.element_bytes() + static_cast<std::size_t>(channel * f.channel_bytes);
-  if (f.kind == FormatInfo::float32) {
-    float v;
-    std::memcpy(&v, at, 4);
-    return v;
-  }
-  Half h;
-  std::memcpy(&h, at, 2);
-  return to_float(h);
+/// A level, decoded.
+struct Level {
+  std::vector<float> values;
+  int width, height, channels;
+};
+Level level_of(const Array& a, int level) {
+  return {capture::decoded(a, level), a.level_width(level), a.level_height(level), info(a.format).channels};
 }
-/// Between four texels of a level, at (u, v) of [0, 1].
-double filtered(const Array& a, std::size_t level, double u, double v, int channel) {
-  const double x = u * size_of(a.width, level) - 0.5, y = v * size_of(a.height, level) - 0.5;
+/// Between four texels, at (u, v) of [0, 1].
+double filtered(const Level& l, double u, double v, int channel) {
+  const double x = u * l.width - 0.5, y = v * l.height - 0.5;
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   const double fx = x - i, fy = y - j;
-  const auto at = [&](int dx, int dy) { return static_cast<double>(number_at(a, level, i + dx, j + dy, channel)); };
+  const auto at = [&](int dx, int dy) {
+    const int column = std::clamp(i + dx, 0, l.width - 1), row = std::clamp(j + dy, 0, l.height - 1);
+    return static_cast<double>(l.values[static_cast<std::size_t>((row * l.width + column) * l.channels + channel)]);
+  };
   return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
 }
 /// The first level becomes what a lookup at `lod` gives at its texels.
 void coarsen(Array& a, double lod) {
-  const Array from = a;
   const FormatInfo& f = info(a.format);
-  const auto last = static_cast<double>(a.levels.size() - 1);
-  const double level = std::clamp(lod, 0.0, last);
-  const auto low = static_cast<std::size_t>(std::floor(level)), high = std::min(low + 1, a.levels.size() - 1);
-  const double share = level - static_cast<double>(low);
+  const int last = static_cast<int>(a.levels.size()) - 1;
+  const double level = std::clamp(lod, 0.0, static_cast<double>(last));
+  const int first = static_cast<int>(std::floor(level));
+  const Level low = level_of(a, first), high = level_of(a, std::min(first + 1, last));
+  const double share = level - first;
   std::byte* to = a.levels[0].data();
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x)
       for (int k = 0; k < f.channels; ++k, to += f.channel_bytes) {
         const double u = (x + 0.5) / a.width, v = (y + 0.5) / a.height;
-        const auto value = static_cast<float>(filtered(from, low, u, v, k) * (1 - share) + filtered(from, high, u, v, k) * share);
+        const auto value = static_cast<float>(filtered(low, u, v, k) * (1 - share) + filtered(high, u, v, k) * share);
         if (f.kind == FormatInfo::float32) {
           std::memcpy(to, &value, 4);
         } else {

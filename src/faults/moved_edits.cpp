@@ -15,11 +15,6 @@ using perturbed::FormulaStep;
 using perturbed::Op;
 using Node = perturbed::Trace::Node;
 
-bool can_be_had(const Expression& e) {
-  if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;
-  return std::all_of(e.of.begin(), e.of.end(), can_be_had);
-}
-
 class Moves {
  public:
   Moves(const Probe& p, const std::vector<Nodes>& vectors, std::vector<JointEdit>& out) : p_(p), out_(out) {

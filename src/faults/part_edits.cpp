@@ -19,11 +19,6 @@ using perturbed::FormulaStep;
 using perturbed::Op;
 using Node = perturbed::Trace::Node;
 
-bool can_be_had(const Expression& e) {
-  if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;
-  return std::all_of(e.of.begin(), e.of.end(), can_be_had);
-}
-
 /// "axis.x of wipers": the member "axis of wipers" and its component 'x'; of a scalar ' '.
 struct Member {
   std::string name;

@@ -76,7 +76,6 @@ void check_in(Replay& other, std::vector<Tried>& causes) {
     c.explained += found->second.explained;
     c.inside += found->second.inside;
     c.of += found->second.of;
-    c.good += found->second.good;
     c.bad += found->second.bad;
     c.is_likely &= found->second.is_likely;
     c.misfit = std::max(c.misfit, found->second.misfit);

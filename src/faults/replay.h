@@ -16,9 +16,8 @@ struct Tried : judge::Cause {
   Tried() = default;
   Tried(judge::Cause cause, double how_far = 0) : Cause(std::move(cause)), misfit(how_far) {}
   double misfit = 0;         ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
-  std::int64_t good = 0;     ///< texels that passed and that the mistake moves to where the port is
   bool is_untested = false;  ///< another run could not be asked about it
-  std::int64_t bad = 0;      ///< those that it moves away from there
+  std::int64_t bad = 0;      ///< texels that passed and that the mistake moves away from where the port is
 };
 
 /// Places that a mistake leaves unexplained, and those that passed and would not have with it.

@@ -128,8 +128,8 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
 
 /// What a fault does to texels that passed.
 struct Passing {
-  double contradicted = 0;         ///< share of them where the fault would store clearly other codes than the port did
-  std::int64_t good = 0, bad = 0;  ///< that it moves by more than a few codes: to where the port is, and away from there
+  double contradicted = 0;  ///< share of them where the fault would store clearly other codes than the port did
+  std::int64_t bad = 0;     ///< how many it moves by more than a few codes, away from where the port is
 };
 Passing passing_with(const std::vector<Slot>& slots, const capture::PassModel& model, const FaultyPass& faulty,
                      const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway,
@@ -155,7 +155,6 @@ Passing passing_with(const std::vector<Slot>& slots, const capture::PassModel& m
     }
     against += is_against;
     if (moved <= few_codes) continue;
-    out.good += 4 * after < moved;
     out.bad += 4 * before < moved && 2 * after > moved;
   }
   if (!passing.empty()) out.contradicted = static_cast<double>(against) / static_cast<double>(passing.size());
@@ -273,7 +272,6 @@ Tried TexelReplay::cause(const Fault& given) const {
   const std::vector<Texel>& passing = d.is_evaluated() ? few_passing_ : many_passing_;
   const Passing there = passing_with(slots_, probed_.model, faulty, port_, reference_, leeway_, passing);
   if (there.contradicted * passing_per_failing_ * 4 > 1) cause.explained = cause.inside = 0;
-  cause.good = there.good;
   cause.bad = there.bad;
   cause.is_likely = telling * 10 >= cause.of * 9;
   cause.misfit = left / static_cast<double>(failing_.size());

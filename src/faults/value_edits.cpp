@@ -21,7 +21,6 @@ Expression quotient(Expression a, Expression b) { return operation(Op::quotient,
 Expression power(const Expression& x, float exponent) {
   return operation(Op::power, {operation(Op::maximum, {x, number_of(0)}), number_of(exponent)});
 }
-Expression clamped(const Expression& x) { return operation(Op::minimum, {operation(Op::maximum, {x, number_of(0)}), number_of(1)}); }
 Expression decoded(const Expression& x) {
   return operation(Op::choice, {quotient(x, number_of(12.92f)), power(quotient(sum(x, number_of(0.055f)), number_of(1.055f)), 2.4f),
                                 operation(Op::comparison, {x, number_of(0.04045f)})});
@@ -104,10 +103,12 @@ std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::in
   const auto add = [&](const Curve& curve) {
     Edit& e = out.emplace_back();
     for (const std::int32_t node : values) e.made.push_back(curve.make(itself(node)));
-    const bool is_clamp = std::string_view(curve.name).starts_with("held");
-    e.name = is_clamp ? fmt::format("held: {}", text) : fmt::format("{}: {}", curve.name, text);
-    e.sentence = is_clamp ? fmt::format("{} is held to [0, 1], where it should not be", text)
-                          : fmt::format("{} is {}, which it should not be", text, curve.name);
+    const std::string_view name = curve.name;
+    const bool is_clamp = name.starts_with("held"), is_verb = name.find("ed ") != std::string_view::npos && !name.starts_with("taken");
+    e.name = fmt::format("{}: {}", is_clamp ? "held" : name, text);
+    e.sentence = is_clamp  ? fmt::format("{} is held to [0, 1], where it should not be", text)
+                 : is_verb ? fmt::format("{} is {}, which it should not be", text, name)
+                           : fmt::format("for x = {} stands {}", text, curve.formula);
   };
   const Op op = node_of(p, values[0]).op;
   if (op != Op::comparison && op != Op::coordinate && op != Op::level) {

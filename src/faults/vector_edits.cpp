@@ -75,11 +75,6 @@ std::vector<std::int32_t> operands(const Probe& p, const std::vector<std::int32_
   return out;
 }
 
-bool can_be_had(const Expression& e) {
-  if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;
-  return std::all_of(e.of.begin(), e.of.end(), can_be_had);
-}
-
 }  // namespace
 
 std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& v) {

@@ -112,6 +112,13 @@ TEST(Replay, OfCausesThatExplainAsMuchTheOneThatBreaksNothingIsTaken) {
   EXPECT_EQ(best_causes({cause("difference the other way: a - b", 0), cause("input a is b", 0)})[0].name,
             "difference the other way: a - b");
 }
+// What is plain is told by the whole end of a name, whatever its length.
+TEST(Replay, AChannelThatIsNeverWrittenIsPlainAndNothingElseOfThatLength) {
+  const auto cause = [](const char* name) { return Cause{name, "", 1, 1, 1, true, true}; };
+  EXPECT_LT(far_fetched(cause("drops without its z")), 0);
+  EXPECT_EQ(far_fetched(cause("input drops without its z")), 0);
+  EXPECT_EQ(far_fetched(cause("thirteen long")), 0);
+}
 // A list that is as it was before the pass: many mistakes keep a pass from doing anything.
 TEST(Replay, WhereNothingWasDoneNoCauseIsLikely) {
   const auto cause = [](const char* name) { return Tried({name, "", 48, 48, 48, true, true}); };
