@@ -194,18 +194,22 @@ RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, int x, 
 }
 
 /// corrected: the film, whole mass units in each texel, under a tent of 3 x 3 texels, which keeps its volume. Rows are readable
-/// one texel to both sides, where the nearest texel stands again.
+/// one texel to both sides, where the nearest texel stands again. Operands have names so that every compiler takes them in one order,
+/// which is that of causes that explain as much.
 template <class N>
 RAINREF_FN N film_tent(N before, N here, N after) {
-  return N(0.5f) * here + N(0.25f) * (before + after);
+  const N middle = N(0.5f) * here, sides = N(0.25f) * (before + after);
+  return middle + sides;
 }
 template <class N>
 RAINREF_FN N film_row(const float* row, int x) {
-  return film_tent(N::load(row + x - 1), N::load(row + x), N::load(row + x + 1));
+  const N before = N::load(row + x - 1), own = N::load(row + x), after = N::load(row + x + 1);
+  return film_tent(before, own, after);
 }
 template <class N>
 RAINREF_FN N film_height(const SplatUniforms& u, const float* below, const float* here, const float* above, int x) {
-  return N(u.film_scale) * film_tent(film_row<N>(below, x), film_row<N>(here, x), film_row<N>(above, x));
+  const N before = film_row<N>(below, x), own = film_row<N>(here, x), after = film_row<N>(above, x);
+  return N(u.film_scale) * film_tent(before, own, after);
 }
 
 struct SplatPassText {

@@ -36,6 +36,18 @@ Expression built(const Probe& p, std::int32_t node, std::array<std::int8_t, 6> p
   }
   return e;
 }
+/// The path from a node to another one that it is made of, so many operations deep; false: there is none.
+bool find_path(const Probe& p, std::int32_t from, std::int32_t to, std::array<std::int8_t, 6>& path, std::size_t length, std::size_t most) {
+  if (length >= most || from < 0) return false;
+  const Node& n = node_of(p, from);
+  for (int k = 0; k < perturbed::operands_of(n.op); ++k) {
+    const std::int32_t below = n.of[static_cast<std::size_t>(k)];
+    path[length] = static_cast<std::int8_t>(k);
+    if (below == to || find_path(p, below, to, path, length + 1, most)) return true;
+  }
+  path[length] = -1;
+  return false;
+}
 void append(const Expression& e, Formula& out) {
   for (const Expression& below : e.of) append(below, out);
   out.push_back(e.step);
@@ -114,6 +126,12 @@ Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const s
     return e;
   }
   const bool is_changed = std::find(changed.begin(), changed.end(), node) != changed.end();
+  // What the place itself is made of is found there in each call of a function.
+  constexpr std::size_t deep = 4;
+  if (std::array<std::int8_t, 6> path{-1, -1, -1, -1, -1, -1}; node < at && !is_changed && find_path(p, at, node, path, 0, deep)) {
+    e.step.path = path;
+    return e;
+  }
   if (node < at && !is_changed) {
     e.step.kind = Kind::met;
     e.step.shape = n.shape;

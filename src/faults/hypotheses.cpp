@@ -126,7 +126,8 @@ void add_fitted_thresholds(std::vector<Fault>& out, const Probed& p, const Const
   }
 }
 
-/// Numbers that are met everywhere, but for those that a record of a list holds.
+}  // namespace
+
 std::vector<float> without_records(std::vector<float> known, const std::vector<Probe>& probes) {
   std::set<float> of_records;
   for (const Probe& p : probes)
@@ -136,8 +137,6 @@ std::vector<float> without_records(std::vector<float> known, const std::vector<P
   std::erase_if(known, [&](float v) { return of_records.contains(v); });
   return known;
 }
-
-}  // namespace
 
 bool is_of_uniform(const Fault& d) { return d.name.starts_with("uniform") && !d.name.ends_with("stale"); }
 

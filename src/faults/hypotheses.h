@@ -25,8 +25,11 @@ std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::
 /// The same for keyed lists, whose evaluation takes longer: what is asked first, and what only where that explains little. p.bind may
 /// be null.
 std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before);
-/// `stand_alone`: whether some records can be evaluated by themselves.
-Hypotheses list_hypotheses(const Probed& p, const std::string& list, bool stand_alone);
+/// `alone`: cases of one failing record each, where records can be evaluated by themselves; then places are those of a record.
+Hypotheses list_hypotheses(const Probed& p, const std::string& list, const std::vector<Probed>& alone);
+
+/// Numbers that are met everywhere, but for those that a record of a list holds.
+std::vector<float> without_records(std::vector<float> known, const std::vector<Probe>& probes);
 
 /// What is wrong with a uniform itself. A mistake in the text that gives the same is believed first.
 bool is_of_uniform(const Fault& d);

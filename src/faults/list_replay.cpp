@@ -145,7 +145,9 @@ ListReplay::ListReplay(const capture::PackPass& pass, const capture::PassCase& c
 std::vector<Fault> ListReplay::plain() { return plain_list_hypotheses({pass_, c_, evaluations_->bind, *model_}, before_); }
 
 std::vector<Fault> ListReplay::deeper() {
-  Hypotheses all = list_hypotheses({pass_, c_, evaluations_->bind, *model_}, c_.outputs[output_].name, !alone_.empty());
+  std::vector<Probed> alone;
+  for (const std::shared_ptr<Alone>& one : alone_) alone.push_back({pass_, one->c, evaluations_->bind, *one->model});
+  Hypotheses all = list_hypotheses({pass_, c_, evaluations_->bind, *model_}, c_.outputs[output_].name, alone);
   constants_ = std::move(all.constants);
   return std::move(all.faults);
 }

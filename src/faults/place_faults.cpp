@@ -43,17 +43,35 @@ bool is_multiple(PlaceFault fault, Op op) {
 /// What is done to a place before it is looked up: both sides of it are wrong together.
 bool is_bent(Op op) { return op == Op::floor || op == Op::fract || op == Op::minimum || op == Op::maximum; }
 
+/// Whether an operand of a sum or product is a literal, other than those that stand everywhere.
+bool is_literal(const Probe& p, const Node& n, std::size_t k) {
+  if (n.op != Op::sum && n.op != Op::difference && n.op != Op::product && n.op != Op::quotient) return false;
+  if (n.of[k] < 0 || p.trace.nodes[static_cast<std::size_t>(n.of[k])].op != Op::constant) return false;
+  const std::string& name = p.names[static_cast<std::size_t>(n.of[k])];
+  if (name.empty() || name.find_first_not_of("0123456789.-e") != std::string::npos) return false;
+  return n.op == Op::sum || n.op == Op::difference || (name != "2" && name != "0.5" && name != "-1");
+}
+
 /// Groups of two or three first places of different shapes and one text, each met as often, of the operations that `wanted` says.
 template <class Wanted>
 std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wanted) {
   std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_text;
   std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_axis;  // e_u.z and e_v.z
   std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_side;
+  std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_literal, by_leaf;
   for (std::size_t at = 0; at < p.trace.nodes.size(); ++at) {
     const Node& n = p.trace.nodes[at];
     if (!wanted(n.op) || n.occurrence != 0) continue;
     const std::string text = p.text(static_cast<std::int32_t>(at), 3);
+    // A number of its own that stands in few places: seed + 1, of both components.
+    for (const std::size_t k : {0u, 1u})
+      if (is_literal(p, n, k))
+        by_literal[{n.op, fmt::format("literal {} {}", k, p.names[static_cast<std::size_t>(n.of[k])])}][n.shape] = at;
     if (text == "...") continue;
+    // Whatever the other operand is made of: in (-y, x), turned, of other operations.
+    if (const std::string near = p.text(static_cast<std::int32_t>(at), 1);
+        near.find("...") != std::string::npos && near.find('.') != near.find("..."))
+      by_leaf[{n.op, "leaf " + of_any_component(near)}][n.shape] = at;
     by_text[{n.op, of_any_component(with_columns(text))}][n.shape] = at;
     by_axis[{n.op, "axis " + of_any_component(text, 'u', 'v')}][n.shape] = at;
     // What lies on both sides of something: x - shift and x + shift.
@@ -61,6 +79,8 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
     for (std::size_t k = both.find(" - "); k != std::string::npos; k = both.find(" - ", k)) both[k + 1] = '+';
     if (is_bent(n.op)) by_side[{n.op, "side " + both}][n.shape] = at;
   }
+  by_text.merge(by_literal);
+  by_text.merge(by_leaf);
   by_text.merge(by_axis);
   by_text.merge(by_side);
   std::vector<std::vector<std::size_t>> out;

@@ -34,6 +34,20 @@ std::string image_of(const Probe& p, std::size_t node) {
   return "a texture";
 }
 
+/// Whether a square is a term of a sum of squares, of which hardly anybody forgets one.
+bool is_of_length(const Probe& p, std::size_t square) {
+  const auto op = [&](std::int32_t i) { return i < 0 ? Op::constant : p.trace.nodes[static_cast<std::size_t>(i)].op; };
+  constexpr std::size_t near = 12;
+  const std::size_t end = std::min(p.trace.nodes.size(), square + near);
+  for (std::size_t n = square + 1; n < end; ++n) {
+    const Node& sum = p.trace.nodes[n];
+    for (const std::size_t k : {0u, 1u})
+      if (sum.op == Op::sum && sum.of[k] == static_cast<std::int32_t>(square))
+        return op(sum.of[1 - k]) == Op::square || op(sum.of[1 - k]) == Op::sum;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<Words> words_of(const Probe& p, std::size_t at) {
@@ -88,8 +102,13 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
     case Op::minimum:
     case Op::maximum: {
       const char* const name = n.op == Op::minimum ? "min" : "max";
-      add(PlaceFault::first, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, a));
-      add(PlaceFault::second, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, b));
+      // What is held rather stands alone than what holds it.
+      const auto left_out = [&](std::int32_t kept) {
+        const bool is_limit = kept >= 0 && p.trace.nodes[static_cast<std::size_t>(kept)].op == Op::constant;
+        return is_limit ? fmt::format("limit of {} alone: {}", name, all) : fmt::format("{} left out: {}", name, all);
+      };
+      add(PlaceFault::first, left_out(n.of[0]), fmt::format("for {} stands {}", all, a));
+      add(PlaceFault::second, left_out(n.of[1]), fmt::format("for {} stands {}", all, b));
       add(PlaceFault::other, fmt::format("{} for {}: {}", n.op == Op::minimum ? "max" : "min", name, all),
           fmt::format("{} is taken the other way", all));
       add(PlaceFault::added, fmt::format("sum for {}: {}", name, all), fmt::format("{} and {} are added in place of their {}", a, b, name));
@@ -107,7 +126,8 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::halved, "half as large: " + all, fmt::format("{} is half as large: a radius for a diameter", all));
       break;
     case Op::square:
-      add(PlaceFault::first, "not squared: " + a, fmt::format("{} is taken for its square", a));
+      add(PlaceFault::first, (is_of_length(p, at) ? "not squared in a length: " : "not squared: ") + a,
+          fmt::format("{} is taken for its square", a));
       add(PlaceFault::other, "cube for square: " + a, fmt::format("{} is cubed", a));
       add(PlaceFault::squared, "squared twice: " + a, fmt::format("{} is squared twice", a));
       break;

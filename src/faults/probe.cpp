@@ -51,6 +51,12 @@ Trace traced(const capture::PassModel& model, const Evaluation& evaluation, cons
   following.known = &known;
   const perturbed::Scope scope(following);
   std::vector<std::int32_t> nodes = evaluation.run(model);
+  // Of a list of one record what that is given.
+  if (!evaluation.list.empty())
+    for (std::size_t at = 0; at < trace.nodes.size(); ++at)
+      if (trace.nodes[at].op == Op::stored) nodes.push_back(static_cast<std::int32_t>(at));
+  constexpr std::size_t most_slots = 16;
+  if (nodes.size() > most_slots) nodes.clear();
   if (outputs) *outputs = std::move(nodes);
   return trace;
 }
@@ -158,6 +164,15 @@ std::string Probe::text(std::int32_t node, int depth) const {
   if (n.op == Op::level || n.op == Op::coordinate || n.op == Op::argument || n.op == Op::bent || n.op == Op::stored)
     return text(n.of[0], depth);
   if (depth == 0) return n.op == Op::sum && is_of_column(n) ? text(n.of[0], depth) + " + 0.5" : "...";
+  // HLSL's int(): toward zero.
+  if (n.op == Op::choice) {
+    const auto below = [&](std::int32_t i, Op op) {
+      return i >= 0 && trace.nodes[static_cast<std::size_t>(i)].op == op ? trace.nodes[static_cast<std::size_t>(i)].of[0] : -1;
+    };
+    const std::int32_t up = below(n.of[1], Op::floor);
+    if (up >= 0 && below(below(below(n.of[0], Op::negation), Op::floor), Op::negation) == up)
+      return fmt::format("trunc({})", text(up, depth - 1));
+  }
   // One deeper with each choice too: the steps of a march choose between each other, and twice as many texts with each step.
   if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth - 1), text(n.of[1], depth - 1));
   if (n.op == Op::negation) return "-" + text(n.of[0], depth);

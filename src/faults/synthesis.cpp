@@ -71,6 +71,7 @@ class Search {
         solved.emplace_back(t, std::move(s));
       }
     }
+    other_taps();
     if (found_.empty()) slot_by_slot();
     if (found_.empty()) everywhere();
     if (found_.empty())
@@ -205,7 +206,6 @@ class Search {
     for (const Node& n : first_.trace.nodes)
       for (const std::int32_t of : n.of)
         if (of >= 0) ++uses[static_cast<std::size_t>(of)];
-    other_taps(left);
     const std::vector<Source> none;
     for (const Target& t : all) {
       std::vector<Substitution> places = t.places(first_);
@@ -279,22 +279,28 @@ class Search {
     return is_any;
   }
   /// The column or row of one texel that is that of another one.
-  void other_taps(std::size_t& left) {
+  void other_taps() {
     constexpr std::size_t most = 24;
+    std::size_t left = std::min<std::size_t>(2000, most_steps / std::max<std::size_t>(first_.trace.nodes.size(), 1));
     std::vector<std::int32_t> taps;
     for (std::int32_t at = 0; at < static_cast<std::int32_t>(first_.trace.nodes.size()) && taps.size() < most; ++at)
       if (node_of(first_, at).op == Op::coordinate && first_.trace.met.at(node_of(first_, at).shape) <= 12) taps.push_back(at);
     for (const std::int32_t to : taps) {
       const Target t{{to}, 0};
-      std::set<float> values{node_of(first_, to).value};
+      // What lies at the same place here lies elsewhere at another texel: nodes are told apart, not values.
+      std::set<std::int32_t> asked{t.value_at(first_, 0)};
       for (const std::int32_t from : taps) {
         const std::int32_t value = node_of(first_, from).of[0];
-        if (left == 0 || value < 0 || !values.insert(node_of(first_, from).value).second) continue;
+        if (left == 0 || value < 0 || !asked.insert(value).second) continue;
         const Source s{{value}, {}, words_for(first_, value), 1};
         std::vector<Substitution> places = t.places(first_);
         take(first_, s, t, places);
         --left;
-        if (suits(places)) keep(s.effort, places, said(first_, t, s, Put::instead, Change::none));
+        if (!suits(places)) continue;
+        const std::string right = words_for(first_, t.value_at(first_, 0));
+        keep(s.effort, places,
+             {fmt::format("wrong value: {} for {}", s.text, right),
+              fmt::format("of one texel that is read the column or row is {} where {} is meant", s.text, right)});
       }
     }
   }

@@ -26,6 +26,8 @@ using capture::PassCase;
 struct Tap {
   std::size_t load;
   int dx, dy, channel;
+  bool is_mirrored = false;  ///< twice the texel itself less this one
+  bool operator==(const Tap&) const = default;
 };
 struct Taps {
   std::string input;
@@ -150,8 +152,8 @@ class Adder {
     for (Read& read_of : reads)
       for (Tap& t : read_of.taps) {
         const Tap now = change(t);
-        changes |= now.dx != t.dx || now.dy != t.dy || now.channel != t.channel;
-        t = {t.load, now.dx, now.dy, now.channel};
+        changes |= now != t;
+        t = now;
         count = std::max(count, t.load + 1);
       }
     if (!changes) return;
@@ -162,13 +164,15 @@ class Adder {
       loads.assign(count, std::numeric_limits<float>::quiet_NaN());
       for (const Read& from : reads)
         for (const Tap& t : from.taps) {
-          const Array& a = from.input->array;
-          const int x = placed(from.scale.x * at.x + t.dx, a.width, address.value_or(from.input->address_u)),
-                    y = placed(from.scale.y * at.y + t.dy, a.height, address.value_or(from.input->address_v));
-          loads[t.load] = x >= 0 && y >= 0
-                              ? (*from.texels)[static_cast<std::size_t>((y * a.width + x) * info(a.format).channels + t.channel)]
-                          : address ? 0.0f
-                                    : from.input->border[static_cast<std::size_t>(t.channel)];
+          const auto texel = [&, channel = t.channel](int dx, int dy) {
+            const Array& a = from.input->array;
+            const int x = placed(from.scale.x * at.x + dx, a.width, address.value_or(from.input->address_u)),
+                      y = placed(from.scale.y * at.y + dy, a.height, address.value_or(from.input->address_v));
+            return x >= 0 && y >= 0 ? (*from.texels)[static_cast<std::size_t>((y * a.width + x) * info(a.format).channels + channel)]
+                   : address        ? 0.0f
+                                    : from.input->border[static_cast<std::size_t>(channel)];
+          };
+          loads[t.load] = t.is_mirrored ? 2 * texel(0, 0) - texel(t.dx, t.dy) : texel(t.dx, t.dy);
         }
       b.loads = &loads;
     };
@@ -206,6 +210,18 @@ void add_neighbours(const Adder& add, const Taps& taps) {
       [](int x, int y) { return std::pair(std::max(x, 0), std::max(y, 0)); });
   all("neighbours on the other side alone", "is read at the texel itself in place of the neighbours to the right and above",
       [](int x, int y) { return std::pair(std::min(x, 0), std::min(y, 0)); });
+  for (const int way : {1, -1}) {
+    const char* const sides = way > 0 ? "to the right and above" : "to the left and below";
+    add(fmt::format("differences on one side, twice, {}", sides),
+        fmt::format(
+            "{} is not read on both sides: in place of central differences stands twice the difference between the texel itself and "
+            "its neighbours {}",
+            in, sides),
+        [way](Tap t) {
+          const bool is_left_out = way * (t.dx + t.dy) < 0;
+          return is_left_out ? Tap{t.load, -t.dx, -t.dy, t.channel, true} : t;
+        });
+  }
   all("neighbours not reached", "is read at the texel itself in place of its neighbours", [](int, int) { return std::pair(0, 0); });
   for (const auto& [dx, dy, way] : {std::tuple(1, 0, "one column to the right"),
                                     {-1, 0, "one column to the left"},

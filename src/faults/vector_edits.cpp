@@ -1,5 +1,6 @@
 // What stands in place of a vector: its components exchanged or turned, a matrix left out or transposed.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -165,6 +166,24 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
   for (std::size_t k = 0; k < n; ++k) bare.push_back(elsewhere(p, columns[k], v[k], v));
   add(bare, fmt::format("matrix left out: {} for {}", of_vector(), vector),
       fmt::format("{} stands in place of {}: the matrix, or the conversion to other axes, is left out", of_vector(), vector));
+
+  // Of a vector that is projected on others: on these as unit vectors in place of by the matrix.
+  std::vector<Expression> on_units;
+  for (std::size_t k = 0; k < n; ++k)
+    if (const std::optional<Row> projection = row_of(p, columns[k])) {
+      double length_sq = 0;
+      for (const Row::Term& t : projection->terms) {
+        const double one = node_of(p, t.coefficient).value;
+        length_sq += one * one;
+      }
+      if (projection->terms.size() > 1 && length_sq > 0)
+        on_units.push_back(operation(Op::product, {bare[k], number_of(static_cast<float>(1 / std::sqrt(length_sq)))}));
+    }
+  if (on_units.size() == n)
+    add(std::move(on_units), fmt::format("matrix for unit vectors: {} for {}", of_vector(), vector),
+        fmt::format("the projections {} are taken on vectors of length 1 and stand in place of {}: the matrix, which has their lengths "
+                    "squared, is left out",
+                    of_vector(), vector));
 
   // The same with rows and columns exchanged: each coefficient with the other component, in the other row.
   struct Entry {

@@ -110,6 +110,8 @@ struct Behaviour {
   bool is_column_mirrored = false;            ///< the column is column_offset less itself instead
   bool reaches_all = false;                   ///< records that count at no texel nearby are met too: a mistake may change that
   Coverage* coverage = nullptr;               ///< counts which sides of decisions are taken
+  /// What is counted in an invocation begins anew, and the values of before that rewrites look back to.
+  void begin_invocation();
   bool follows() const { return trace || substitutions || places[0].fault != PlaceFault::none; }
 };
 Behaviour& behaviour();
@@ -124,6 +126,18 @@ class Scope {
  private:
   Behaviour saved_;
 };
+
+/// Before each record of a list that a pass treats by itself: places are counted anew, as before each invocation. `look`: the record's
+/// evaluation, made first where a value is taken from further on in it.
+template <class Look>
+void begin_record(const Look& look) {
+  Behaviour& b = behaviour();
+  b.begin_invocation();
+  if (!b.substitutions || b.substitutions->is_looking) return;
+  b.substitutions->start();
+  b.substitutions->look_ahead(look);
+  b.begin_invocation();
+}
 
 /// While it lives the calling thread's operations are none of the pass text: parts of a named one, or of a mistake.
 class Unseen {
@@ -265,6 +279,10 @@ scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& v, const scalar::
 scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n, float eta,
                                 const char* file = __builtin_FILE(), int line = __builtin_LINE());
 Perturbed nearest_octave(Perturbed x);
+template <class Again>
+Perturbed once(Perturbed, const Again& again) {
+  return again();
+}
 inline Perturbed whole_place(Perturbed x) { return Perturbed::met(Op::coordinate, x, x); }
 Perturbed uniform_quotient(float a, float b, Perturbed);
 

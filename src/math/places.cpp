@@ -287,6 +287,14 @@ float Substitutions::value_for(std::size_t k, float meant) const {
 RewriteScope::RewriteScope(const Rewrites& r) : saved_(rewrites) { rewrites = r; }
 RewriteScope::~RewriteScope() { rewrites = saved_; }
 
+void Behaviour::begin_invocation() {
+  for (Place& place : places) place.seen = 0;
+  recent = 0;
+  if (!trace || rewrites[0].kind == RewriteKind::none) return;
+  trace->nodes.clear();
+  trace->met.clear();
+}
+
 Unseen::Unseen() { ++unseen; }
 Unseen::~Unseen() { --unseen; }
 

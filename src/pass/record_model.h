@@ -80,10 +80,12 @@ class RecordModel : public capture::KeyedModel {
   template <class N>
   std::vector<std::byte> list() const {
     std::vector<Record> all;
-    for (std::size_t i = 0; i < records_.size(); ++i)
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+      if constexpr (std::is_same_v<N, perturbed::Perturbed>) perturbed::begin_record([&] { with_given<N>(i, [](const auto&) {}); });
       with_given<N>(i, [&](const auto& given) {
         if (lives(given)) all.push_back(stored(given, records_[i]));
       });
+    }
     return bytes_of(all);
   }
   Bound<P, Text> pass_;

@@ -44,7 +44,12 @@ template <class State, class Record>
 Record stored(const State& state, Record like) {
   auto at = float_offsets_of<Record>().begin();
   State::each(state, [&](const auto& number) {
-    const float value = number.v + 0.0f;
+    float value;
+    // A number that follows what is done sees the place.
+    if constexpr (requires { number.as_stored(); })
+      value = number.as_stored().v + 0.0f;
+    else
+      value = number.v + 0.0f;
     std::memcpy(reinterpret_cast<std::byte*>(&like) + *at++, &value, sizeof value);
   });
   return like;

@@ -324,6 +324,43 @@ TEST(EditFaults, AMatrixIsLeftOutInOnePlace) {
                     {2, 3, 5}),
               testing::Contains(AllOf(StartsWith("matrix left out: "), HasSubstr(" in ("))));
 }
+// min(x + y, 1.5) z, of which the port has min(x z + y, 1.5): what multiplies all that is held multiplies one term alone.
+TEST(EditFaults, AFactorIsMovedInward) {
+  const Pass right = [](const Numbers& in) {
+    return std::vector<Perturbed>{min(load(in[0]) + load(in[1]), Perturbed(1.5f)) * load(in[2])};
+  };
+  EXPECT_THAT(found(right, [](const Numbers& in) { return Numbers{std::min(in[0] * in[2] + in[1], 1.5f)}; }, {1.5f}),
+              testing::Contains(AllOf(StartsWith("moved inward: in.z"), HasSubstr("in.x"))));
+}
+// G f with f projected on two vectors, in three calls, of which the port projects on unit vectors: each call has its own projections.
+TEST(EditFaults, AMatrixIsLeftOutForUnitVectorsInEachCall) {
+  const auto projected = [](const Perturbed& x, const Perturbed& y, std::vector<Perturbed>& out) {
+    const Perturbed u = x * Perturbed(3.0f) + y * Perturbed(4.0f), v = x * Perturbed(-5.0f) + y * Perturbed(12.0f);
+    out.push_back(Perturbed(0.7f) * u + Perturbed(0.2f) * v);
+    out.push_back(Perturbed(0.2f) * u + Perturbed(0.9f) * v);
+  };
+  const Pass right = [&](const Numbers& in) {
+    std::vector<Perturbed> out;
+    projected(load(in[0]), load(in[1]), out);
+    projected(load(in[1]), load(in[2]), out);
+    projected(load(in[2]), load(in[0]), out);
+    return out;
+  };
+  const auto port = [](float of_u, float of_v) {
+    return [of_u, of_v](const Numbers& in) {
+      Numbers out;
+      for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 0)}) {
+        const float x = in[static_cast<std::size_t>(a)], y = in[static_cast<std::size_t>(b)];
+        out.push_back((3 * x + 4 * y) / of_u);
+        out.push_back((12 * y - 5 * x) / of_v);
+      }
+      return out;
+    };
+  };
+  const Numbers literals{3, 4, -5, 12, 0.7f, 0.2f, 0.9f};
+  EXPECT_THAT(found(right, port(1, 1), literals), testing::Contains(StartsWith("matrix left out: ")));
+  EXPECT_THAT(found(right, port(5, 13), literals), testing::Contains(StartsWith("matrix for unit vectors: ")));
+}
 TEST(EditFaults, WhatIsStrangeHasNone) {
   const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{load(in[0]) * Perturbed(3.0f) + load(in[1])}; };
   EXPECT_EQ(first(right, [](const Numbers& in) { return Numbers{std::sin(91 * in[0] + in[2])}; }, {3}), "none");

@@ -13,6 +13,7 @@
 
 #include "faults/diagnose.h"
 #include "faults/mutate.h"
+#include "faults/probe.h"
 #include "judge/judge.h"
 #include "judge/keyed.h"
 #include "judge/support.h"
@@ -268,6 +269,28 @@ TEST(ListDiagnosis, AnotherValueOfAUniformIsReadOff) {
     ++named;
   }
   EXPECT_EQ(named, 1);
+}
+// A place that a record meets twice: the second time is met in every record, not in the first one of the list alone.
+TEST(ListDiagnosis, PlacesAreCountedAnewInEachRecord) {
+  const ListCase l = std::move(list_cases("windshield-corrected", "integrate").front());
+  const Probed probed{l.pass, *l.c, l.evaluations().bind, *l.model};
+  const std::vector<Probe> probes = probes_of_list(probed, l.c->outputs[l.output].name, {});
+  ASSERT_EQ(probes.size(), 1u);
+  const auto records = static_cast<std::int32_t>(l.reference().width);
+  ASSERT_GT(records, 3);
+  int most = 0;
+  for (const auto& [shape, count] : probes[0].trace.met) {
+    if (count < 2 * records) continue;
+    Fault d;
+    d.behaviour.places[0] = {shape, 1, perturbed::PlaceFault::doubled};
+    const std::optional<Array> list = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
+    ASSERT_TRUE(list);
+    const Records made = records_of(*list), right = records_of(l.reference());
+    int changed = 0;
+    for (std::size_t k = 0; k < std::min(made.size(), right.size()); ++k) changed += made[k] != right[k];
+    most = std::max(most, changed);
+  }
+  EXPECT_GT(most, 1);
 }
 // One field alone has half precision.
 TEST(ListDiagnosis, AFieldThroughHalfIsNamed) {

@@ -106,6 +106,23 @@ TEST(Synthesis, ExchangedComponentsAreFoundBehindALength) {
   };
   EXPECT_EQ(MadeUp(right, port, {2, 3}).first(), "wrong value: in.y * 3 for in.x * 3, in both components");
 }
+// Two texels are read at whole columns, of which the port reads one at the other's.
+TEST(Synthesis, AColumnOfOneTexelIsThatOfAnother) {
+  const auto texel = [](float column) { return std::sin(3 * column); };
+  const auto read = [&](const Perturbed& column) { return Perturbed::of(texel(Perturbed::met(Op::coordinate, column, column).v)); };
+  const Pass right = [&](const Numbers& in) {
+    const Perturbed left = floor(load(in[0]) * Perturbed(10.0f)), high = floor(load(in[3]) * Perturbed(5.0f));
+    const Perturbed a = read(left), b = read(high);
+    return std::vector<Perturbed>{a * Perturbed(2.0f) + b * load(in[1]), b};
+  };
+  const auto port = [&](const Numbers& in) {
+    const float high = std::floor(in[3] * 5);
+    return Numbers{texel(high) * 2 + texel(high) * in[1], texel(high)};
+  };
+  bool is_found = false;
+  for (const Fault& d : MadeUp(right, port, {2, 5, 10}).found()) is_found |= d.sentence.starts_with("of one texel that is read the column");
+  EXPECT_TRUE(is_found);
+}
 // y / 3 in the place of x, though the pass computes it only later.
 TEST(Synthesis, AValueThatIsMetOnlyLater) {
   const Pass right = [](const Numbers& in) {
