@@ -12,7 +12,7 @@ namespace rainref::blur_pyramid {
 
 /// A run for level 0. From which passes the scene comes, blur_info says.
 struct FogPass {
-  static constexpr pass::About about{"blur_pyramid", "The scene in fog, and blurred levels of it; one run a level.", {1}, {1}};
+  static constexpr pass::About about{"blur_pyramid", "The scene in fog, and blurred levels of it; one run a level.", {1}, {2}};
   using Uniforms = BlurUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -35,7 +35,7 @@ struct FogPass {
 };
 /// A run for a further level. Its lanes are written by hand, rows first: see kernels.cpp.
 struct HalvePass {
-  static constexpr pass::About about{"blur_pyramid", FogPass::about.sentence, {1}, {1}, {"the four texels"}};
+  static constexpr pass::About about{"blur_pyramid", FogPass::about.sentence, {1}, {2}, {"the four texels"}};
   using Uniforms = BlurUniforms;
   static scene::UniformBlock uniforms() { return FogPass::uniforms(); }
   template <class B>
@@ -47,6 +47,12 @@ struct HalvePass {
                                                                      .alpha = "1"};
   };
 };
+
+/// Texel i of a side of n, i from -2 to n + 2, in mirrors that stand at its edges; of a side of less than three the nearest one beyond.
+inline int mirrored(int i, int n) {
+  const int from_first = i < 0 ? -1 - i : i;
+  return std::clamp(from_first < n ? from_first : 2 * n - 1 - from_first, 0, n - 1);
+}
 
 }  // namespace rainref::blur_pyramid
 #endif
@@ -64,6 +70,14 @@ RAINREF_FN N box_of_four(N a, N b, N c, N d) {
   return N(0.25f) * sum_any_order_in_pairs(a, b, c, d);
 }
 
+/// corrected: texels under a bell, 1 4 6 4 1 sixteenths, of a picture that is mirrored at its edges, so that what is bright becomes round
+/// from level to level and moves with it: a box alone leaves squares that stand still. With the box of an even side 1 5 10 10 5 1, a
+/// B-spline of fourth degree. The mean is kept: as much of a texel goes to its neighbours as comes from them.
+template <class N>
+RAINREF_FN N bell_of_five(N t0, N t1, N t2, N t3, N t4) {
+  const N middle = N(0.375f) * t2, near = N(0.25f) * (t1 + t3), far = N(0.0625f) * (t0 + t4);
+  return (middle + near) + far;
+}
 /// corrected: a texel of m covers 1 / m of the n texels above, so with n = 2 m + 1 three of them, weighted by the overlap:
 /// (m - x) / n, m / n, (x + 1) / n. Every texel above counts the same in sum, so the mean is kept. Written from the first
 /// tap on, so that a constant stays as it is. Columns are taken together first, then rows of that.
@@ -71,13 +85,21 @@ template <class N>
 RAINREF_FN N box_of_three(N t0, N t1, N t2, N w1, N w2) {
   return (t0 + w1 * (t1 - t0)) + w2 * (t2 - t0);
 }
+/// Both, of seven texels from the second before the first on.
+template <class N>
+RAINREF_FN N round_of_seven(const N (&t)[7], N w1, N w2) {
+  const N first = bell_of_five(t[0], t[1], t[2], t[3], t[4]), second = bell_of_five(t[1], t[2], t[3], t[4], t[5]);
+  const N third = bell_of_five(t[2], t[3], t[4], t[5], t[6]);
+  return box_of_three(first, second, third, w1, w2);
+}
 /// The weight of the last tap for output index x.
 template <class N>
 RAINREF_FN N last_weight(float last, N x) {
   return N(last) * (x + N(1.0f));
 }
 
-/// Output texel (x, y), one channel; tap(i, j) is input texel (2 x + i, 2 y + j), the nearest one where there is none.
+/// Output texel (x, y), one channel; tap(i, j) is input texel (2 x + i, 2 y + j), where there is none the nearest one as published, that
+/// in the mirror, mirrored(), corrected.
 template <class N, class Tap>
 RAINREF_FN N halved_as_published(Tap tap) {
   return box_of_four(tap(0, 0), tap(1, 0), tap(0, 1), tap(1, 1));
@@ -85,8 +107,13 @@ RAINREF_FN N halved_as_published(Tap tap) {
 template <class N, class Tap>
 RAINREF_FN N halved_corrected(const BlurUniforms& u, Tap tap, int x, int y) {
   const N wy1(u.middle[1]), wy2 = last_weight(u.last[1], N(static_cast<float>(y)));
-  const auto column = [&](int i) RAINREF_LAMBDA { return box_of_three(tap(i, 0), tap(i, 1), tap(i, 2), wy1, wy2); };
-  return box_of_three(column(0), column(1), column(2), N(u.middle[0]), last_weight(u.last[0], N::index(x)));
+  N columns[7];
+  for (int i = 0; i < 7; ++i) {
+    N rows[7];
+    for (int j = 0; j < 7; ++j) rows[j] = tap(i - 2, j - 2);
+    columns[i] = round_of_seven(rows, wy1, wy2);
+  }
+  return round_of_seven(columns, N(u.middle[0]), last_weight(u.last[0], N::index(x)));
 }
 
 struct FogPassText {
@@ -99,7 +126,10 @@ struct HalvePassText {
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const BlurUniforms& u, const Io& io, int x, int y) {
     const Texture& above = io.above;
-    const auto held = [](int i, int uniform, int size) { return std::clamp(i, 0, std::clamp(uniform, 1, size) - 1); };
+    const auto held = [](int i, int uniform, int size) {
+      const int texels = std::clamp(uniform, 1, size);
+      return corrected ? mirrored(i, texels) : std::clamp(i, 0, texels - 1);
+    };
     N c[4];
     for (int k = 0; k < 4; ++k) {
       const auto tap = [&](int i, int j) RAINREF_LAMBDA {

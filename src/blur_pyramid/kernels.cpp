@@ -20,12 +20,12 @@ RAINREF_TARGET_BEGIN(blur_pyramid)
 
 RAINREF_PASS_ROWS(FogPass)
 
-// One row of the level above as four planes of floats, and what two or three such rows come to. A plane is readable two
-// vectors past its last texel.
+// One row of the level above as four planes of floats, and what two or seven such rows come to. A plane is readable two
+// vectors and six texels past its last texel.
 struct Planes {
   std::vector<float> texels;
   std::size_t pitch;
-  explicit Planes(int width) : pitch(static_cast<std::size_t>(width) + 3 * HWY_MAX_BYTES / sizeof(float)) { texels.resize(4 * pitch); }
+  explicit Planes(int width) : pitch(static_cast<std::size_t>(width) + 8 + 3 * HWY_MAX_BYTES / sizeof(float)) { texels.resize(4 * pitch); }
   float* channel(int c) { return texels.data() + pitch * static_cast<std::size_t>(c); }
 };
 
@@ -42,32 +42,39 @@ HWY_INLINE HWY_ATTR void load_pairs(const float* row, Lanes& even, Lanes& odd) {
 template <bool corrected>
 HWY_INLINE HWY_ATTR void halve(const BlurUniforms& u, Rounding rounding, const Image& above, Image& out, const parallel::Tile& tile) {
   const int n = Lanes::size(), source_width = u.source_size[0], width = out.width();
-  Planes column(source_width);  // corrected: the three rows taken together; as-published: the first row
+  // corrected: the seven rows taken together, from the second texel before the first on; as-published: the first row.
+  constexpr int before = corrected ? 2 : 0;
+  Planes column(source_width);
   Planes second(corrected ? 0 : source_width);
   for (int y = tile.y0; y < tile.y1; ++y) {
-    const auto row_at = [&](int j) { return above.row<Half>(std::min(2 * y + j, u.source_size[1] - 1)); };
-    const Half *r0 = row_at(0), *r1 = row_at(1), *r2 = row_at(2);
+    const Half* rows[corrected ? 7 : 2];
+    int j = 2 * y - before;
+    for (const Half*& row : rows) {
+      row = above.row<Half>(corrected ? mirrored(j, u.source_size[1]) : std::min(j, u.source_size[1] - 1));
+      ++j;
+    }
     const Lanes w1(u.middle[1]), w2 = last_weight(u.last[1], Lanes(static_cast<float>(y)));
     for (int x = 0; x < source_width; x += n) {
-      Lanes a[4], b[4], c[4];
-      load4(r0 + 4 * x, a);
-      load4(r1 + 4 * x, b);
-      if constexpr (corrected) load4(r2 + 4 * x, c);
+      Lanes t[corrected ? 7 : 2][4];
+      for (std::size_t i = 0; i < std::size(rows); ++i) load4(rows[i] + 4 * x, t[i]);
       for (int k = 0; k < 4; ++k) {
         if constexpr (corrected) {
-          hn::StoreU(box_of_three(a[k], b[k], c[k], w1, w2).v, Lanes::D(), column.channel(k) + x);
+          const Lanes taps[] = {t[0][k], t[1][k], t[2][k], t[3][k], t[4][k], t[5][k], t[6][k]};
+          hn::StoreU(round_of_seven(taps, w1, w2).v, Lanes::D(), column.channel(k) + before + x);
         } else {
-          hn::StoreU(a[k].v, Lanes::D(), column.channel(k) + x);
-          hn::StoreU(b[k].v, Lanes::D(), second.channel(k) + x);
+          hn::StoreU(t[0][k].v, Lanes::D(), column.channel(k) + x);
+          hn::StoreU(t[1][k].v, Lanes::D(), second.channel(k) + x);
         }
       }
     }
-    // Where there is no texel, the nearest one.
+    // Where there is no texel, that in the mirror, or the nearest one.
     for (int k = 0; k < 4; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        column.channel(k)[source_width + i] = column.channel(k)[source_width - 1];
-        if constexpr (!corrected) second.channel(k)[source_width + i] = second.channel(k)[source_width - 1];
-      }
+      float* const own = column.channel(k) + before;
+      const auto beyond = [&](int i) { return corrected ? mirrored(i, source_width) : source_width - 1; };
+      for (int i = 0; i < before; ++i) column.channel(k)[i] = own[beyond(i - before)];
+      for (int i = source_width; i < source_width + 3; ++i) own[i] = own[beyond(i)];
+      if constexpr (!corrected)
+        for (int i = 0; i < 3; ++i) second.channel(k)[source_width + i] = second.channel(k)[source_width - 1];
     }
     for (int x = 0; x < width; x += n) {
       Lanes rgba[4];
@@ -75,9 +82,12 @@ HWY_INLINE HWY_ATTR void halve(const BlurUniforms& u, Rounding rounding, const I
         Lanes even, odd;
         load_pairs(column.channel(k) + 2 * x, even, odd);
         if constexpr (corrected) {
-          Lanes last, unused;
-          load_pairs(column.channel(k) + 2 * x + 2, last, unused);
-          rgba[k] = box_of_three(even, odd, last, Lanes(u.middle[0]), last_weight(u.last[0], Lanes::index(x)));
+          Lanes t2, t3, t4, t5, t6, unused;
+          load_pairs(column.channel(k) + 2 * x + 2, t2, t3);
+          load_pairs(column.channel(k) + 2 * x + 4, t4, t5);
+          load_pairs(column.channel(k) + 2 * x + 6, t6, unused);
+          const Lanes taps[] = {even, odd, t2, t3, t4, t5, t6};
+          rgba[k] = round_of_seven(taps, Lanes(u.middle[0]), last_weight(u.last[0], Lanes::index(x)));
         } else {
           Lanes below_even, below_odd;
           load_pairs(second.channel(k) + 2 * x, below_even, below_odd);

@@ -33,8 +33,8 @@ MistUniforms mist_uniforms(const CondensationSettings& s, const CompositeUniform
   std::copy_n(seen.half_size, 2, u.half_size);
   std::copy_n(seen.scene_scale, 2, u.scene_scale);
   u.glass_distance = seen.glass_distance;
-  // A whole level: one texel of it is half the disc's radius, and it is looked up without the next.
-  u.lod = static_cast<float>(std::max(std::floor(s.blur_lod - 1 + 0.5), 0.0));
+  // A whole level, looked up without the next: four texels of it are the disc's radius, and its spread reaches from tap to tap.
+  u.lod = static_cast<float>(std::max(std::floor(s.blur_lod - 2 + 0.5), 0.0));
   u.weight = static_cast<float>(1.0 / mist_tap_count);
   u.tap_count = mist_tap_count;
   u.veil = static_cast<float>(s.veil);

@@ -27,7 +27,7 @@ struct PictureSettings {
   std::array<double, 3> camera_position{0.6, 0, 1.21}, camera_target{10, 0, 1.6};
   double vertical_fov_deg = 22;
   double scene_margin = 1.15;  ///< picture of the scene over the picture, in view
-  double blur_lod = 3, wetness = 0.35, visible_from = 0.02, visible_to = 0.2, refraction = 0.08, shininess = 80, glint_strength = 0.5;
+  double blur_lod = 2, wetness = 0.35, visible_from = 0.02, visible_to = 0.2, refraction = 0.08, shininess = 80, glint_strength = 0.5;
   double water_ior = water_refractive_index, inner = 0.3, exposure = 0.5;
   std::array<double, 3> cabin{0.004, 0.004, 0.005};
   std::vector<Light> lights{{{-0.9, 0.25, 0.35}, {1, 0.92, 0.8}}};

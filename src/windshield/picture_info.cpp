@@ -69,7 +69,7 @@ const std::vector<MemberParameter<PictureSettings>>& picture_parameters() {
       real<&P::camera_position>("camera.position", "m", -100, 100, "Eye, in the car's axes: x forward, y left, z up."),
       real<&P::camera_target>("camera.target", "m", -1000, 1000, "Point that the eye looks at."),
       real<&P::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 120, "Vertical field of view."),
-      real<&P::blur_lod>("composite.blur_lod", "1", 0, 12, "Mip level of the picture behind the wet film."),
+      real<&P::blur_lod>("composite.blur_lod", "1", 0, 12, "Mip level of the picture behind the wet film.").published(3.0),
       real<&P::wetness>("composite.wetness", "1", 0, 1, "Weight of the blurred picture where the glass was not wiped.").published(0.6),
       real<&P::visible_from>("composite.visible_from", "mm", 0, 10, "Height at which water begins to show as a drop."),
       real<&P::visible_to>("composite.visible_to", "mm", 1e-3, 10, "Height from which it shows fully."),

@@ -49,17 +49,27 @@ inline bool blur_pyramid(const Run& r, int x, int y, float* out) {
   if (r.taken().level == 0) return fog_level(r, x, y, out);
   for (int k = 0; k < 3; ++k) {
     const int first = r.unless("from one texel on", 0, 1);
-    const auto texel = [&](int i, int j) { return r.at("blurred", 2 * x + i + first, 2 * y + j, k); };
+    // A mirror at both edges: 0 1 2 2 1 0 0 1 ...
+    const auto seen = [&](int i, int n) {
+      if (!r.taken().corrected()) return i;
+      const int in_turn = (i % (2 * n) + 2 * n) % (2 * n);
+      return std::min(in_turn, 2 * n - 1 - in_turn);
+    };
+    const auto texel = [&](int i, int j) {
+      return r.at("blurred", seen(2 * x + i + first, r.width("blurred")), seen(2 * y + j, r.height("blurred")), k);
+    };
     if (!r.taken().corrected()) {
       out[k] = r.unless("sum for mean", 0.25f, 1.0f) * ((texel(0, 0) + texel(1, 0)) + (texel(0, 1) + texel(1, 1)));
       continue;
     }
-    const auto weighed = [&](int axis, int at, float t0, float t1, float t2) {
+    const auto weighed = [&](int axis, int at, const auto& t) {
+      const auto bell = [&](int i) { return (0.375f * t(i) + 0.25f * (t(i - 1) + t(i + 1))) + 0.0625f * (t(i - 2) + t(i + 2)); };
+      const float t0 = bell(0), t1 = bell(1), t2 = bell(2);
       const float w1 = r.u("middle", axis), w2 = r.u("last", axis) * static_cast<float>(at + r.unless("columns from 0", 1, 0));
       return t0 + w1 * (t1 - t0) + w2 * (t2 - t0);
     };
-    const auto column = [&](int i) { return weighed(1, y, texel(i, 0), texel(i, 1), texel(i, 2)); };
-    out[k] = weighed(0, x, column(0), column(1), column(2));
+    const auto column = [&](int i) { return weighed(1, y, [&](int j) { return texel(i, j); }); };
+    out[k] = weighed(0, x, column);
   }
   return true;
 }
@@ -268,8 +278,8 @@ normals           k = 1 − mask here;  ∂x = height₊ₓ − height₋ₓ, �
        nullptr,
        {{document,
          R"(blur_pyramid      level 0: mix(fog_colour, colour, exp(−(fog_density · max(depth, 0))));  else ¼ of the sum of 2 × 2 texels from (2x, 2y)
-blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t₂ − t₀) of three texels from 2x on (edge repeated), w₁ = middle, w₂ = last · (x + 1):
-                  in each of the three columns over rows first, then over the columns)"}}},
+blur_pyramid      level 0 as above;  else B(0) + w₁ (B(1) − B(0)) + w₂ (B(2) − B(0)), w₁ = middle, w₂ = last · (x + 1), of texels from 2x on, mirrored at
+                  the edges:  B(i) = (⅜ tᵢ + ¼ (tᵢ₋₁ + tᵢ₊₁)) + 1/16 (tᵢ₋₂ + tᵢ₊₂);  in each of seven columns over rows first, then over them)"}}},
       {{"windshield-as-published"},
        "composite",
        "linear visibility",

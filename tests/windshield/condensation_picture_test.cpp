@@ -76,8 +76,8 @@ TEST(Condensation, AFullVeilIsTheMeanOfTheScene) {
   }
 }
 
-// An even disc of radius R has variance R^2 / 4 on each axis, as a bilinear lookup in means over squares of side R: R^2 / 12 + R^2 / 6.
-TEST(Condensation, TapsAreADiscWithTheVarianceOfALookup) {
+// An even disc of radius R has variance R^2 / 4 on each axis.
+TEST(Condensation, TapsAreADiscWithItsVariance) {
   for (const double lod : {0.0, 2.5, 5.0}) {
     CondensationSettings s;
     s.blur_lod = lod;
@@ -99,7 +99,7 @@ TEST(Condensation, TapsAreADiscWithTheVarianceOfALookup) {
     EXPECT_NEAR(y, 0, 1e-6);
     EXPECT_NEAR(xx, 0.25, 1e-6);
     EXPECT_NEAR(yy, 0.25, 1e-6);
-    EXPECT_EQ(u.lod, static_cast<float>(std::max(std::floor(lod - 0.5), 0.0)));
+    EXPECT_EQ(u.lod, static_cast<float>(std::max(std::floor(lod - 1.5), 0.0)));
   }
 }
 

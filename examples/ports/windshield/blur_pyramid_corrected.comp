@@ -4,7 +4,16 @@
 #include "port.glsl"
 #include "blur_pyramid.glsl"
 
-vec4 three(vec4 a, vec4 b, vec4 c, float middle, float last) { return (a + middle * (b - a)) + last * (c - a); }
+vec4 mirrored(ivec2 at) {
+  at = max(at, -1 - at);
+  at = min(at, 2 * u.source_size - 1 - at);
+  return texelFetch(above, clamp(at, ivec2(0), u.source_size - 1), 0);
+}
+vec4 bell(vec4 t0, vec4 t1, vec4 t2, vec4 t3, vec4 t4) { return (0.375 * t2 + 0.25 * (t1 + t3)) + 0.0625 * (t0 + t4); }
+vec4 seven(vec4 t[7], float middle, float last) {
+  vec4 a = bell(t[0], t[1], t[2], t[3], t[4]), b = bell(t[1], t[2], t[3], t[4], t[5]), c = bell(t[2], t[3], t[4], t[5], t[6]);
+  return (a + middle * (b - a)) + last * (c - a);
+}
 
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -14,8 +23,11 @@ void main() {
     return;
   }
   vec2 last = u.last * (vec2(texel) + 1.0);
-  vec4 columns[3];
-  for (int i = 0; i < 3; ++i) columns[i] = three(tap(texel, i, 0), tap(texel, i, 1), tap(texel, i, 2), u.middle.y, last.y);
-  vec4 blurred = three(columns[0], columns[1], columns[2], u.middle.x, last.x);
-  imageStore(level, texel, blurred);
+  vec4 columns[7];
+  for (int i = 0; i < 7; ++i) {
+    vec4 rows[7];
+    for (int j = 0; j < 7; ++j) rows[j] = mirrored(2 * texel + ivec2(i - 2, j - 2));
+    columns[i] = seven(rows, u.middle.y, last.y);
+  }
+  imageStore(level, texel, seven(columns, u.middle.x, last.x));
 }
