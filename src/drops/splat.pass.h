@@ -194,8 +194,8 @@ RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, int x, 
 }
 
 /// corrected: the film, whole mass units in each texel, under a tent of 3 x 3 texels, which keeps its volume. Rows are readable
-/// one texel to both sides, where the nearest texel stands again. Operands have names so that every compiler takes them in one order,
-/// which is that of causes that explain as much.
+/// one texel to both sides, where the nearest texel stands again. Operands have names because compilers evaluate those of + in
+/// different orders, and the diagnosis names equal causes in the order in which they are met.
 template <class N>
 RAINREF_FN N film_tent(N before, N here, N after) {
   const N middle = N(0.5f) * here, sides = N(0.25f) * (before + after);

@@ -266,9 +266,9 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
     best = std::max(best, score(c));
     most_bits = std::max(most_bits, static_cast<double>(c.explained) / static_cast<double>(std::max<std::int64_t>(c.of, 1)));
   }
-  // Records are few, and no device blurs which of them are there: of these the better explains more.
   // A device whose arithmetic hardly ever gives the reference's bits meets them by chance.
   const double margin = most_bits < 0.5 ? 0.08 : 0.04;
+  // Records are few, and no device blurs which of them are there: of these the better explains more.
   const auto explains_most = [&](const Cause& c) { return score(c) >= best - (c.of_records ? 0 : margin); };
   double least = 1;
   for (const Tried& c : causes)

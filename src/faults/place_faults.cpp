@@ -68,7 +68,7 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
       if (is_literal(p, n, k))
         by_literal[{n.op, fmt::format("literal {} {}", k, p.names[static_cast<std::size_t>(n.of[k])])}][n.shape] = at;
     if (text == "...") continue;
-    // Whatever the other operand is made of: in (-y, x), turned, of other operations.
+    // Where the first operand is a component by name, whatever the second is made of: in (-y, x), turned, of other operations.
     if (const std::string near = p.text(static_cast<std::int32_t>(at), 1);
         near.find("...") != std::string::npos && near.find('.') != near.find("..."))
       by_leaf[{n.op, "leaf " + of_any_component(near)}][n.shape] = at;

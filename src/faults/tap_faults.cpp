@@ -26,7 +26,7 @@ using capture::PassCase;
 struct Tap {
   std::size_t load;
   int dx, dy, channel;
-  bool is_mirrored = false;  ///< twice the texel itself less this one
+  bool is_extrapolated = false;  ///< twice the texel itself less this one
   bool operator==(const Tap&) const = default;
 };
 struct Taps {
@@ -172,7 +172,7 @@ class Adder {
                    : address        ? 0.0f
                                     : from.input->border[static_cast<std::size_t>(channel)];
           };
-          loads[t.load] = t.is_mirrored ? 2 * texel(0, 0) - texel(t.dx, t.dy) : texel(t.dx, t.dy);
+          loads[t.load] = t.is_extrapolated ? 2 * texel(0, 0) - texel(t.dx, t.dy) : texel(t.dx, t.dy);
         }
       b.loads = &loads;
     };

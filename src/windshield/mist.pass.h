@@ -67,7 +67,7 @@ struct MistPass {
 #else
 
 // Droplets scatter most light by a few degrees, which blurs what is seen straight through them: the mean over a disc, so that lamps are
-// round, which texels of a coarse level are not. The rest they scatter by large angles, which
+// discs, where a level of the pyramid alone makes bells of them. The rest they scatter by large angles, which
 // brings light of all the scene: its coarsest level, which every level from the last one on is.
 constexpr float coarsest_level = 15;
 template <class Colours, class Values>

@@ -324,6 +324,30 @@ TEST(EditFaults, AMatrixIsLeftOutInOnePlace) {
                     {2, 3, 5}),
               testing::Contains(AllOf(StartsWith("matrix left out: "), HasSubstr(" in ("))));
 }
+// f(x + 1, 3 y + 1), of which the port has f(x, 3 y): a literal that stands alike in two components that are not made alike.
+TEST(PlaceFaults, ALiteralIsLeftOutInBothComponents) {
+  const Pass right = [](const Numbers& in) {
+    return std::vector<Perturbed>{(load(in[0]) + Perturbed(1.0f)) * (Perturbed(3.0f) * load(in[1]) + Perturbed(1.0f))};
+  };
+  const Numbers literals{1, 3}, in{0.31f, 0.72f, 0.19f, 1.7f};
+  Probe probe{{0, 0}, {}, {}};
+  perturbed::Behaviour following;
+  following.trace = &probe.trace;
+  following.known = &literals;
+  {
+    const perturbed::Scope scope(following);
+    right(in);
+  }
+  for (const perturbed::Trace::Node& n : probe.trace.nodes) probe.names.push_back(n.op == Op::constant ? fmt::format("{}", n.value) : "in");
+  std::vector<Fault> all;
+  add_place_faults(all, {probe}, literals, PlaceKind::plain);
+  std::vector<std::string> names;
+  for (Fault& d : all) {
+    d.behaviour.known = &literals;
+    if (std::abs(given(right, in, d)[0] - in[0] * 3 * in[1]) <= 1e-6f) names.push_back(d.name);
+  }
+  EXPECT_THAT(names, testing::Contains("term left out: 1, in both components"));
+}
 // min(x + y, 1.5) z, of which the port has min(x z + y, 1.5): what multiplies all that is held multiplies one term alone.
 TEST(EditFaults, AFactorIsMovedInward) {
   const Pass right = [](const Numbers& in) {

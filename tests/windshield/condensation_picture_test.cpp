@@ -103,8 +103,7 @@ TEST(Condensation, TapsAreADiscWithItsVariance) {
   }
 }
 
-// A small lamp before black, behind mist alone: where its light falls to a share of the brightest is a circle. A texel of a coarse level
-// has no such line: bilinear, its radius differs by 12, 8 and 12 % there, root mean square.
+// A small lamp before black, behind mist alone: where its light falls to a share of the brightest is a circle.
 TEST(Condensation, ALampBehindMistIsRound) {
   constexpr int side = 256;
   const std::string text =
