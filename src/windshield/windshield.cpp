@@ -128,7 +128,7 @@ void Windshield::State::look_through(const pass::Moment& now) {
     at_level.level = level;
     const auto run = [&](auto pass) {
       pass.start(at_level);
-      if (anew) pass.tiles(executor, blur_pyramid::tile_rows);
+      if (anew) pass.tiles(executor, blur_pyramid::tile_rows(levels[l].height()));
       pass.finish(at_level);
     };
     if (level == 0) {
