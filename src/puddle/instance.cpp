@@ -77,10 +77,12 @@ effect::RunMemory memory_of(const scene::Config& config) {
                       6 + 6 + 12};
   PictureSizes sizes;
   sizes.environment = street_size(config);
-  if (effect::is_named(config, "environment.image"))
+  if (effect::is_named(config, "environment.image")) {
     sizes.environment = {1, 1};
-  else
+  } else {
+    sizes.has_float_environment = true;
     m.peak.then(night_street::panorama_memory(sizes.environment[0], sizes.environment[1]));
+  }
   if (effect::is_named(config, "puddle.ground_image")) sizes.ground = {1, 1};
   m.peak.then(memory(s, sizes));
   return m;
