@@ -33,6 +33,12 @@ void Progress::advance() {
   draw();
 }
 
+void Progress::meanwhile(std::string_view what) {
+  if (!shown_) return;
+  fmt::print(stderr, "\r{}\033[K", what);
+  std::fflush(stderr);
+}
+
 void Progress::draw() {
   constexpr int width = 24;
   const int filled = total_ > 0 ? width * done_ / total_ : width;

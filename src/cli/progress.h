@@ -14,6 +14,8 @@ class Progress {
   Progress(std::string what, int total, const char* unit = "frames");
   ~Progress();
   void advance();
+  /// Shows this in its place until it advances: what takes long meanwhile.
+  void meanwhile(std::string_view what);
 
  private:
   using Clock = std::chrono::steady_clock;

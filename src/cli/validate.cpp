@@ -49,6 +49,14 @@ void make_empty(const fs::path& wanted) {
   }
 }
 
+/// The diagnosis, which may take minutes; the terminal says so.
+judge::Explain seeking(Progress& progress) {
+  return [&](const judge::FailedRun& failed) {
+    progress.meanwhile("seeking the cause in " + failed.pass.name);
+    return faults::diagnose(failed);
+  };
+}
+
 /// Runs the port's command and gives the folders of its runs; a failure goes into the judgement. `last_line` is what the
 /// last run printed last.
 std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, judge::PortJudgement& judgement,
@@ -112,11 +120,11 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
     if (runs.empty()) return {judgement, {}};
   }
   options.executor = &executor;
-  if (!request.no_causes) options.explain = faults::diagnose;
   try {
     Progress progress("judging", static_cast<int>(std::count_if(pack.cases.begin(), pack.cases.end(),
                                                                 [&](const capture::PackCase& c) { return options.wants(c.pass); })));
     options.progress = [&](int, int) { progress.advance(); };
+    if (!request.no_causes) options.explain = seeking(progress);
     const std::string shown = judgement.port;
     judgement = judge::validate(pack, runs.front(), options);
     if (!shown.empty()) judgement.port = shown;
@@ -211,11 +219,12 @@ Judged judge_shadow(const ValidateRequest& request, const Reports& reports, cons
   options.profile = request.profile;
   options.only = request.only;
   options.executor = &executor;
-  if (!request.no_causes) options.explain = faults::diagnose;
   Progress progress("judging", static_cast<int>(dumped.size()));
   options.progress = [&](int, int) { progress.advance(); };
+  if (!request.no_causes) options.explain = seeking(progress);
   judge::PortJudgement judgement = judge::shadow(plan, request.shadow, dumped, options);
   options.progress = nullptr;
+  options.explain = nullptr;
   return {std::move(judgement), reports::page_source(planned, request.shadow, dumped, options)};
 }
 

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pty.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -50,6 +51,7 @@ struct Circumstances {
   std::string program = RAINREF_PROGRAM;
   std::string standard_output;          ///< a file instead of the test's pipe
   bool closed_error = false;            ///< standard error takes no byte
+  bool terminal_error = false;          ///< standard error is a terminal
   rlim_t file_bytes = RLIM_INFINITY;    ///< no file may become longer, as on a full disk
   rlim_t memory_bytes = RLIM_INFINITY;  ///< address space
   /// Not the program but a copy of this process, which calls the same function and shares what this process has loaded:
@@ -63,7 +65,8 @@ inline Outcome run_rainref(const std::filesystem::path& folder, std::vector<std:
   for (std::string& a : arguments) argv.push_back(a.data());
   argv.push_back(nullptr);
   int out[2], err[2];
-  if (::pipe(out) != 0 || ::pipe(err) != 0) throw std::runtime_error("no pipe");
+  const bool piped = ::pipe(out) == 0 && (c.terminal_error ? ::openpty(&err[0], &err[1], nullptr, nullptr, nullptr) : ::pipe(err)) == 0;
+  if (!piped) throw std::runtime_error("no pipe");
   std::fflush(stdout);  // or a copy would print it too
   const pid_t child = ::fork();
   if (child == 0) {

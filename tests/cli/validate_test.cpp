@@ -383,6 +383,19 @@ TEST_F(Validate, ALostDropIsNamed) {
                            HasSubstr("(gives 1 of 1 failing records bit for bit")));
 }
 
+// Causes may take minutes.
+TEST_F(Validate, ATerminalSaysWhatCausesAreSoughtIn) {
+  copy_to("port");
+  put(folder / "port/puddle.display/0011.0/out.picture.npy", contents(folder / "port/puddle.display/0012.0/out.picture.npy"));
+  const std::vector<std::string> arguments{"validate", pack, "--port", "port", "--only", "display"};
+  Circumstances terminal;
+  terminal.terminal_error = true;
+  const Outcome shown = run_rainref(folder.path(), arguments, terminal), piped = run_rainref(folder.path(), arguments);
+  EXPECT_THAT(shown.err, AllOf(HasSubstr("judging ["), HasSubstr("\rseeking the cause in display\033[K"), testing::EndsWith("\r\033[K")));
+  EXPECT_EQ(piped.err, "");
+  EXPECT_EQ(shown.out, piped.out);
+}
+
 TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
   std::filesystem::create_directories(folder / "dump/puddle.shade/0000.0");
   std::filesystem::create_directories(folder / "empty");
