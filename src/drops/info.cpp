@@ -2,6 +2,7 @@
 
 #include "drops/integrate.pass.h"
 #include "drops/merge.pass.h"
+#include "drops/necks.pass.h"
 #include "drops/spawn.pass.h"
 #include "drops/splat.pass.h"
 #include "pass/info.h"
@@ -48,6 +49,13 @@ PassInfo merge_info(const std::string& before, const std::string& film_from) {
   pass::set_source(info, "film", film_from);
   info.reads.back().previous = film_from == "merge";
   return info;
+}
+std::vector<UniformBlock> neck_records() { return {Neck::layout()}; }
+std::vector<BufferInfo> neck_buffers() { return pass::buffers_of<NecksPass>(); }
+PassInfo necks_info() { return pass::info_of<NecksPass>(); }
+PassInfo without_necks(PassInfo pass) {
+  std::erase_if(pass.reads, [](const ReadInfo& r) { return r.buffer == "necks"; });
+  return pass;
 }
 PassInfo splat_info(const std::array<std::string, 2>& drops_from) {
   PassInfo info = pass::info_of<SplatPass>();

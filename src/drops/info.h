@@ -23,6 +23,11 @@ capture::PassInfo integrate_info(const std::string& glass_frame_pass);
 capture::PassInfo merge_info(const std::string& before, const std::string& film_from);
 /// drops_from: of as-published first.
 capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from);
+/// Of an effect whose merged drops may keep their outlines: the pass, what it writes, and its record. Others leave necks out of splat's.
+capture::PassInfo necks_info();
+std::vector<capture::BufferInfo> neck_buffers();
+std::vector<scene::UniformBlock> neck_records();
+capture::PassInfo without_necks(capture::PassInfo splat);
 /// What splat writes.
 std::vector<capture::BufferInfo> splat_buffers();
 

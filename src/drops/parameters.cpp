@@ -44,12 +44,15 @@ std::vector<MemberParameter<Settings>> members(const std::string& prefix) {
       real<&Settings::trail_thickness>(key("trail_thickness"), "m", 0, 1e-4, "Film that a sliding drop leaves behind, as wide as its base.")
           .only(correct),
       real<&Settings::film_drying>(key("film_drying"), "m/s", 0, 1e-4, "Thickness that the film loses to the air.").only(correct),
+      real<&Settings::neck_time>(key("neck_time"), "s", 0, 3600,
+                                 "Merged drops keep the outline of both, with a neck, and are round in this time to 1 - 1/e; 0: at once.")
+          .only(correct),
   };
 }
 
 /// What glass along which no wind blows has not.
-bool is_of_wind(const Parameter& p, const std::string& prefix) {
-  return p.key == prefix + ".wind_exposure" || p.key == prefix + ".wind_drag";
+bool is_of_a_car(const Parameter& p, const std::string& prefix) {
+  return p.key == prefix + ".wind_exposure" || p.key == prefix + ".wind_drag" || p.key == prefix + ".neck_time";
 }
 
 }  // namespace
@@ -68,7 +71,7 @@ std::vector<scene::Parameter> corrected_only(std::vector<scene::Parameter> param
 
 std::vector<scene::Parameter> still_parameters(const std::string& prefix) {
   std::vector<scene::Parameter> all = corrected_only(parameters(prefix));
-  std::erase_if(all, [&](const scene::Parameter& p) { return is_of_wind(p, prefix); });
+  std::erase_if(all, [&](const scene::Parameter& p) { return is_of_a_car(p, prefix); });
   return all;
 }
 
@@ -81,7 +84,7 @@ Settings read(const scene::Config& config, const std::string& prefix, bool still
   s.seed = static_cast<std::uint64_t>(config.integer("seed"));
   std::vector<MemberParameter<Settings>> table = members(prefix);
   if (still) {
-    std::erase_if(table, [&](const auto& m) { return is_of_wind(m.parameter, prefix); });
+    std::erase_if(table, [&](const auto& m) { return is_of_a_car(m.parameter, prefix); });
     s.wind_exposure = s.wind_drag = 0;
   }
   apply(table, config, s);

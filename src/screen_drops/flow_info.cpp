@@ -55,7 +55,8 @@ FlowSettings flow_settings(const Config& config, const std::string& prefix, cons
 
 std::vector<capture::PassInfo> flow_passes() {
   return {drops::corrected_only(drops::spawn_info({"merge", "merge"})), drops::corrected_only(drops::integrate_info("")),
-          drops::corrected_only(drops::merge_info("integrate", "merge")), drops::corrected_only(drops::splat_info({"merge", "merge"}))};
+          drops::corrected_only(drops::merge_info("integrate", "merge")),
+          drops::corrected_only(drops::without_necks(drops::splat_info({"merge", "merge"})))};
 }
 
 std::vector<capture::BufferInfo> flow_buffers() {
