@@ -14,7 +14,7 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 std::vector<UniformBlock> records() {
-  return {Drop::layout(), GlassFrame::layout(),
+  return {Drop::layout(), GlassFrame::layout(), Neck::layout(),
           record<SpawnMass>("SpawnMass", {member<&SpawnMass::mass>("mass", "1", "Mass of a size class of arrivals, as in Drop.")}),
           record<CountThreshold>("CountThreshold", {member<&CountThreshold::threshold>(
                                                        "threshold", "1", "A word not below k thresholds draws first_count + k drops.")})};
@@ -29,6 +29,7 @@ std::vector<BufferInfo> buffers() {
   all.push_back(
       list("count_thresholds", "Thresholds of the number of drops in a draw, ascending.", {0, 4294967295.0}, "CountThreshold", correct));
   all.push_back(list("spawn_masses", "Masses of the 1024 size classes of arrivals, lightest first.", {0, most_mass}, "SpawnMass", ""));
+  for (const BufferInfo& necks : pass::buffers_of<NecksPass>()) all.push_back(necks);
   for (const BufferInfo& film : pass::buffers_of<MergePass>()) all.push_back(film);
   return all;
 }
@@ -50,12 +51,10 @@ PassInfo merge_info(const std::string& before, const std::string& film_from) {
   info.reads.back().previous = film_from == "merge";
   return info;
 }
-std::vector<UniformBlock> neck_records() { return {Neck::layout()}; }
-std::vector<BufferInfo> neck_buffers() { return pass::buffers_of<NecksPass>(); }
-PassInfo necks_info() { return pass::info_of<NecksPass>(); }
-PassInfo without_necks(PassInfo pass) {
-  std::erase_if(pass.reads, [](const ReadInfo& r) { return r.buffer == "necks"; });
-  return pass;
+PassInfo necks_info(const std::string& before) {
+  PassInfo info = pass::info_of<NecksPass>();
+  pass::set_source(info, "drops", before);
+  return info;
 }
 PassInfo splat_info(const std::array<std::string, 2>& drops_from) {
   PassInfo info = pass::info_of<SplatPass>();

@@ -60,7 +60,7 @@ struct NecksPass {
   }
   template <class B>
   struct Io {
-    typename B::template Records<Drop> drops = pass::In{.name = "drops", .from = "wipe_drops"};
+    typename B::template Records<Drop> drops = pass::In{.name = "drops", .variant = "corrected"};
     typename B::template Changed<Neck> necks = {
         pass::In{.name = "necks", .from = "necks", .previous = true},
         pass::Out{.name = "necks", .sentence = "Outlines of merged drops, in ascending id.", .range = {-2, 2}, .record = "Neck"}};

@@ -51,8 +51,8 @@ std::vector<MemberParameter<Settings>> members(const std::string& prefix) {
 }
 
 /// What glass along which no wind blows has not.
-bool is_of_a_car(const Parameter& p, const std::string& prefix) {
-  return p.key == prefix + ".wind_exposure" || p.key == prefix + ".wind_drag" || p.key == prefix + ".neck_time";
+bool is_of_wind(const Parameter& p, const std::string& prefix) {
+  return p.key == prefix + ".wind_exposure" || p.key == prefix + ".wind_drag";
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::vector<scene::Parameter> corrected_only(std::vector<scene::Parameter> param
 
 std::vector<scene::Parameter> still_parameters(const std::string& prefix) {
   std::vector<scene::Parameter> all = corrected_only(parameters(prefix));
-  std::erase_if(all, [&](const scene::Parameter& p) { return is_of_a_car(p, prefix); });
+  std::erase_if(all, [&](const scene::Parameter& p) { return is_of_wind(p, prefix); });
   return all;
 }
 
@@ -84,7 +84,7 @@ Settings read(const scene::Config& config, const std::string& prefix, bool still
   s.seed = static_cast<std::uint64_t>(config.integer("seed"));
   std::vector<MemberParameter<Settings>> table = members(prefix);
   if (still) {
-    std::erase_if(table, [&](const auto& m) { return is_of_a_car(m.parameter, prefix); });
+    std::erase_if(table, [&](const auto& m) { return is_of_wind(m.parameter, prefix); });
     s.wind_exposure = s.wind_drag = 0;
   }
   apply(table, config, s);

@@ -100,8 +100,8 @@ struct SplatPass {
   template <class B>
   struct Io {
     typename B::template Records<Drop> drops = pass::In{.name = "drops"};
-    typename B::template Records<Neck> necks = pass::In{.name = "necks", .from = "necks", .variant = "corrected", .optional = true};
     typename B::template Texels<Format::r32f, 1> film = pass::In{.name = "film", .from = "merge", .variant = "corrected"};
+    typename B::template Records<Neck> necks = pass::In{.name = "necks", .from = "necks", .variant = "corrected", .optional = true};
     typename B::template Result<Format::r16f> height =
         pass::Out{.name = "height", .sentence = "Height of the water over the glass.", .unit = "mm", .range = {0, 8}};
   };
@@ -179,7 +179,7 @@ RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp
   s.inverse_fillet = N(0.25f) / s.fillet;
   s.inverse_radius = one / s.radius;
   // Of both and of a round drop, in the middles of equal parts of their length.
-  const N low = min(to_larger - r.larger, to_smaller - r.smaller), high = max(to_larger + r.larger, to_smaller + r.smaller);
+  const N low = to_larger - r.larger, high = to_smaller + r.smaller;
   const N middle = N(0.5f) * (low + high), half = N(0.5f) * (high - low);
   const auto kernel = static_cast<SplatKernel>(u.kernel);
   N both = zero, round = zero, moment = zero;

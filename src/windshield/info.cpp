@@ -31,7 +31,7 @@ EffectInfo make() {
                  drops::spawn_info({"wipe_drops", "merge"}),
                  drops::integrate_info("windshield_frame"),
                  pass::info_of<WipeDropsPass>(),
-                 drops::necks_info(),
+                 drops::necks_info("wipe_drops"),
                  drops::merge_info("wipe_drops", "wipe_drops"),
                  drops::splat_info({"wipe_drops", "merge"}),
                  pass::info_of<PersistPass>(),
@@ -43,7 +43,6 @@ EffectInfo make() {
                  pass::info_of<FallingRainPass>()};
   append(info.passes, picture_passes());
   append(info.buffers, drops::buffers());
-  append(info.buffers, drops::neck_buffers());
   append(info.buffers, wiper_buffers());
   append(info.buffers, drops::splat_buffers());
   info.buffers.push_back(
@@ -55,7 +54,6 @@ EffectInfo make() {
   append(info.buffers, blur_pyramid::blur_buffers());
   append(info.buffers, picture_buffers());
   append(info.records, drops::records());
-  append(info.records, drops::neck_records());
   append(info.records, wiper_records());
   append(info.records, picture_records());
   return info;

@@ -9,7 +9,7 @@ using namespace ports;
 std::string windshield(const std::string& variant) { return pack_of(variant, "windshield"); }
 
 class WindshieldPort : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Packs, WindshieldPort, testing::Values("as-published", "corrected", "trails", "panes", "mist"),
+INSTANTIATE_TEST_SUITE_P(Packs, WindshieldPort, testing::Values("as-published", "corrected", "trails", "panes", "mist", "neck"),
                          [](const auto& pack) -> std::string { return pack.param[0] == 'a' ? "AsPublished" : pack.param; });
 
 // Every pass of it has a port.
@@ -39,7 +39,7 @@ TEST(WindshieldPort, MutantsAreManyAndNamedOnce) {
 
 // The blocks in the shaders are what describe prints for this version.
 TEST(WindshieldPort, UniformBlocksAreTheDescribedOnes) {
-  EXPECT_GE(check_blocks("windshield", {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {",
+  EXPECT_GE(check_blocks("windshield", {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {", "struct Neck {",
                                         "struct GlassFrame {", "struct Streak {"}),
             12);
 }
