@@ -109,10 +109,11 @@ TEST(Bindings, MissingKeysAreNamed) {
 }
 TEST(Bindings, UnknownKeysGetTheNearestOne) {
   expect_refused("unknown key 'program', expected one of programs; did you mean 'programs'?", [](json& all) { all["program"] = 1; });
-  expect_refused("programs / " + display +
-                     ": unknown key 'one_gruop', expected one of spirv, inputs, outputs, constants, lists, one_group, group, capacity; did you "
-                     "mean 'one_group'?",
-                 [](json& all) { all["programs"][display]["one_gruop"] = true; });
+  expect_refused(
+      "programs / " + display +
+          ": unknown key 'one_gruop', expected one of spirv, inputs, outputs, constants, lists, one_group, group, capacity; did you "
+          "mean 'one_group'?",
+      [](json& all) { all["programs"][display]["one_gruop"] = true; });
 }
 TEST(Bindings, EachKeyIsDocumented) {
   const std::string readme = contents(examples + "/README.md");

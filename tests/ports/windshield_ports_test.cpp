@@ -39,8 +39,8 @@ TEST(WindshieldPort, MutantsAreManyAndNamedOnce) {
 
 // The blocks in the shaders are what describe prints for this version.
 TEST(WindshieldPort, UniformBlocksAreTheDescribedOnes) {
-  EXPECT_GE(check_blocks("windshield", {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {", "struct Neck {",
-                                        "struct GlassFrame {", "struct Streak {"}),
+  EXPECT_GE(check_blocks("windshield", {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {",
+                                        "struct Neck {", "struct GlassFrame {", "struct Streak {"}),
             12);
 }
 
