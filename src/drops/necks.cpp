@@ -73,7 +73,7 @@ void Necks::list_state(state::Items& items, std::int64_t most) {
   const auto length = std::make_shared<state::Length>(
       state::Length{size(), static_cast<std::uint64_t>(most), [this](std::uint64_t count) { resize(static_cast<std::size_t>(count)); }});
   constexpr const char* names[] = {"neck_x", "neck_y", "neck_share", "neck_left"};
-  constexpr state::Range ranges[] = {{-1.4, 1.4}, {-1.4, 1.4}, {0, 0.5}, {0, 1}};
+  constexpr state::Range ranges[] = {{-1.6, 1.6}, {-1.6, 1.6}, {0, 0.5}, {0, 1}};
   for (std::size_t k = 0; k < 4; ++k)
     items.array(names[k], state::Type::f32, ranges[k], length, [this, k] { return static_cast<void*>(numbers_[k].data()); });
   items.array("neck_id", state::Type::u32, state::finite(), length, [this] { return static_cast<void*>(id_.data()); });

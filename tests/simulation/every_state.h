@@ -84,7 +84,8 @@ inline std::vector<StateScene> state_scenes() {
     }
   }
   add("screen_drops", "corrected", "flow",
-      {"flow.on=true", "flow.height_size=[37, 29]", "flow.capacity=500", "flow.warm_up=0.7", "rain.rate=100", "rain.wind=20"});
+      {"flow.on=true", "flow.height_size=[37, 29]", "flow.capacity=500", "flow.warm_up=0.7", "flow.neck_time=0.5", "rain.rate=100",
+       "rain.wind=20"});
   add("screen_drops", "corrected", "dry", {"flow.on=false"});
   return all;
 }
