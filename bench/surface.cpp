@@ -186,11 +186,12 @@ void blur(benchmark::State& state, bool corrected, int level, int threads) {
     const Image depth = filled(Format::r32f, 100);
     Image out(Format::rgba16f, columns, rows);
     timed(state, executor, {12, 8}, out,
-          [&] { blur_pyramid::fog_run(u, Rounding::rne, colour, depth, out).tiles(executor, blur_pyramid::tile_rows); });
+          [&] { blur_pyramid::fog_run(u, Rounding::rne, colour, depth, out).tiles(executor, blur_pyramid::tile_rows(out.height())); });
   } else {
     Image out(Format::rgba16f, columns / 2, rows / 2);
-    timed(state, executor, {32, 8}, out,
-          [&] { blur_pyramid::halve_run(u, corrected, Rounding::rne, colour, out).tiles(executor, blur_pyramid::tile_rows); });
+    timed(state, executor, {32, 8}, out, [&] {
+      blur_pyramid::halve_run(u, corrected, Rounding::rne, colour, out).tiles(executor, blur_pyramid::tile_rows(out.height()));
+    });
   }
 }
 

@@ -11,8 +11,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 GALLERY = ROOT / "docs/gallery"
 WIDTH, QUALITY = 640, 4  # of the pictures: pixels; ffmpeg's -q:v of JPEG, 2 (best) to 31
 COLUMNS, TILE = 6, (240, 135)  # of the sheet
-# Frames to show where a scene's last one is not the best, or takes long: a drive in full rain, a wiper in the middle of its stroke.
-FRAMES = {"gallery/drive": 613, "windshield/drive": 160, "windshield/stress": 60}
+# Frames to show where a scene's last one is not the best, or takes long: a drive in full rain, a wiper in the middle of its stroke, glass
+# that was under a bridge for half a second.
+FRAMES = {"gallery/drive": 613, "windshield/bridge": 120, "windshield/drive": 160, "windshield/stress": 60}
 EFFECTS = ["puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"]
 
 

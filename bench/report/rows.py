@@ -82,6 +82,11 @@ def of_times(peer, row, threads, unit, items, seconds, digest, **more):
             "median_ms": significant(median * 1e3), "q3_ms": significant(quantile(seconds, 0.75) * 1e3), **more}
 
 
+def _best_rate(row):
+    """Of its fastest go."""
+    return row["rate"] * row["median_ms"] / row["best_ms"]
+
+
 def comparisons(result):
     """For each row of a peer that has one of ours on as many threads: {"row", "threads", "peer", "ours", "theirs", "ratio", "ratio_best", "goal"}.
 
@@ -90,15 +95,17 @@ def comparisons(result):
     ours = {(r["row"], r["threads"]): r for r in result["rows"]}
     found = []
     for peer in result["peers"]:
-        row = ours.get((peer["row"], peer["threads"]))
-        if row is None and peer["peer"] == "numpy":  # has one thread, whatever the machine
-            row = ours.get((peer["row"], 1))
-        if row is None:
-            continue
-        best = peer["best_ms"] / row["best_ms"] if "best_ms" in peer and "best_ms" in row else None
-        found.append({"row": peer["row"], "threads": peer["threads"], "peer": peer["peer"], "ours": row["rate"], "theirs": peer["rate"],
-                      "unit": peer["unit"], "ratio": significant(peer.get("ratio", row["rate"] / peer["rate"])),
-                      "ratio_best": None if best is None else significant(best), "goal": goal(peer)})
+        # A user's loop makes one step after another, ours those of a frame together.
+        for name in (peer["row"], peer["row"] + "/steps:5") if peer["peer"] == "numba" else (peer["row"],):
+            row = ours.get((name, peer["threads"]))
+            if row is None and peer["peer"] == "numpy":  # has one thread, whatever the machine
+                row = ours.get((name, 1))
+            if row is None:
+                continue
+            best = _best_rate(row) / _best_rate(peer) if "best_ms" in peer and "best_ms" in row else None
+            found.append({"row": name, "threads": peer["threads"], "peer": peer["peer"], "ours": row["rate"], "theirs": peer["rate"],
+                          "unit": peer["unit"], "ratio": significant(peer.get("ratio", row["rate"] / peer["rate"])),
+                          "ratio_best": None if best is None else significant(best), "goal": goal(peer)})
     return found
 
 

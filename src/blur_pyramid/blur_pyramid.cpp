@@ -1,6 +1,7 @@
 #include "blur_pyramid/blur_pyramid.h"
 
 #include <algorithm>
+#include <span>
 
 #include "blur_pyramid/scalar.h"
 #include "math/half_array.h"
@@ -93,16 +94,20 @@ LevelTexture::LevelTexture(const std::vector<Image>& levels) {
   view_.texels = texels_.data();
 }
 void LevelTexture::refresh(const parallel::Executor& executor, const std::vector<Image>& levels) {
-  for (std::size_t l = 0; l < levels.size(); ++l) {
-    const Image& level = levels[l];
-    executor.for_range(level.height(), tile_rows, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t y = begin; y < end; ++y) {
-        Half* to = texels_.data() +
-                   4 * (static_cast<std::size_t>(view_.offset[l]) + static_cast<std::size_t>(level.width()) * static_cast<std::size_t>(y));
-        std::copy_n(level.row<Half>(static_cast<int>(y)), static_cast<std::size_t>(4) * level.width(), to);
-      }
-    });
-  }
+  struct Row {
+    std::size_t level;
+    int y;
+  };
+  std::vector<Row> rows;
+  for (std::size_t l = 0; l < levels.size(); ++l)
+    for (int y = 0; y < levels[l].height(); ++y) rows.push_back({l, y});
+  executor.for_range(static_cast<std::int64_t>(rows.size()), 8, [&](std::int64_t begin, std::int64_t end) {
+    for (const Row& row : std::span(rows).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin))) {
+      const auto width = static_cast<std::size_t>(levels[row.level].width());
+      const std::size_t first = static_cast<std::size_t>(view_.offset[row.level]) + width * static_cast<std::size_t>(row.y);
+      std::copy_n(levels[row.level].row<Half>(row.y), 4 * width, texels_.data() + 4 * first);
+    }
+  });
 }
 
 capture::PassInfo blur_info(const std::string& colour_from, const std::string& depth_from) {

@@ -1,6 +1,7 @@
 // The scene behind wet glass: fogged, then blurred level by level.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -38,8 +39,8 @@ BlurUniforms blur_uniforms(const BlurSettings& settings, int width, int height, 
 
 /// Levels of rgba16f, zero.
 std::vector<Image> make_levels(const BlurSettings& settings, int width, int height);
-/// Rows of a tile; the tiles of a further level must span its width.
-inline constexpr int tile_rows = 8;
+/// Rows of a tile of a level so high, few enough that many threads have some; the tiles of a further level must span its width.
+constexpr int tile_rows(int height) { return std::clamp(height / 64, 1, 8); }
 /// The pass for level 0. colour: rgba16f, linear radiance; depth: r32f, distance along the view axis [m]; out: rgba16f, alpha 1.
 pass::Run<FogPass> fog_run(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out);
 /// The pass for a further level, from the one above. Throws Error(internal) where the levels do not fit.

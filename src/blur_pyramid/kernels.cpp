@@ -1,6 +1,6 @@
 // blur_pyramid in lanes; compiled once for each SIMD target.
 #include <algorithm>
-#include <vector>
+#include <memory>
 
 #include "blur_pyramid/blur_pyramid.pass.h"
 #include "pass/run.h"
@@ -23,10 +23,14 @@ RAINREF_PASS_ROWS(FogPass)
 // One row of the level above as four planes of floats, and what two or seven such rows come to. A plane is readable two
 // vectors and six texels past its last texel.
 struct Planes {
-  std::vector<float> texels;
   std::size_t pitch;
-  explicit Planes(int width) : pitch(static_cast<std::size_t>(width) + 8 + 3 * HWY_MAX_BYTES / sizeof(float)) { texels.resize(4 * pitch); }
-  float* channel(int c) { return texels.data() + pitch * static_cast<std::size_t>(c); }
+  std::unique_ptr<float[]> texels;
+  explicit Planes(int width)
+      : pitch(static_cast<std::size_t>(width) + 8 + 3 * HWY_MAX_BYTES / sizeof(float)),
+        texels(std::make_unique_for_overwrite<float[]>(4 * pitch)) {
+    for (int c = 0; c < 4; ++c) std::fill(channel(c) + width, channel(c) + pitch, 0.0f);
+  }
+  float* channel(int c) { return texels.get() + pitch * static_cast<std::size_t>(c); }
 };
 
 // A row of pairs starts at 2 x. Even and odd texels part on loading; every lane is still one output texel.

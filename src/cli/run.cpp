@@ -134,7 +134,7 @@ FilmRate film_rate(const RunOptions& options, const scene::Config& config) { ret
 
 nlohmann::ordered_json summary(const scene::Config& config, const std::vector<effect::InputFile>& inputs,
                                const parallel::Executor& executor, const capture::HashRecorder& recorder,
-                               const std::vector<capture::HashLine>& last, double seconds, int frames) {
+                               const std::vector<capture::HashLine>& last, double seconds, std::optional<double> between, int frames) {
   nlohmann::ordered_json out{{"rainref", version()},
                              {"golden_generation", golden_generation},
                              {"golden_hash", golden_hash()},
@@ -151,6 +151,7 @@ nlohmann::ordered_json summary(const scene::Config& config, const std::vector<ef
   out["threads"] = executor.threads();
   out["frames"] = frames;
   out["seconds"] = seconds;
+  if (between) out["ms_per_frame"] = *between;
   for (const auto& t : recorder.times()) {
     out["passes"].push_back({{"name", t.pass}, {"calls", t.calls}, {"ms_per_frame", t.seconds * 1e3 / frames}});
   }
@@ -222,10 +223,12 @@ int run(const RunOptions& options) {
   const auto seconds_so_far = [&] {
     return before.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
+  double first_ended = 0, last_began = 0;
   const auto forget_older_run = [&] { made.forget_older_run(checkpoint, left.has_value()); };
   {
     Progress progress(config.effect(), frames - begin);
     for (int frame = begin; frame < frames; ++frame) {
+      last_began = seconds_so_far();
       recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
       opened.show(written(frame) || filmed(frame) || frame == frames - 1);
       opened.simulate(&recorders);
@@ -252,11 +255,15 @@ int run(const RunOptions& options) {
         forget_older_run();
         checkpoint.write(opened, {seconds_so_far(), recorder.times()}, truth);
       }
+      if (frame == begin) first_ended = seconds_so_far();
       progress.advance();
     }
   }
   const double seconds = seconds_so_far();
-  nlohmann::ordered_json report = summary(config, opened.inputs().files, executor, recorder, last, seconds, frames);
+  // The first one also touches its memory for the first time, the last one is hashed and developed.
+  std::optional<double> between;
+  if (const int count = frames - begin - 2; count > 0) between = 1e3 * (last_began - first_ended) / count;
+  nlohmann::ordered_json report = summary(config, opened.inputs().files, executor, recorder, last, seconds, between, frames);
   report["memory"] = {{"stated", stated}, {"taken", most_memory()}};
   if (options.compare_truth) report["truth"] = truth;
   if (film) film->finish();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -30,24 +31,27 @@ class BucketSort {
     const std::int64_t most = std::clamp<std::int64_t>(count / elements_in_bucket, 1, most_buckets);
     while ((keys >> shift_) >= most) ++shift_;
     const std::size_t buckets = (keys >> shift_) + 1u, chunks = static_cast<std::size_t>((count + chunk - 1) / chunk);
+    // Of a bucket those of all chunks stand together: the sums are what one thread does alone.
     std::vector<std::uint32_t>& offset = offset_;
-    offset.assign(chunks * buckets, 0);
-    const auto of_chunk = [&](std::int64_t begin) { return offset.data() + static_cast<std::size_t>(begin / chunk) * buckets; };
+    offset.resize(std::max(offset.size(), chunks * buckets));
+    using Counts = std::array<std::uint32_t, most_buckets + 1>;
     executor.for_range(count, chunk, [&](std::int64_t begin, std::int64_t end) {
-      std::uint32_t* counts = of_chunk(begin);
+      Counts counts{};
       for (std::int64_t i = begin; i < end; ++i)
         if (const std::uint32_t key = make_key(i); key != no_key) ++counts[key >> shift_];
+      for (std::size_t b = 0, c = static_cast<std::size_t>(begin / chunk); b < buckets; ++b) offset[b * chunks + c] = counts[b];
     });
     start_.resize(buckets + 1);
     std::uint32_t sum = 0;
     for (std::size_t b = 0; b < buckets; ++b) {
       start_[b] = sum;
-      for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(offset[c * buckets + b], sum);
+      for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(offset[b * chunks + c], sum);
     }
     start_[buckets] = sum;
     if (entries_.size() < sum) entries_.resize(sum);
     executor.for_range(count, chunk, [&](std::int64_t begin, std::int64_t end) {
-      std::uint32_t* to = of_chunk(begin);
+      Counts to;
+      for (std::size_t b = 0, c = static_cast<std::size_t>(begin / chunk); b < buckets; ++b) to[b] = offset[b * chunks + c];
       for (std::int64_t i = begin; i < end; ++i)
         if (const std::uint32_t key = key_of(i); key != no_key) entries_[to[key >> shift_]++] = {key, static_cast<std::uint32_t>(i)};
     });

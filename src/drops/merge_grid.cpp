@@ -33,7 +33,7 @@ void MergeGrid::lay_out(const std::array<std::int64_t, size_classes>& counts, co
     g = {x0, 0, 1 / side, std::max(1, static_cast<int>(width / side)), std::max(1, static_cast<int>(height / side)), cells};
     cells += static_cast<std::uint32_t>(g.columns) * static_cast<std::uint32_t>(g.rows);
   }
-  cell_start.assign(cells + 1u, 0);
+  cell_start.resize(cells + 1u);  // sort() writes all
 }
 
 void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms) {

@@ -16,12 +16,12 @@
 namespace rainref::drops {
 
 /// spawn, both variants: the step's arrivals, from integers and tables alone, without those beyond uniforms.room unless
-/// `all`. Throws Error(port_files) when the uniforms and tables cannot belong together.
+/// `all`. Throws Error(port_files) when the uniforms and tables cannot belong together. executor: shares the work, or null.
 std::vector<Drop> arrivals_of(const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses,
-                              bool all = false);
+                              bool all = false, const parallel::Executor* executor = nullptr);
 /// spawn: puts the arrivals into free slots, lowest first. corrected: MassBalance in mass units; as-published: in drops.
-MassBalance spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
-                  std::span<const SpawnMass> masses, bool corrected);
+MassBalance spawn(const parallel::Executor& executor, DropArrays& drops, const SpawnUniforms& uniforms,
+                  std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool corrected);
 
 /// integrate: live drops only. as-published the MassBalance counts the drops whose life ends, as removed.
 MassBalance integrate(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass,

@@ -11,7 +11,7 @@
 namespace rainref::drops {
 
 std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses,
-                              bool all) {
+                              bool all, const parallel::Executor* executor) {
   constexpr std::uint32_t most_parts = 1u << 12;
   constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
   constexpr std::int32_t most_without_thresholds = 1 << 26;
@@ -35,19 +35,25 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
              draws.count(static_cast<std::uint32_t>(above - used.begin()), static_cast<std::uint32_t>(used.size()));
   }
   if (!all) count = std::min(count, c.room);
-  std::vector<Drop> out;
-  out.reserve(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const random::Block r = draws.block(seed, random::Purpose::drop_arrival, c.step, i);
-    const auto place = [&](std::uint32_t word) { return random::uniform(draws.place(word, 24) << 8); };
-    out.push_back({{place(r[0]), place(r[1])}, {0, 0}, masses[draws.choice(r[2], 10)].mass, c.life, c.first_id + i, 0});
-  }
+  std::vector<Drop> out(count);
+  const auto arrive = [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < static_cast<std::uint32_t>(end); ++i) {
+      const random::Block r = draws.block(seed, random::Purpose::drop_arrival, c.step, i);
+      const auto place = [&](std::uint32_t word) { return random::uniform(draws.place(word, 24) << 8); };
+      out[i] = {{place(r[0]), place(r[1])}, {0, 0}, masses[draws.choice(r[2], 10)].mass, c.life, c.first_id + i, 0};
+    }
+  };
+  constexpr std::int64_t chunk = 128;
+  if (executor != nullptr && count > chunk)
+    executor->for_range(count, chunk, arrive);
+  else
+    arrive(0, count);
   return out;
 }
 
-MassBalance spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
-                  std::span<const SpawnMass> masses, bool corrected) {
-  const std::vector<Drop> arrivals = arrivals_of(uniforms, thresholds, masses, true);
+MassBalance spawn(const parallel::Executor& executor, DropArrays& drops, const SpawnUniforms& uniforms,
+                  std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool corrected) {
+  const std::vector<Drop> arrivals = arrivals_of(uniforms, thresholds, masses, true, &executor);
   const std::size_t placed = drops.place(arrivals);
   MassBalance balance;
   for (std::size_t i = 0; i < arrivals.size(); ++i) {

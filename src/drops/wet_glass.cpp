@@ -57,7 +57,7 @@ void WetGlass::spawn(const pass::Moment& now, const Exposure& exposure, std::int
   if (settings_.corrected) io.count_thresholds = plan.thresholds;
   io.spawn_masses = plan.masses;
   run<SpawnPass>(now, plan.uniforms, std::move(io),
-                 [&] { return drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, settings_.corrected); });
+                 [&] { return drops::spawn(executor_, drops, plan.uniforms, plan.thresholds, plan.masses, settings_.corrected); });
 }
 
 void WetGlass::integrate(const pass::Moment& now, const GlassFrame& glass) {

@@ -92,6 +92,32 @@ struct Lanes {
     const auto code = hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p)));
     return hn::Div(hn::ConvertTo(D(), code), hn::Set(D(), 255.0f));
   }
+  /// Elements of `before here`, two vectors one after the other: the last of before and all but the last of here.
+  static HWY_INLINE HWY_ATTR Lanes shifted_up(Lanes before, Lanes here) {
+#if HWY_TARGET == HWY_SCALAR
+    (void)here;
+    return before;
+#elif HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    return V{_mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(here.v.raw), _mm512_castps_si512(before.v.raw), 15))};
+#elif HWY_TARGET == HWY_AVX2
+    return hn::CombineShiftRightBytes<12>(D(), here.v, hn::ConcatLowerUpper(D(), here.v, before.v));
+#else
+    return hn::CombineShiftRightBytes<12>(D(), here.v, before.v);
+#endif
+  }
+  /// Elements of `here after`: all but the first of here and the first of after.
+  static HWY_INLINE HWY_ATTR Lanes shifted_down(Lanes here, Lanes after) {
+#if HWY_TARGET == HWY_SCALAR
+    (void)here;
+    return after;
+#elif HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    return V{_mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(after.v.raw), _mm512_castps_si512(here.v.raw), 1))};
+#elif HWY_TARGET == HWY_AVX2
+    return hn::CombineShiftRightBytes<4>(D(), hn::ConcatLowerUpper(D(), after.v, here.v), here.v);
+#else
+    return hn::CombineShiftRightBytes<4>(D(), after.v, here.v);
+#endif
+  }
   static HWY_INLINE HWY_ATTR Lanes index(int first) { return hn::ConvertTo(D(), hn::Iota(DI(), first)); }
   static HWY_INLINE HWY_ATTR Int uniform_int(int value) { return {hn::Set(DI(), value)}; }
 
@@ -161,10 +187,12 @@ struct Lanes {
     return load(halves);
   }
 
-  /// Half codes in 16-bit lanes.
+  /// Half codes in 16-bit lanes; of -0 that of 0, or either where `either_zero`.
+  template <bool either_zero = false>
   HWY_INLINE HWY_ATTR hn::Vec<DH> half_codes(Rounding rounding) const {
 #if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
-    if (rounding == Rounding::rne) return hn::BitCast(DH(), hn::DemoteTo(hn::Rebind<hwy::float16_t, D>(), hn::Add(v, hn::Zero(D()))));
+    if (rounding == Rounding::rne)
+      return hn::BitCast(DH(), hn::DemoteTo(hn::Rebind<hwy::float16_t, D>(), either_zero ? v : hn::Add(v, hn::Zero(D()))));
 #endif
     return hn::DemoteTo(DH(), hn::BitCast(DI(), half_words(rounding)));
   }
@@ -219,7 +247,7 @@ HWY_INLINE void store(float* p, Lanes x, Rounding, int count) {
 /// Half codes as they are stored: a small negative number that rounds to zero becomes +0, so that adding nothing to a
 /// stored value never changes its bits.
 HWY_INLINE hn::Vec<Lanes::DH> stored_half(Lanes x, Rounding rounding) {
-  const auto codes = x.half_codes(rounding);
+  const auto codes = x.half_codes<true>(rounding);
   return hn::IfThenZeroElse(hn::Eq(codes, hn::Set(Lanes::DH(), std::uint16_t{0x8000})), codes);
 }
 HWY_INLINE void store(Half* p, Lanes x, Rounding rounding, int count) {
@@ -236,6 +264,13 @@ HWY_INLINE void store(Unorm8* p, Lanes x, Rounding rounding, int count) {
   HWY_ALIGN std::uint8_t lanes[HWY_MAX_BYTES];
   hn::StoreU(codes, Lanes::DB(), lanes);
   for (int k = 0; k < count; ++k) p[k].code = lanes[k];
+}
+
+/// As store of a whole vector, where no lane can be -0: an addition less.
+HWY_INLINE void store_without_minus_zero(float* p, Lanes x, Rounding) { hn::StoreU(x.v, Lanes::D(), p); }
+template <class Storage>
+HWY_INLINE void store_without_minus_zero(Storage* p, Lanes x, Rounding rounding) {
+  store(p, x, rounding, Lanes::size());
 }
 
 /// Four interleaved channels of size() texels. Rows of an Image have room for whole vectors, so there is no tail.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,22 +15,29 @@ namespace {
 
 // 4-channel floats of an image in the code that this variant's pass expects.
 zeroed::Array<float> recode(const Image& image, bool is_encoded, Variant variant, const Rows& rows) {
-  const TextureData decoded(image, Address::clamp, Address::clamp, rows);
+  // Floats are read where they lie.
+  const bool is_plain = info(image.format()).kind == FormatInfo::float32;
+  std::optional<TextureData> decoded;
+  if (!is_plain) decoded.emplace(image, Address::clamp, Address::clamp, rows);
   const int c = image.channels();
   const std::size_t width = static_cast<std::size_t>(image.width());
   zeroed::Array<float> out(width * image.height() * 4);
-  const float* in = decoded.view().texels;
   rows(image.height(), [&](int begin, int end) {
-    for (std::size_t i = static_cast<std::size_t>(begin) * width; i < static_cast<std::size_t>(end) * width; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        // Resampled panoramas have slightly negative texels; radiance has none.
-        const float x = std::max(in[i * c + (k < c ? k : 0)], 0.0f);
-        if (is_encoded == (variant == Variant::as_published))
-          out[i * 4 + k] = x;
-        else
-          out[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
+    for (int y = begin; y < end; ++y) {
+      const std::size_t first = static_cast<std::size_t>(y) * width;
+      const float* in = is_plain ? image.row<float>(y) : decoded->view().texels + first * c;
+      float* to = out.data() + first * 4;
+      for (std::size_t i = 0; i < width; ++i) {
+        for (int k = 0; k < 3; ++k) {
+          // Resampled panoramas have slightly negative texels; radiance has none.
+          const float x = std::max(in[i * c + (k < c ? k : 0)], 0.0f);
+          if (is_encoded == (variant == Variant::as_published))
+            to[i * 4 + k] = x;
+          else
+            to[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
+        }
+        to[i * 4 + 3] = c == 4 ? in[i * c + 3] : 1;
       }
-      out[i * 4 + 3] = c == 4 ? in[i * c + 3] : 1;
     }
   });
   return out;

@@ -161,7 +161,7 @@ ShadeUniforms shade_uniforms(const Settings& s) {
   u.inverse_size[0] = static_cast<float>(1 / (s.grid[0] * s.cell_size));
   u.inverse_size[1] = static_cast<float>(1 / (s.grid[1] * s.cell_size));
   u.shore_width = corrected(s) ? static_cast<float>(s.shore_width) : 0.002f;  // as published unused; what packs have always held
-  u.gloss_level = 4.0f;
+  u.gloss_level = 4.0f;  // corrected: gloss_level() of the environment, which the caller knows
   u.wetness = 0.45f;
   u.background_level = 0.0f;
   // A pixel of rippled water sees a patch of the environment, not a point.
@@ -178,6 +178,11 @@ DisplayUniforms display_uniforms(const Settings& s) {
   u.width = static_cast<float>(s.width);
   u.height = static_cast<float>(s.height);
   return u;
+}
+
+float gloss_level(int width, bool is_cube) {
+  const double columns = is_cube ? 4.0 * width : width;
+  return static_cast<float>(std::max(log_real(Real64(columns / 256)).v / log_real(Real64(2.0)).v, 2.0));
 }
 
 float ground_footprint(const Settings& s, int tile_texels) {

@@ -33,6 +33,11 @@ GroundNoiseUniforms ground_noise_uniforms(const Settings& settings);
 ShadeUniforms shade_uniforms(const Settings& settings);
 DisplayUniforms display_uniforms(const Settings& settings);
 
+/// ShadeUniforms::gloss_level of the corrected variant, for an environment whose level 0 is `width` texels wide: the level with texels of
+/// 360/256 degrees, the patch that wet asphalt mirrors (chosen by eye: twice as wide it shows as a soft band before the street's own road);
+/// 2 where that one is finer, so that it stays coarser than what water mirrors.
+float gloss_level(int width, bool is_cube);
+
 /// ShadeUniforms::ground_footprint for a tile of this many texels a side.
 float ground_footprint(const Settings& settings, int tile_texels);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "image/flipped.h"
+#include "math/constants.h"
 #include "math/real64.h"
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
@@ -13,13 +14,22 @@
 #include "puddle/info.h"
 #include "puddle/memory.h"
 #include "puddle/parameters.h"
+#include "scene/camera.h"
 
 namespace rainref::puddle {
 namespace {
 
-/// Columns and rows of the panorama of the street.
+/// Columns and rows of the panorama of the street: as named, or the power of two in [1024, 4096] that comes next below a column for each
+/// pixel at the middle of the picture. Coarser ones show the road beyond the puddle out of focus.
 std::array<int, 2> street_size(const scene::Config& config) {
-  const int width = static_cast<int>(config.integer("environment.width"));
+  int width = static_cast<int>(config.integer("environment.width"));
+  if (width == 0) {
+    const Settings s = settings_from(config);
+    scene::Camera camera;
+    camera.vertical_fov_deg = s.vertical_fov_deg;
+    const double pixel = 2 * camera.half_height() / s.height * static_cast<double>(config.integer("run.supersample"));  // [rad]
+    for (width = 1024; width < 4096 && 2 * width * pixel <= 2 * pi;) width *= 2;
+  }
   return {width, std::max(1, width / 2)};
 }
 
@@ -67,10 +77,12 @@ effect::RunMemory memory_of(const scene::Config& config) {
                       6 + 6 + 12};
   PictureSizes sizes;
   sizes.environment = street_size(config);
-  if (effect::is_named(config, "environment.image"))
+  if (effect::is_named(config, "environment.image")) {
     sizes.environment = {1, 1};
-  else
+  } else {
+    sizes.has_float_environment = true;
     m.peak.then(night_street::panorama_memory(sizes.environment[0], sizes.environment[1]));
+  }
   if (effect::is_named(config, "puddle.ground_image")) sizes.ground = {1, 1};
   m.peak.then(memory(s, sizes));
   return m;

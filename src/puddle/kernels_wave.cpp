@@ -1,5 +1,8 @@
 // Shell of wave_step; compiled once for each SIMD target.
 #include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
 
 #include "pass/planes.h"
 #include "puddle/kernels.h"
@@ -51,108 +54,135 @@ HWY_INLINE HWY_ATTR void for_drops(std::span<const Drop> in_row, int x0, int x1,
   }
 }
 
-// ---- rows of the newest level ----------------------------------------------------------------------------------------
-// As wave_step reads them in columns [x0, x1) of a tile: floats where they stand; other storage decoded once and not for each neighbour.
-template <class Storage>
-class NewestRows {
- public:
-  static constexpr int columns = 4096;  // of a strip: its rows stay in a cache
-  NewestRows(const WaveJob& job, int reach) : job_(job), rows_(2 * reach + 1), ring_(static_cast<std::size_t>(rows_) * stride) {}
-  /// Row y is read from now on; rows must come in ascending order within a strip.
-  HWY_ATTR void add(int y, int x0, int x1) {
-    const Storage* from = pass::row_at<Storage>(*job_.newest, *job_.rest_row, edge(), y);
-    float* to = line(y);
-    for (int x = x0 - margin; x < x1 + margin; x += Lanes::size()) hn::StoreU(Lanes::load(from + x).v, Lanes::D(), to + margin + x - x0);
-    x0_ = x0;
-  }
-  const float* row(int y) const { return const_cast<NewestRows*>(this)->line(y) + margin - x0_; }
-
- private:
-  static constexpr int margin = Image::left_margin;
-  static constexpr std::size_t stride = columns + 2 * margin + HWY_MAX_BYTES / sizeof(float);
-  Address edge() const { return address_of(job_.boundary); }
-  float* line(int y) { return ring_.data() + static_cast<std::size_t>((y + rows_ * margin) % rows_) * stride; }
-  const WaveJob& job_;
-  int rows_, x0_ = 0;
-  std::vector<float> ring_;
+// ---- rows at a time --------------------------------------------------------------------------------------------------
+// A vector of a row and its neighbours, in registers: a load at an odd place takes as long as two, and may have to wait for a store that
+// has the same place in another page.
+struct LoadedRow {
+  Lanes left, here, right;
+  int x;
 };
-template <>
-class NewestRows<float> {
- public:
-  static constexpr int columns = 1 << 30;
-  NewestRows(const WaveJob& job, int) : job_(job) {}
-  void add(int, int, int) {}
-  const float* row(int y) const { return pass::row_at<float>(*job_.newest, *job_.rest_row, address_of(job_.boundary), y); }
-
- private:
-  const WaveJob& job_;
-};
+template <class N>
+HWY_INLINE HWY_ATTR N element(const LoadedRow& row, int x) {
+  return x == row.x ? row.here : x < row.x ? row.left : row.right;  // known when it is compiled
+}
+// What a step of the corrected pass reads besides the two levels. As constants, for each costs much of the time of a step.
+enum class Edges { none, shore, rim };
 
 // Without it the compiler calls some of these, and what they refer to lives in memory.
 #undef RAINREF_INLINED
 #define RAINREF_INLINED HWY_ATTR __attribute__((always_inline))
 
-// ---- steps -----------------------------------------------------------------------------------------------------------
-// Columns [begin, end) of a row by value(column). Values and not references come in, so that no store can change them.
-template <Rounding rounding, class Storage, class Value>
-HWY_INLINE HWY_ATTR void store_columns(Storage* out, int begin, int end, const Value& value) {
+template <int... Rows, class F>
+HWY_INLINE HWY_ATTR void for_each_row(std::integer_sequence<int, Rows...>, const F& f) {
+  (f(std::integral_constant<int, Rows>()), ...);
+}
+// Whole vectors of columns [begin, end) that no drop reaches, of R rows from y on: each vector of the newest level is loaded once.
+// Returns the first column that is left. Neighbours are one texel away.
+template <int R, bool corrected, Edges edges, Rounding rounding, class Storage>
+HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storage*, R + 2> newest, std::array<Storage*, R> out,
+                                     std::array<const float*, R> shore, int begin, int end, int y) {
   constexpr int n = Lanes::size();
-  int x = begin;
-  for (; x + n <= end; x += n) store(out + x, value(x), rounding, n);
-  if (x < end) store(out + x, value(x), rounding, end - x);
-}
-template <bool corrected, Rounding rounding, class Storage>
-HWY_NOINLINE HWY_ATTR void step_columns(WaveStepUniforms u, WaveRows<float, Storage> rows, Storage* out, int begin, int end, int y) {
+  constexpr std::integer_sequence each = std::make_integer_sequence<int, R>();
   constexpr std::span<const Drop> none;
-  if constexpr (corrected) {
-    if (u.rim_damping > 0.0f) {
-      store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_corrected<Lanes>(u, rows, none, x, y); });
-    } else if (rows.shore) {
-      u.rim_damping = 0.0f;  // known from here on
-      store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_corrected<Lanes>(u, rows, none, x, y); });
-    } else {
-      u.rim_damping = 0.0f;
-      rows.shore = nullptr;
-      store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_corrected<Lanes>(u, rows, none, x, y); });
-    }
-  } else if (rows.fraction != 0.0f) {
-    store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_as_published<Lanes>(u, rows, none, x, y); });
-  } else {
-    rows.fraction = 0.0f;
-    store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_as_published<Lanes>(u, rows, none, x, y); });
+  if (edges != Edges::rim) u.rim_damping = 0.0f;
+  Lanes before[R], here[R], after[R], next[R];
+  for_each_row(each, [&](auto k) RAINREF_INLINED {
+    before[k] = Lanes::load(newest[k + 1] + begin - n);
+    here[k] = Lanes::load(newest[k + 1] + begin);
+  });
+  int x = begin;
+  for (; x + n <= end; x += n) {
+    const Lanes below = Lanes::load(newest[0] + x), above = Lanes::load(newest[R + 1] + x);
+    for_each_row(each, [&](auto k) RAINREF_INLINED { after[k] = Lanes::load(newest[k + 1] + x + n); });
+    for_each_row(each, [&](auto k) RAINREF_INLINED {
+      const auto row = [&](const Lanes& v) RAINREF_INLINED { return LoadedRow{v, v, v, x}; };
+      const WaveRows<LoadedRow, Storage> rows{{Lanes::shifted_up(before[k], here[k]), here[k], Lanes::shifted_down(here[k], after[k]), x},
+                                              row(k == 0 ? below : here[std::max(k - 1, 0)]),
+                                              row(k == R - 1 ? above : here[std::min(k + 1, R - 1)]),
+                                              {},
+                                              {},
+                                              out[k],
+                                              1,
+                                              0.0f,
+                                              edges == Edges::none ? nullptr : shore[k]};
+      if constexpr (corrected)
+        next[k] = wave_step_corrected<Lanes>(u, rows, none, x, y + k);
+      else
+        next[k] = wave_step_as_published<Lanes>(u, rows, none, x, y + k);
+    });
+    for_each_row(each, [&](auto k) RAINREF_INLINED {
+      // Nothing stored is -0, so that neither is a sum that begins with what is stored, or with 1/2.
+      store_without_minus_zero(out[k] + x, next[k], rounding);
+      before[k] = here[k];
+      here[k] = after[k];
+    });
   }
+  return x;
 }
-template <bool corrected, Rounding rounding, class Storage>
-HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile) {
-  const WaveStepUniforms u = job.uniforms;
-  const int n = Lanes::size(), width = job.newest->width();
-  const int reach = corrected ? 1 : static_cast<int>(__builtin_ceilf(u.step));
-  std::vector<Drop> in_tile, in_row;
-  drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
-  NewestRows<Storage> newest(job, reach);
-  for (int x0 = 0; x0 < width; x0 += std::min(width, newest.columns)) {
-    const int x1 = std::min(width - x0, newest.columns) + x0;
-    for (int y = tile.y0 - reach; y < tile.y0 + reach; ++y) newest.add(y, x0, x1);
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      newest.add(y + reach, x0, x1);
-      Storage* out = job.previous->row<Storage>(y);
-      const auto row = [&](int dy) HWY_ATTR { return newest.row(y + std::clamp(dy, -reach, reach)); };
-      const WaveRows<float, Storage> rows = rows_around<float>(u, corrected, row, out, job.shore ? job.shore->row<float>(y) : nullptr);
-      drops_in_rows(in_tile, y, y + 1, in_row);
-      for_drops(
-          in_row, x0, x1, [&](int begin, int end) { step_columns<corrected, rounding>(u, rows, out, begin, end, y); },
-          [&](int x, std::span<const Drop> drops) HWY_ATTR {
-            store_columns<rounding>(out, x, std::min(x + n, x1), [&](int at) RAINREF_INLINED {
-              if constexpr (corrected)
-                return wave_step_corrected<Lanes>(u, rows, drops, at, y);
-              else
-                return wave_step_as_published<Lanes>(u, rows, drops, at, y);
-            });
-          });
+
+// ---- steps -----------------------------------------------------------------------------------------------------------
+template <bool corrected, Edges edges, Rounding rounding, class Storage>
+class Rows {
+ public:
+  explicit Rows(const WaveJob& job) : job_(job), u_(job.uniforms) {}
+  // Vectors from x on up to end, the last one in part: any drops, any offset of the neighbours.
+  HWY_ATTR void single(std::span<const Drop> drops, int x, int end, int y) const {
+    constexpr int n = Lanes::size();
+    Storage* out = job_.previous->row<Storage>(y);
+    const WaveRows<const Storage*, Storage> rows = rows_around<Storage>(
+        u_, corrected, [&](int dy) HWY_ATTR { return newest(y + dy); }, out, shore(y));
+    for (; x < end; x += n) {
+      if constexpr (corrected)
+        store(out + x, wave_step_corrected<Lanes>(u_, rows, drops, x, y), rounding, std::min(n, end - x));
+      else
+        store(out + x, wave_step_as_published<Lanes>(u_, rows, drops, x, y), rounding, std::min(n, end - x));
     }
+  }
+  // Columns that no drop reaches, of R rows; begin is a multiple of a vector's length.
+  template <int R>
+  HWY_ATTR void block(int begin, int end, int y) const {
+    if (corrected || u_.step == 1.0f) {
+      std::array<const Storage*, R + 2> rows;
+      std::array<Storage*, R> out;
+      std::array<const float*, R> shores;
+      for (int k = 0; k < R + 2; ++k) rows[k] = newest(y + k - 1);
+      for (int k = 0; k < R; ++k) out[k] = job_.previous->row<Storage>(y + k), shores[k] = shore(y + k);
+      begin = step_block<R, corrected, edges, rounding, Storage>(u_, rows, out, shores, begin, end, y);
+    }
+    if (begin == end) return;
+    for (int k = 0; k < R; ++k) single({}, begin, end, y + k);
+  }
+  // R rows from y on; drops: all that reach into them.
+  template <int R>
+  HWY_ATTR void visit(std::span<const Drop> drops, int y) const {
+    const int n = Lanes::size(), width = job_.newest->width();
+    for_drops(
+        drops, 0, width, [&](int begin, int end) HWY_ATTR { block<R>(begin, end, y); },
+        [&](int x, std::span<const Drop> near) HWY_ATTR {
+          for (int k = 0; k < R; ++k) single(near, x, std::min(x + n, width), y + k);
+        });
+  }
+
+ private:
+  const Storage* newest(int y) const { return pass::row_at<Storage>(*job_.newest, *job_.rest_row, address_of(job_.boundary), y); }
+  const float* shore(int y) const { return job_.shore ? job_.shore->row<float>(y) : nullptr; }
+  const WaveJob& job_;
+  WaveStepUniforms u_;
+};
+template <bool corrected, Edges edges, Rounding rounding, class Storage>
+HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile) {
+  constexpr int most = Lanes::size() == 16 ? 4 : 2;  // by the number of registers
+  const Rows<corrected, edges, rounding, Storage> rows(job);
+  std::vector<Drop> in_tile, in_rows;
+  drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
+  for (int y = tile.y0; y < tile.y1;) {
+    const int count = y + most <= tile.y1 ? most : 1;
+    if (!in_tile.empty()) drops_in_rows(in_tile, y, y + count, in_rows);
+    count == most ? rows.template visit<most>(in_rows, y) : rows.template visit<1>(in_rows, y);
+    y += count;
   }
   for (int y = tile.y0; y < tile.y1; ++y)
-    pass::fill_margins(job.previous->row<Storage>(y), width, address_of(job.boundary), *job.rest_row->row<Storage>(0));
+    pass::fill_margins(job.previous->row<Storage>(y), job.newest->width(), address_of(job.boundary), *job.rest_row->row<Storage>(0));
 }
 // f with the variant and the rounding as constants.
 template <class F>
@@ -167,8 +197,15 @@ HWY_ATTR void with_constants(const WaveJob& job, const F& f) {
     job.corrected ? f(Corrected(), TowardZero()) : f(AsPublished(), TowardZero());
 }
 void StepRows(const WaveJob& job, const parallel::Tile& tile) {
+  const Edges edges = !job.corrected ? Edges::none : job.uniforms.rim_damping > 0.0f ? Edges::rim : job.shore ? Edges::shore : Edges::none;
   pass::in_storage(job.newest->format(), [&]<class Storage>(Storage) HWY_ATTR {
-    with_constants(job, [&](auto corrected, auto rounding) HWY_ATTR { step_rows<corrected(), rounding(), Storage>(job, tile); });
+    with_constants(job, [&](auto corrected, auto rounding) HWY_ATTR {
+      if (edges == Edges::none) return step_rows<corrected(), Edges::none, rounding(), Storage>(job, tile);
+      if constexpr (corrected()) {
+        if (edges == Edges::shore) return step_rows<true, Edges::shore, rounding(), Storage>(job, tile);
+        step_rows<true, Edges::rim, rounding(), Storage>(job, tile);
+      }
+    });
   });
 }
 

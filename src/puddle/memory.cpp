@@ -15,9 +15,9 @@ namespace {
 constexpr int own_ground = 512;  // make_asphalt
 
 /// recode and the texture made of it.
-void hold_picture(MemoryPeak& m, std::array<int, 2> size, bool has_mips) {
+void hold_picture(MemoryPeak& m, std::array<int, 2> size, bool is_float, bool has_mips) {
   const std::uint64_t texels = texel_bytes(size[0], size[1], 4);
-  m.pass(2 * texels);  // decoded, and in the pass's code
+  if (!is_float) m.pass(2 * texels);  // decoded, and in the pass's code
   m.hold(texels);
   if (has_mips) hold_mips(m, size[0], size[1], 4);
 }
@@ -25,7 +25,10 @@ void hold_picture(MemoryPeak& m, std::array<int, 2> size, bool has_mips) {
 }  // namespace
 
 PictureSizes sizes_of(const Surroundings& s) {
-  return {{s.environment.width(), s.environment.height()}, {s.ground.width(), s.ground.height()}, {s.shelter.width(), s.shelter.height()}};
+  return {{s.environment.width(), s.environment.height()},
+          s.environment.format() == Format::rgba32f,
+          {s.ground.width(), s.ground.height()},
+          {s.shelter.width(), s.shelter.height()}};
 }
 
 MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
@@ -36,13 +39,13 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   MemoryPeak m;
   m.hold(2 * Image::memory_bytes(channel, columns, rows));
   m.pass(wave_floats);  // level water
-  hold_picture(m, sizes.environment, corrected);
+  hold_picture(m, sizes.environment, sizes.has_float_environment, corrected);
   const bool makes_ground = sizes.ground[0] == 0;
   const int own_side = !corrected && s.use_checkerboard ? 1 : own_ground;
   const std::array<int, 2> ground = makes_ground ? std::array{own_side, own_side} : sizes.ground;
   const std::uint64_t made = makes_ground ? Image::memory_bytes(Format::rgba32f, own_side, own_side) : 0;
   m.hold(made);
-  hold_picture(m, ground, corrected);
+  hold_picture(m, ground, makes_ground, corrected);
   if (corrected) {
     m.hold(texel_bytes(ground[0], ground[1], 2));
     hold_mips(m, ground[0], ground[1], 2);

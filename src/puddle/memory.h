@@ -11,7 +11,8 @@ namespace rainref::puddle {
 /// Columns and rows of the pictures that a puddle is made with.
 struct PictureSizes {
   std::array<int, 2> environment{1024, 512};
-  std::array<int, 2> ground{0, 0};  ///< 0: asphalt made here
+  bool has_float_environment = false;  ///< its texels are floats, which are read where they lie
+  std::array<int, 2> ground{0, 0};     ///< 0: asphalt made here
   std::array<int, 2> shelter{0, 0};
 };
 PictureSizes sizes_of(const Surroundings& surroundings);

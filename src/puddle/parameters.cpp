@@ -87,8 +87,9 @@ const std::vector<MemberParameter<Settings>>& members() {
       text("environment.image", "", "Picture of the surroundings, EXR, HDR or PNG; empty: the street at night made here."),
       choice("environment.layout", {"latlong", "cube"}, "latlong",
              "Latitude/longitude panorama, or six cube faces in a row or column (+x -x +y -y +z -z)."),
-      integer("environment.width", "texel", 64, 8192, 1024, "Columns of the panorama of the street made here; it has half as many rows.")
-          .default_for(correct, std::int64_t{2048}),
+      integer("environment.width", "texel", 0, 8192, 1024,
+              "Columns of the panorama of the street made here, which has half as many rows; 0: as fine as the picture, 1024 to 4096.")
+          .default_for(correct, std::int64_t{0}),
       real<&Settings::exposure>("display.exposure", "EV", -20, 20, "Exposure of the picture.").only(correct),
       real<&Settings::camera_position>("camera.position", "m", -1e5, 1e5, "Eye of the camera.").published(Real3{20, 18, 14}),
       real<&Settings::camera_target>("camera.target", "m", -1e5, 1e5, "Point that the camera looks at.").published(Real3{-6, -4, 10}),

@@ -304,6 +304,7 @@ void Puddle::render(Recorder* recorder) {
   ShadeUniforms of_shade = shade_uniforms(s.settings);
   of_shade.environment_is_cube = s.environment_is_cube;
   of_shade.ground_footprint = ground_footprint(s.settings, s.ground->tile.view().width[0]);
+  if (corrected) of_shade.gloss_level = gloss_level(s.sky->environment.view().width[0], s.environment_is_cube);
   for (int k = 0; k < 3; ++k) of_shade.ambient[k] = of_shade.fog_colour[k] = s.sky->ambient[k];
   pass::HostIo<ShadePass> at_shade;
   at_shade.hit = s.hit;

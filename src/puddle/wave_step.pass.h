@@ -54,10 +54,11 @@ struct WaveStepPass {
 #endif
 #else
 
-/// Rows of values, stored or decoded. here, below and above are the newest level, readable `reach` texels to both sides.
-template <class Newest, class Previous>
+/// Row: const Storage*, or what else element() reads values from. here, below and above are the newest level, readable `reach` texels to
+/// both sides.
+template <class Row, class Previous>
 struct WaveRows {
-  const Newest *here, *below, *above, *below_next, *above_next;
+  Row here, below, above, below_next, above_next;
   const Previous* previous;
   int reach;           ///< whole texels to the neighbours
   float fraction;      ///< what is left of a fractional offset; *_next are the rows one texel further out
@@ -65,12 +66,16 @@ struct WaveRows {
 };
 /// newest_row(dy): the row dy rows away.
 template <class Newest, class NewestRow, class Previous>
-RAINREF_FN WaveRows<Newest, Previous> rows_around(const WaveStepUniforms& u, bool corrected, const NewestRow& newest_row,
-                                                  const Previous* previous, const float* shore) {
+RAINREF_FN WaveRows<const Newest*, Previous> rows_around(const WaveStepUniforms& u, bool corrected, const NewestRow& newest_row,
+                                                         const Previous* previous, const float* shore) {
   // With a whole offset r the neighbours are r away; with a fractional one between r and r + 1.
   const int r = corrected ? 1 : static_cast<int>(u.step);
   const float fraction = corrected ? 0.0f : u.step - static_cast<float>(r);
   return {newest_row(0), newest_row(-r), newest_row(r), newest_row(-r - 1), newest_row(r + 1), previous, r, fraction, shore};
+}
+template <class N, class Storage>
+RAINREF_FN N element(const Storage* row, int x) {
+  return N::load(row + x);
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
@@ -81,17 +86,17 @@ RAINREF_FN N drop_as_published(const Drop& drop, N x, N y) {
   const N distance = length(N(drop.x) - x, N(drop.y) - y);
   return N(drop.amplitude) * smoothstep(4.0f, 0.5f, distance);
 }
-template <class N, class Newest, class Previous, class Drops>
-RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Newest, Previous>& in, Drops drops, int x, int y) {
+template <class N, class Row, class Previous, class Drops>
+RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Row, Previous>& in, Drops drops, int x, int y) {
   const int r = in.reach;
-  N left = N::load(in.here + x - r), right = N::load(in.here + x + r), down = N::load(in.below + x), up = N::load(in.above + x);
+  N left = element<N>(in.here, x - r), right = element<N>(in.here, x + r), down = element<N>(in.below, x), up = element<N>(in.above, x);
   if (in.fraction != 0.0f) {
     // The texture unit between two texels: a fractional STEP diffuses.
     const N f(in.fraction);
-    left = mix(left, N::load(in.here + x - r - 1), f);
-    right = mix(right, N::load(in.here + x + r + 1), f);
-    down = mix(down, N::load(in.below_next + x), f);
-    up = mix(up, N::load(in.above_next + x), f);
+    left = mix(left, element<N>(in.here, x - r - 1), f);
+    right = mix(right, element<N>(in.here, x + r + 1), f);
+    down = mix(down, element<N>(in.below_next, x), f);
+    up = mix(up, element<N>(in.above_next, x), f);
   }
   const N velocity = -(N::load(in.previous + x) - N(0.5f)) * N(2.0f);
   N d = velocity + (sum_any_order(down, left, right, up) - N(2.0f));
@@ -137,18 +142,20 @@ RAINREF_FN N kept_in_rim(const WaveStepUniforms& u, int x, int y) {
   const N depth = max(N(1.0f) - N(u.rim_inverse) * edge, N(0.0f));
   return N(1.0f) - N(u.rim_damping) * square(depth);
 }
-template <class N, class Newest, class Previous, class Drops>
-RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Newest, Previous>& in, Drops drops, int x, int y) {
-  const N here = N::load(in.here + x);
+template <class N, class Row, class Previous, class Drops>
+RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Row, Previous>& in, Drops drops, int x, int y) {
+  const N here = element<N>(in.here, x);
   // In pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
-  const N around = sum_any_order_in_pairs(N::load(in.here + x - 1), N::load(in.here + x + 1), N::load(in.below + x), N::load(in.above + x));
+  const N around =
+      sum_any_order_in_pairs(element<N>(in.here, x - 1), element<N>(in.here, x + 1), element<N>(in.below, x), element<N>(in.above, x));
   const N laplacian = around - N(4.0f) * here;
   const bool has_rim = u.rim_damping > 0.0f;
   const N rim = has_rim ? kept_in_rim<N>(u, x, y) : N(1.0f);
   const N stored = N::load(in.previous + x);
   const N previous = has_rim ? N(u.rest) + rim * (stored - N(u.rest)) : stored;
   const N moving = here + N(u.damping) * (here - previous);
-  const N next = (moving + N(u.courant_sq) * laplacian) + impulse_corrected<N>(drops, x, y);
+  N next = moving + N(u.courant_sq) * laplacian;
+  if (!drops.empty()) next = next + impulse_corrected<N>(drops, x, y);
   if (!in.shore && !has_rim) return next;
   const N kept = !in.shore ? rim : has_rim ? N::load(in.shore + x) * rim : N::load(in.shore + x);
   return N(u.rest) + kept * (next - N(u.rest));
@@ -173,7 +180,7 @@ struct WaveStepPassText {
     const std::span<const Drop> near = found;
     io.wave.in_storage([&]<class Storage>(Storage) {
       const auto newest = [&](int dy) { return io.wave.template row<Storage>(0, dy); };
-      const WaveRows<Storage, Storage> rows =
+      const WaveRows<const Storage*, Storage> rows =
           rows_around<Storage>(u, corrected, newest, io.wave.template row<Storage>(1, 0), io.shore.row[0]);
       if constexpr (corrected) {
         const N next = wave_step_corrected<N>(u, rows, near, x, y);

@@ -35,8 +35,8 @@ void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const pas
   if (corrected) {
     change_records<WipeDropsPass, WipeDropsPassText, true>(
         uniforms, io, columns, begin, end, [&](std::int64_t first, int count, const DropState<Lanes>&, const WipedDrop<Lanes>& d) HWY_ATTR {
-          store(wiper + first, d.wiper, Rounding::rne, count);
-          store(bin + first, d.bin, Rounding::rne, count);
+          store(wiper + (first - begin), d.wiper, Rounding::rne, count);
+          store(bin + (first - begin), d.bin, Rounding::rne, count);
         });
   } else {
     change_records<WipeDropsPass, WipeDropsPassText, false>(uniforms, io, columns, begin, end,

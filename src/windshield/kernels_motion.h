@@ -21,8 +21,8 @@ struct DropSpans {
   std::span<const std::uint32_t> id;
 };
 
-/// wipe_drops for the slots [begin, end). corrected: wiper and bin, of as many slots, take what WipedDrop says of the live ones; else they
-/// may be null.
+/// wipe_drops for the slots [begin, end). corrected: wiper and bin, room for these slots, take what WipedDrop says of the live ones; else
+/// they may be null.
 void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const pass::HostIo<WipeDropsPass>& io, float* wiper, float* bin,
                       std::int64_t begin, std::int64_t end);
 

@@ -18,18 +18,21 @@ namespace {
 
 /// Drops that arrive on a pane in so many frames, of which there is room for some.
 std::int64_t most_drops(const Settings& s, const Vehicle& vehicle, const Weather& weather, int frames) {
-  double arrivals = s.drops_share * weather.rained(frames / s.fps);
+  const Glass glass = make_glass(s.corners);
+  const Shelter shelter(s.weather.shelter, vehicle, middle_of(glass));
+  double arrivals = s.drops_share * shelter.rained(weather, frames / s.fps);
   if (s.corrected) {
-    const Glass glass = make_glass(s.corners);
     arrivals = 0;
     // In parts of the run of about a second: the flux is a sum over sizes, and speed, wind and rain change slowly.
     const int parts = std::max(1, static_cast<int>(frames / s.fps));
     drops::Settings rain = s.drops;
+    const double part = frames / s.fps / parts;
     for (int k = 0; k < parts; ++k) {
       const double t = (k + 0.5) / parts * frames / s.fps;
+      const double open = shelter.open_share(k * part, (k + 1) * part);
       rain.rain_rate = weather.rain(t);
-      arrivals += drops::flux(rain, glass.normal[2], wind_along_normal(glass, vehicle.at(t), weather.wind(t))).drops * glass.area * frames /
-                  s.fps / parts;
+      arrivals +=
+          drops::flux(rain, glass.normal[2], wind_along_normal(glass, vehicle.at(t), weather.wind(t))).drops * glass.area * open * part;
     }
   }
   return static_cast<std::int64_t>(std::min(std::ceil(arrivals), static_cast<double>(s.drops.capacity)));

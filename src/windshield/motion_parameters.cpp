@@ -6,6 +6,7 @@
 #include "scene/member_parameter.h"
 #include "scene/value_text.h"
 #include "windshield/panes.h"
+#include "windshield/shelter.h"
 
 namespace rainref::windshield {
 namespace {
@@ -43,6 +44,13 @@ const std::vector<MemberParameter<MotionSettings>>& members() {
             "none."),
        [](M& s, const Value& v) { s.weather.rain_key_frames = std::get<std::string>(v); },
        [](const M& s) { return Value(s.weather.rain_key_frames); }},
+      {text(
+           "rain.shelter", "",
+           "Bridges and tunnels, under which no rain falls: stretches of the way that the car has driven, \"from to; ...\" in m. A pane is "
+           "where its middle is; empty: "
+           "none."),
+       [](M& s, const Value& v) { s.weather.shelter = parse_shelter(std::get<std::string>(v)); },
+       [](const M&) { return Value(std::string()); }},
       real<&M::vehicle, &V::speed>("vehicle.speed", "m/s", 0, largest_speed,
                                    "Speed of the car, where neither key frames nor a drive cycle say it; 13.9 m/s are 50 km/h."),
       real<&M::vehicle, &V::yaw_rate>("vehicle.yaw_rate", "rad/s", -largest_yaw_rate, largest_yaw_rate,

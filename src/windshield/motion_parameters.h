@@ -12,7 +12,7 @@
 
 namespace rainref::windshield {
 
-/// windshield.corner_*, windshield.panes, vehicle.*, world.*, rain.key_frames, wipers.* and pane_1_wipers.* on
+/// windshield.corner_*, windshield.panes, vehicle.*, world.*, rain.key_frames, rain.shelter, wipers.* and pane_1_wipers.* on
 std::vector<scene::Parameter> motion_parameters();
 
 /// What these parameters say, checked. With vehicle(), wipers_between() and the uniforms of motion_host.h it is all

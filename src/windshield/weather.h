@@ -9,6 +9,11 @@
 
 namespace rainref::windshield {
 
+/// A stretch of the car's way [m], from the place of its origin at time 0.
+struct Stretch {
+  double from, to;
+};
+
 struct WeatherSettings {
   Real3 wind{0, 0, 0};          ///< without key frames, world axes [m/s]
   std::string wind_key_frames;  ///< "time x y z; ..." in s and m/s; "": none
@@ -16,6 +21,7 @@ struct WeatherSettings {
   std::string rain_key_frames;  ///< "time rate; ..."; "": none
   double most_rain = 200;       ///< in key frames, and its unit
   const char* rain_unit = "mm/h";
+  std::vector<Stretch> shelter;  ///< where no rain falls, ascending and apart (parse_shelter)
 };
 
 class Weather {

@@ -1,5 +1,6 @@
 #include "windshield/wet_pane.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "pass/run.h"
@@ -24,6 +25,8 @@ void draw_all(pass::Run<P> pass, const pass::Moment& now, const parallel::Execut
 
 }  // namespace
 
+double middle_of(const Glass& glass) { return glass.origin[0] + 0.5 * (glass.e_u[0] + glass.e_v[0]); }
+
 Real3 apparent_wind(const VehicleState& car, const Real3& wind) {
   const Real3 apparent{wind[0] - car.velocity[0], wind[1] - car.velocity[1], wind[2] - car.velocity[2]};
   return {car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0],
@@ -34,7 +37,7 @@ double wind_along_normal(const Glass& glass, const VehicleState& car, const Real
   return dot(apparent_wind(car, wind), glass.normal);
 }
 
-WetPane::WetPane(const Settings& settings, int number, const parallel::Executor& executor)
+WetPane::WetPane(const Settings& settings, int number, const Vehicle& vehicle, const parallel::Executor& executor)
     : settings_(settings),
       executor_(executor),
       corrected_(settings.corrected),
@@ -42,6 +45,7 @@ WetPane::WetPane(const Settings& settings, int number, const parallel::Executor&
       glass_(make_glass(settings.corners, pane_name(number))),
       plane_(corrected_ ? glass_.plane() : glass_.axes()),
       view_(composite_uniforms(settings.picture, settings.corners, pane_name(number))),
+      shelter_(settings.weather.shelter, vehicle, middle_of(glass_)),
       water_(settings.drops, plane_.frame, glass_.area, steps_per_second(settings), settings.surface.width, settings.surface.height,
              executor) {
   check(settings_.wipers, glass_, wiper_table(number));
@@ -72,16 +76,17 @@ void WetPane::run(const pass::Moment& now, const typename P::Uniforms& uniforms,
 
 drops::Exposure WetPane::exposure(std::int64_t n, double t, const VehicleState& car, const Weather& weather) const {
   drops::Exposure e{glass_.area, glass_.normal[2], wind_along_normal(glass_, car, weather.wind(t))};
-  if (!weather.rain_changes()) return e;
+  const auto begin_of = [&](std::int64_t step) { return static_cast<double>(step) / steps_per_second(settings_); };
   if (corrected_) {
-    e.rain_rate = weather.rain(t);
-  } else {
+    // The sizes are those of the rain; of its drops a share meets no roof.
+    e.area *= shelter_.open_share(begin_of(n), begin_of(n + 1));
+    if (weather.rain_changes()) e.rain_rate = weather.rain(t);
+  } else if (weather.rain_changes() || !shelter_.is_open_until(begin_of(n + 1))) {
     // A millionth: rounding of the integral should not hold back a drop that is due.
     const auto until = [&](std::int64_t step) {
-      const double rained = weather.rained(static_cast<double>(step) / steps_per_second(settings_));
-      return static_cast<std::int64_t>(settings_.drops_share * rained + 1e-6);
+      return static_cast<std::int64_t>(settings_.drops_share * shelter_.rained(weather, begin_of(step)) + 1e-6);
     };
-    e.arrivals = until(n + 1) - until(n);
+    e.arrivals = std::max<std::int64_t>(until(n + 1) - until(n), 0);
   }
   return e;
 }

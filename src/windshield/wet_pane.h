@@ -7,6 +7,7 @@
 #include "drops/wet_glass.h"
 #include "rainref/windshield.h"
 #include "windshield/scene_keys.h"
+#include "windshield/shelter.h"
 #include "windshield/weather.h"
 
 namespace rainref::windshield {
@@ -18,7 +19,7 @@ class WetPane {
  public:
   /// settings: of this pane (settings_of_pane), number: 0 the windshield. The executor must outlive it. Throws Error(usage) for blades and
   /// an eye that cannot be.
-  WetPane(const Settings& settings, int number, const parallel::Executor& executor);
+  WetPane(const Settings& settings, int number, const Vehicle& vehicle, const parallel::Executor& executor);
 
   void begin_frame() { wipers_.clear(); }
   /// windshield_frame to merge, the step after n others, from time t [s].
@@ -73,6 +74,7 @@ class WetPane {
   Glass glass_;
   PlaneFrame plane_;
   CompositeUniforms view_;
+  Shelter shelter_;
   drops::WetGlass water_;
   drops::GlassFrame forces_{};  ///< of the last step
   std::vector<Wiper> wipers_;   ///< of the frame
@@ -82,6 +84,8 @@ class WetPane {
   Image clear_time_, condensation_;  ///< with condensation
 };
 
+/// How far the middle of a glass lies before the car's origin [m].
+double middle_of(const Glass& glass);
 /// The wind as the car meets it, in its axes [m/s], of a wind in world axes.
 Real3 apparent_wind(const VehicleState& car, const Real3& wind);
 /// The same along the outward normal of a glass; negative: onto it.

@@ -93,6 +93,10 @@ void Windshield::State::rain_behind(const pass::Moment& now) {
   std::vector<RainLamp> lamps;
   if (street) lamps = lamps_from(street->street(), place_in_street(settings.street_start, settings.scene_moves ? car.distance : 0));
   falling = falling_drops(settings.falling, settings.seed, air, view, glasses, lamps);
+  // Straight ahead of the car, as far as is seen, the way goes on.
+  std::erase_if(falling, [&](const FallingDrop& drop) {
+    return is_covered(settings.weather.shelter, car.distance + 0.5 * (drop.from.x + drop.to.x));
+  });
   std::vector<Streak> streaks;
   for (const FallingDrop& drop : falling) streaks.push_back(drop.streak);
 
@@ -128,7 +132,7 @@ void Windshield::State::look_through(const pass::Moment& now) {
     at_level.level = level;
     const auto run = [&](auto pass) {
       pass.start(at_level);
-      if (anew) pass.tiles(executor, blur_pyramid::tile_rows);
+      if (anew) pass.tiles(executor, blur_pyramid::tile_rows(levels[l].height()));
       pass.finish(at_level);
     };
     if (level == 0) {

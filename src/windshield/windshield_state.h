@@ -73,7 +73,7 @@ struct Windshield::State {
         vehicle(settings.vehicle),
         weather(settings.weather) {
     for (int k = 0; k <= static_cast<int>(settings.panes.size()); ++k)
-      panes.push_back(std::make_unique<WetPane>(settings_of_pane(settings, k), k, executor));
+      panes.push_back(std::make_unique<WetPane>(settings_of_pane(settings, k), k, vehicle, executor));
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     if (panes.size() > 1) pane_colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);

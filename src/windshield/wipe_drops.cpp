@@ -1,6 +1,7 @@
 #include "windshield/wipe_drops.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace rainref::windshield {
@@ -9,6 +10,15 @@ namespace {
 constexpr std::int64_t drops_to_a_chunk = 1024;
 constexpr int rows_to_a_tile = 16;
 constexpr auto largest_mass = static_cast<std::uint64_t>(drops::most_mass);
+
+/// Of a chunk of drops: those that ride on a blade, and the mass units that left the glass.
+struct Met {
+  struct Riding {
+    std::size_t slot, bin;  ///< bin: of all records' bins in turn
+  };
+  std::vector<Riding> riding;
+  std::uint64_t removed = 0;
+};
 
 // Mass units by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
 std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
@@ -52,14 +62,25 @@ TexelBox swept_texels(const Wiper& w, const WipeDropsUniforms& u) {
 
 std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<const Wiper> wipers, const DropSpans& drops, Image* film,
                          const parallel::Executor& executor) {
-  const std::size_t slots = drops.u.size();
-  std::vector<float> wiper(corrected ? slots : 0, -1.0f), bin(wiper.size());
+  const auto slots = static_cast<std::int64_t>(drops.u.size());
   pass::HostIo<WipeDropsPass> io;
   io.drops.columns = {drops.u.data(),          drops.v.data(),    drops.velocity_u.data(),
                       drops.velocity_v.data(), drops.mass.data(), drops.life.data()};
   io.wipers = wipers;
-  executor.for_range(static_cast<std::int64_t>(slots), drops_to_a_chunk, [&](std::int64_t begin, std::int64_t end) {
+  std::vector<Met> of_chunk(static_cast<std::size_t>((slots + drops_to_a_chunk - 1) / drops_to_a_chunk));
+  executor.for_range(slots, drops_to_a_chunk, [&](std::int64_t begin, std::int64_t end) {
+    if (!corrected) return wipe_drops_range(u, corrected, io, nullptr, nullptr, begin, end);
+    std::array<float, drops_to_a_chunk> wiper, bin;
+    wiper.fill(-1.0f);
     wipe_drops_range(u, corrected, io, wiper.data(), bin.data(), begin, end);
+    Met& met = of_chunk[static_cast<std::size_t>(begin / drops_to_a_chunk)];
+    for (std::int64_t i = begin; i < end; ++i) {
+      const float by = wiper[static_cast<std::size_t>(i - begin)];
+      if (by == -2) met.removed += static_cast<std::uint64_t>(drops.mass[static_cast<std::size_t>(i)]);
+      if (by < 0) continue;
+      const auto in_bin = static_cast<std::size_t>(bin[static_cast<std::size_t>(i - begin)]);
+      met.riding.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(by) * static_cast<std::size_t>(u.bin_count) + in_bin});
+    }
   });
   if (!corrected) return 0;
 
@@ -67,12 +88,12 @@ std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<c
   // The drop of lowest id for each record and bin.
   std::vector<std::int64_t> taker(mass_units.size(), -1);
   std::uint64_t removed = 0;
-  for (std::size_t i = 0; i < slots; ++i) {
-    if (wiper[i] == -2) removed += static_cast<std::uint64_t>(drops.mass[i]);
-    if (wiper[i] < 0) continue;
-    std::int64_t& best =
-        taker[static_cast<std::size_t>(wiper[i]) * static_cast<std::size_t>(u.bin_count) + static_cast<std::size_t>(bin[i])];
-    if (best < 0 || drops.id[i] < drops.id[static_cast<std::size_t>(best)]) best = static_cast<std::int64_t>(i);
+  for (const Met& met : of_chunk) {
+    removed += met.removed;
+    for (const Met::Riding& r : met.riding) {
+      std::int64_t& best = taker[r.bin];
+      if (best < 0 || drops.id[r.slot] < drops.id[static_cast<std::size_t>(best)]) best = static_cast<std::int64_t>(r.slot);
+    }
   }
   for (std::size_t k = 0; k < mass_units.size(); ++k) {
     if (taker[k] >= 0) {

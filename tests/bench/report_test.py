@@ -76,6 +76,14 @@ class Rows(unittest.TestCase):
         found = [(c["peer"], c["threads"], c["ratio"], c["goal"]) for c in rows.comparisons({"rows": ours, "peers": numba + numpy})]
         self.assertEqual(found, [("numba", 1, 1.0, 1.5), ("numba", 2, 1.0, 1.5), ("numpy", 1, 10.0, None)])
 
+    def test_a_loop_of_steps_is_beside_a_step_and_the_steps_of_a_frame(self):
+        name = "wave_step/corrected/rg32f/1024"
+        ours = [dict(rows.of_benchmark(ENTRY), row=name + steps, threads=1, rate=rate, median_ms=2.0, best_ms=1.0)
+                for steps, rate in (("", 100.0), ("/steps:5", 150.0))]
+        numba = rows.of_times("numba", name, 1, "cell", 1000, [1e-5, 2e-5, 3e-5], "")  # 50 million a second; 100 by its fastest go
+        found = [(c["row"], c["ratio"], c["ratio_best"]) for c in rows.comparisons({"rows": ours, "peers": [numba]})]
+        self.assertEqual(found, [(name, 2.0, 2.0), (name + "/steps:5", 3.0, 3.0)])
+
     def test_goals_are_the_issues(self):
         of = {name: rows.goal({"peer": "lavapipe", "row": name + "/corrected"}) for name in ("composite", "edge_splash.splash", "rain_on_glass")}
         self.assertEqual(of, {"composite": 3.5, "edge_splash.splash": 6.0, "rain_on_glass": 3.0})

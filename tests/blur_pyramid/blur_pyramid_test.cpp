@@ -65,7 +65,7 @@ std::vector<Image> pyramid(const BlurSettings& s, Image base, const parallel::Ex
   levels[0] = std::move(base);
   for (std::size_t l = 1; l < levels.size(); ++l) {
     const BlurUniforms u = blur_uniforms(s, width, height, static_cast<int>(l));
-    halve_run(u, s.corrected, s.rounding, levels[l - 1], levels[l]).tiles(executor, tile_rows);
+    halve_run(u, s.corrected, s.rounding, levels[l - 1], levels[l]).tiles(executor, tile_rows(levels[l].height()));
   }
   return levels;
 }
@@ -321,7 +321,7 @@ TEST(BlurPyramid, Fog) {
   Image colour = image_of(3, 1, [](int, int) { return 1; }), depth(Format::r32f, 3, 1), out(Format::rgba16f, 3, 1);
   depth.row<float>(0)[1] = 50;
   depth.row<float>(0)[2] = 1e30f;
-  fog_run(u, Rounding::rne, colour, depth, out).tiles(two_threads(), tile_rows);
+  fog_run(u, Rounding::rne, colour, depth, out).tiles(two_threads(), tile_rows(out.height()));
   for (int c = 0; c < 3; ++c) {
     const double fog = s.fog_colour[static_cast<std::size_t>(c)], own = c + 1;
     EXPECT_EQ(at(out, 0, 0, c), own);
@@ -379,7 +379,7 @@ TEST(BlurPyramidDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBit
               const BlurUniforms u = blur_uniforms(s, width, height, now.level);
               const auto run = [&](auto level) {
                 level.start(now);
-                level.tiles(executor, tile_rows);
+                level.tiles(executor, tile_rows(levels[l].height()));
                 level.finish(now);
               };
               if (l == 0)

@@ -64,6 +64,9 @@ TEST_F(RunVerb, EveryKthFrame) {
   EXPECT_THAT(names("o"), ElementsAre("puddle.0000.png", "puddle.0002.png", "puddle.0004.png", "summary.json"));
   run({"corrected.toml", "-o", "p", "--frames", "5"});
   EXPECT_EQ(contents(folder / "o/puddle.0004.png"), contents(folder / "p/puddle.0004.png"));
+  const nlohmann::json s = summary("p");
+  EXPECT_GT(s["ms_per_frame"].get<double>(), 0);
+  EXPECT_LT(s["ms_per_frame"].get<double>() * 3, s["seconds"].get<double>() * 1e3) << "without the first and the last";
   // It ran, wrote no picture and said nothing.
   before = folder.names();
   expect_refusal({"run", "corrected.toml", "-o", "q", "--frames", "3", "--first", "1", "--every", "3"}, 2,
@@ -81,6 +84,7 @@ TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
   EXPECT_EQ(s["simd"], simd_targets().back());
   EXPECT_EQ(s["frames"], 2);
   EXPECT_GT(s["seconds"].get<double>(), 0);
+  EXPECT_FALSE(s.contains("ms_per_frame")) << "of two frames";
   EXPECT_EQ(s["inputs"][0]["key"], "environment.image");
   EXPECT_EQ(s["inputs"][0]["file"], "sky.npy");
   EXPECT_EQ(s["inputs"][0]["lossy"], false);

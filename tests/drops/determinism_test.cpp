@@ -41,7 +41,7 @@ std::string run(const std::vector<Drop>& start, bool corrected, int threads, std
   const MergeUniforms merge = merge_uniforms(settings(corrected), test::frame, 1.0 / 60, 33, 17, 1);
   for (int n = 0; n < frames; ++n) {
     const SpawnPlan& plan = arrivals.plan({0.1, 0.8, -10}, n, 60, a.next_id(), a.free_slots());
-    sum += spawn(a, plan.uniforms, plan.thresholds, plan.masses, corrected);
+    sum += spawn(executor, a, plan.uniforms, plan.thresholds, plan.masses, corrected);
     if (corrected) {
       sum += drops::integrate(executor, a, integrate(true), glass(), true);
       sum += merger.run(executor, a, merge, film);

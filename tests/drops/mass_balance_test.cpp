@@ -25,7 +25,7 @@ TEST(DropsMassBalance, IsExactlyZeroOverALongRun) {
     // The car speeds up, drives fast and brakes again.
     const double speed = 30 * std::sin(test::pi * n / 2400), wind = speed * 0.89;
     const SpawnPlan& plan = arrivals.plan({1.12, 0.89, -speed * 0.45}, n, fps, a.next_id(), a.free_slots());
-    sum += spawn(a, plan.uniforms, plan.thresholds, plan.masses, true);
+    sum += spawn(executor, a, plan.uniforms, plan.thresholds, plan.masses, true);
     sum += drops::integrate(executor, a, integrate_uniforms(s, test::frame, 1 / fps), test::glass_of(0.5, -4.45, 0, wind), true);
     const MergeUniforms merge = merge_uniforms(s, test::frame, 1 / fps, 64, 32, film_loss(s, 1.12 / (64 * 32), n, fps));
     const std::int64_t before = a.live();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 #include "rain/rain.h"
@@ -199,16 +200,30 @@ TEST(Spawn, AsPublishedCountsAreExactAndMassesEven) {
   EXPECT_NEAR(mean, 1, 1e-6);
 }
 
+TEST(Spawn, ThreadsShareTheArrivals) {
+  Arrivals a(rain(50));
+  const SpawnPlan& plan = a.plan(exposure(100), 3, 2, 17, 1 << 20);
+  const std::vector<Drop> alone = arrivals(plan);
+  ASSERT_GT(alone.size(), 4000u);
+  for (const int threads : {1, 2, 3, 8}) {
+    const parallel::Executor executor(threads);
+    const std::vector<Drop> shared = arrivals_of(plan.uniforms, plan.thresholds, plan.masses, true, &executor);
+    ASSERT_EQ(shared.size(), alone.size());
+    EXPECT_EQ(std::memcmp(shared.data(), alone.data(), alone.size() * sizeof(Drop)), 0) << threads << " threads";
+  }
+}
+
 TEST(Spawn, RoomIsFilledAndTheRestIsLost) {
   Settings s = rain(50);
   Arrivals a(s);
   DropArrays drops(100);
+  const parallel::Executor executor(2);
   MassBalance sum;
   for (int n = 0; n < 5; ++n) {
     const SpawnPlan& plan = a.plan(exposure(100), n, 60, drops.next_id(), drops.free_slots());
     const auto inside = arrivals(plan, false);
     EXPECT_EQ(inside.size(), std::min<std::size_t>(arrivals(plan).size(), static_cast<std::size_t>(drops.free_slots())));
-    sum += spawn(drops, plan.uniforms, plan.thresholds, plan.masses, true);
+    sum += spawn(executor, drops, plan.uniforms, plan.thresholds, plan.masses, true);
   }
   EXPECT_EQ(drops.live(), 100);
   EXPECT_EQ(drops.free_slots(), 0);

@@ -46,6 +46,7 @@ struct Scene : Recorder {
     if (corrected) {
       relief = make_relief(ground, true);
       bed = make_bed(settings);
+      shade.gloss_level = gloss_level(environment.view().width[0], false);
       const auto ambient = ambient_radiance(environment.view(), false);
       for (int k = 0; k < 3; ++k) shade.ambient[k] = shade.fog_colour[k] = ambient[k];
     }

@@ -72,6 +72,30 @@ TEST(PuddleSurroundings, StreetIsSeenFromTheCamera) {
   EXPECT_TRUE(is_seen_from(opened("as-published", {"camera.position=[0.5,0.25,2]"}), {0, 0.05, 0}));
 }
 
+int columns_of(const std::vector<std::string>& overrides) {
+  std::vector<std::string> all = overrides;
+  all.emplace_back("puddle.grid=[16,16]");
+  effect::Inputs inputs;
+  const auto puddle = entry().open(config_of("corrected", all), executor(), inputs);
+  return static_cast<const Instance&>(*puddle).surroundings().environment.width();
+}
+// A pixel at the middle of 180 rows that see 36 degrees is 2 tan(18 deg) / 180 = 1/277 rad: 1740 of them make a turn.
+TEST(PuddleSurroundings, StreetIsAsFineAsThePicture) {
+  EXPECT_EQ(columns_of({"run.size=[8,180]"}), 1024);
+  EXPECT_EQ(columns_of({"run.size=[8,360]", "run.supersample=2"}), 1024) << "of passes: 180 rows of the picture";
+  EXPECT_EQ(columns_of({"run.size=[8,6]"}), 1024) << "at least";
+  EXPECT_EQ(columns_of({"run.size=[8,180]", "camera.vertical_fov_deg=18"}), 2048);
+  EXPECT_EQ(columns_of({"run.size=[8,180]", "environment.width=128"}), 128) << "as named";
+}
+
+TEST(PuddleSurroundings, WetGroundMirrorsAPatchOfOneAngle) {
+  EXPECT_EQ(gloss_level(2048, false), 3);
+  EXPECT_EQ(gloss_level(4096, false), 4);
+  EXPECT_EQ(gloss_level(1024, true), 4) << "a face is a quarter of the turn";
+  EXPECT_EQ(gloss_level(1024, false), 2);
+  EXPECT_EQ(gloss_level(16, false), 2) << "coarser than what water mirrors";
+}
+
 // The camera turns with the surroundings: what shade looks up for a direction d is the street in rotate(d), seen from rotate(position).
 TEST(PuddleSurroundings, StreetIsSeenFromTheTurnedCamera) {
   const double angle = 0.5, c = std::cos(angle), s = std::sin(angle), x = 0.5, z = 2;

@@ -74,6 +74,7 @@ inline std::vector<StateScene> state_scenes() {
                            "world.wind_key_frames=0 0 0 0; 1 3 -6 0", "windshield.rounding=rtz"});
     std::erase_if(all.back().text.set,
                   [](const std::string& s) { return s.starts_with("rain.rate=") || s.starts_with("windshield.spawn_rate="); });
+    windshield("shelter", {"scene.moves=false", "rain.shelter=4 9; 11.5 12", "falling_rain.on=true", "falling_rain.gain=8"});
     if (corrected) windshield("interior", {"scene.moves=false", "interior.on=true"});
     if (corrected) windshield("condensation", {"scene.moves=false", "condensation.on=true", "condensation.tau=1"});
     if (corrected) windshield("smear", {"scene.moves=false", "smear.on=true", "smear.drying=2", "windshield.lean=1"});

@@ -84,6 +84,18 @@ TEST_P(Film, OfChunksIsThatOfOneRun) {
   const Store in_order(folder / "in_order");
   for (const Cell& cell : chunks.cells.all()) EXPECT_EQ(make(chunks, in_order, cell).begun_at, cell.first);
   EXPECT_EQ(results(chunks, in_order), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Film, testing::ValuesIn(state_scenes()), [](const auto& tested) { return tested.param.name; });
+
+/// What is said of files and not of an effect: of a scene of each.
+class FilmOfFiles : public Film {};
+
+TEST_P(FilmOfFiles, IsTheSameBackwards) {
+  const OpenedPlan whole = plan("");
+  const Store one(folder / "one");
+  make(whole, one, whole.cells.all().at(0));
+  const Results expected = results(whole, one);
   // Backwards: from the beginning, but for what states lie there.
   const Store backwards(folder / "backwards");
   const OpenedPlan with_states = plan("chunk=3\nstate_every=2\n");
@@ -93,11 +105,6 @@ TEST_P(Film, OfChunksIsThatOfOneRun) {
   EXPECT_EQ(begun, (std::vector<std::int64_t>{0, 2, 0}));
   EXPECT_EQ(results(with_states, backwards), expected);
 }
-
-INSTANTIATE_TEST_SUITE_P(Scenes, Film, testing::ValuesIn(state_scenes()), [](const auto& tested) { return tested.param.name; });
-
-/// What is said of files and not of an effect: of a scene of each.
-class FilmOfFiles : public Film {};
 
 TEST_P(FilmOfFiles, PassesOverADamagedState) {
   const OpenedPlan whole = plan(""), chunks = plan("chunk=3\n");

@@ -85,6 +85,13 @@ inline std::vector<GoldenScene> golden_scenes() {
        std::string(wet_drive) +
            "panes = '0.2 0.8 0.9, 1.2 0.8 0.9, 0.2 0.7 1.5; -1 -0.6 1, -1 0.6 1, -0.6 -0.6 1.4'\n[rain]\nkey_frames = '0 20; 1 120'\n"
            "[world]\nwind_key_frames = '0 0 0 0; 1 3 -6 0'\n"});
+  // Two roofs, one of them before the car at first; the panes come under them one after another.
+  for (const std::string variant : {"as-published", "corrected"})
+    scenes.push_back({fmt::format("windshield/{}/shelter", variant), variant,
+                      std::string(wet_drive) + "panes = '0.2 0.8 0.9, 1.2 0.8 0.9, 0.2 0.7 1.5'\n" +
+                          (variant == "corrected" ? "[falling_rain]\non = true\nexposure = 0.02\ngain = 10\n[rain]\nrate = 120\n"
+                                                  : "spawn_rate = 3000\n[rain]\n") +
+                          "shelter = '1.58 1.63; 4 5.1'\n"});
   // A wiper on a side window.
   for (const std::string variant : {"as-published", "corrected"})
     scenes.push_back({fmt::format("windshield/{}/pane_wiper", variant), variant,
