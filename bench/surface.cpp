@@ -76,7 +76,8 @@ void serial(const drops::SplatUniforms& u, bool half, drops::Bands bands, std::s
   scratch.chunks.resize((all.size() + drops::drops_of_chunk - 1) / drops::drops_of_chunk);
   for (std::size_t i = 0; i < scratch.chunks.size(); ++i) {
     const std::size_t begin = i * drops::drops_of_chunk;
-    drops::make_stamps(u, bands, all.subspan(begin, std::min<std::size_t>(drops::drops_of_chunk, all.size() - begin)), scratch.chunks[i]);
+    drops::make_stamps(u, bands, all.subspan(begin, std::min<std::size_t>(drops::drops_of_chunk, all.size() - begin)), {},
+                       scratch.chunks[i]);
   }
   for (int band = 0; band < bands.count; ++band) drops::splat_band({u, half, Rounding::rne, nullptr, &height}, bands, band, scratch.chunks);
 }
@@ -95,7 +96,7 @@ void splat(benchmark::State& state, bool corrected, std::int64_t count, int thre
   Image height(Format::r16f, side, side), other(Format::r16f, side, side);
   drops::SplatScratch scratch, own;
   const bool half = s.keys.half_accumulation;
-  const auto run = [&] { drops::splat(executor, u, half, Rounding::rne, all, nullptr, height, scratch); };
+  const auto run = [&] { drops::splat(executor, u, half, Rounding::rne, all, {}, nullptr, height, scratch); };
   run();
   const int goes = count > 100000 ? 3 : 10;
   // In one band, which is the loop over all drops, or cut as the pass is, whichever is the faster.

@@ -22,6 +22,7 @@ inline bool is_ended(const enclosed::Rearranged& life) { return is_ended(life.se
 
 #define RAINREF_FN inline
 #include "drops/drop-inl.h"
+#include "drops/neck-inl.h"
 #undef RAINREF_FN
 
 }  // namespace rainref::drops::scalar

@@ -13,6 +13,7 @@ namespace rainref::drops {
 const enclosed::Profile& loosest_profile();
 
 std::unique_ptr<capture::PassModel> bind_merge(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_necks(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_integrate(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_splat(const capture::PassCase& c);
 /// spawn: the drops of before and the arrivals.

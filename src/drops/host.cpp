@@ -89,6 +89,15 @@ MergeUniforms merge_uniforms(const Settings& s, const PlaneFrame& frame, double 
   return u;
 }
 
+NecksUniforms necks_uniforms(const Settings& s, const PlaneFrame& frame, double dt) {
+  NecksUniforms u{};
+  put(frame, u.frame);
+  u.radius = static_cast<float>(radius_of_mass_unit(s));
+  u.dt = static_cast<float>(dt);
+  u.keep = static_cast<float>(exp_real(Real64(-dt / s.neck_time)).v);
+  return u;
+}
+
 std::int64_t film_loss(const Settings& s, double texel_area, std::int64_t n, double steps_per_second) {
   return std::min(events_in(s.film_drying * texel_area * water_density / mass_unit, n, steps_per_second),
                   static_cast<std::int64_t>(most_mass));

@@ -18,6 +18,8 @@ using PlaneFrame = std::array<double, 3>;
 IntegrateUniforms integrate_uniforms(const Settings& settings, const PlaneFrame& frame, double dt);
 /// columns, rows: of the film; drying: film_loss of the step.
 MergeUniforms merge_uniforms(const Settings& settings, const PlaneFrame& frame, double dt, int columns, int rows, std::int64_t drying);
+/// Of settings with neck_time > 0.
+NecksUniforms necks_uniforms(const Settings& settings, const PlaneFrame& frame, double dt);
 /// Base radius over the cube root of the mass in mass units [m], from the mean contact angle.
 double radius_of_mass_unit(const Settings& settings);
 /// Mass units that a texel of the film, of this area [m^2], loses in step n of so many a second: whole, right in the

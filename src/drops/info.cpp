@@ -2,6 +2,7 @@
 
 #include "drops/integrate.pass.h"
 #include "drops/merge.pass.h"
+#include "drops/necks.pass.h"
 #include "drops/spawn.pass.h"
 #include "drops/splat.pass.h"
 #include "pass/info.h"
@@ -13,7 +14,7 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 std::vector<UniformBlock> records() {
-  return {Drop::layout(), GlassFrame::layout(),
+  return {Drop::layout(), GlassFrame::layout(), Neck::layout(),
           record<SpawnMass>("SpawnMass", {member<&SpawnMass::mass>("mass", "1", "Mass of a size class of arrivals, as in Drop.")}),
           record<CountThreshold>("CountThreshold", {member<&CountThreshold::threshold>(
                                                        "threshold", "1", "A word not below k thresholds draws first_count + k drops.")})};
@@ -28,6 +29,7 @@ std::vector<BufferInfo> buffers() {
   all.push_back(
       list("count_thresholds", "Thresholds of the number of drops in a draw, ascending.", {0, 4294967295.0}, "CountThreshold", correct));
   all.push_back(list("spawn_masses", "Masses of the 1024 size classes of arrivals, lightest first.", {0, most_mass}, "SpawnMass", ""));
+  for (const BufferInfo& necks : pass::buffers_of<NecksPass>()) all.push_back(necks);
   for (const BufferInfo& film : pass::buffers_of<MergePass>()) all.push_back(film);
   return all;
 }
@@ -47,6 +49,11 @@ PassInfo merge_info(const std::string& before, const std::string& film_from) {
   pass::set_source(info, "drops", before);
   pass::set_source(info, "film", film_from);
   info.reads.back().previous = film_from == "merge";
+  return info;
+}
+PassInfo necks_info(const std::string& before) {
+  PassInfo info = pass::info_of<NecksPass>();
+  pass::set_source(info, "drops", before);
   return info;
 }
 PassInfo splat_info(const std::array<std::string, 2>& drops_from) {

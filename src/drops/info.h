@@ -10,9 +10,9 @@
 
 namespace rainref::drops {
 
-/// Drop, GlassFrame, SpawnMass, CountThreshold.
+/// Drop, GlassFrame, Neck, SpawnMass, CountThreshold.
 std::vector<scene::UniformBlock> records();
-/// Buffers drops (both variants), glass_frame, count_thresholds, spawn_masses and film.
+/// Buffers drops (both variants), glass_frame, count_thresholds, spawn_masses, necks and film.
 std::vector<capture::BufferInfo> buffers();
 /// The passes, and which other passes of the effect write what they read. spawn takes the drops of the step before, from the last writer
 /// of as-published and of corrected.
@@ -21,6 +21,8 @@ capture::PassInfo integrate_info(const std::string& glass_frame_pass);
 /// before: the pass that wrote the drops; film_from: the pass that wrote the film before this one, in the same step, or "merge": that of
 /// the step before.
 capture::PassInfo merge_info(const std::string& before, const std::string& film_from);
+/// before: as of merge.
+capture::PassInfo necks_info(const std::string& before);
 /// drops_from: of as-published first.
 capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from);
 /// What splat writes.

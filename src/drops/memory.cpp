@@ -21,6 +21,8 @@ MemoryPeak memory(const Settings& s, int columns, int rows, std::int64_t live, b
   // merge: place, radius and cell by slot; cell and slot; place, radius, mass, id and slot by cell; the larger one; the cells.
   m.hold(drops * (3 * sizeof(float) + sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) + 4 * sizeof(float) + 2 * sizeof(std::uint32_t) +
                   sizeof(std::int32_t) + sizeof(std::uint32_t)));
+  // Each neck is of two drops that were: its numbers, id and slot, their record, and as it is drawn.
+  if (s.neck_time > 0) m.hold(drops / 2 * (6 * sizeof(float) + 2 * sizeof(Neck) + sizeof(NeckRecord)));
   m.pass(drops * sizeof(Deposit));
   return m;
 }

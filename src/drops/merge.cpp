@@ -40,6 +40,8 @@ std::int64_t parts_of(const std::vector<std::vector<T>>& lists) {
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(count / least), 1, most_parts);
 }
 
+std::int64_t links_of_chunk(const MergeGrid& grid) { return std::min<std::int64_t>(1024, chunk_of(grid.count)); }
+
 /// Drops that end, all of theirs that end in the same one among them, into those in which they end. How many did.
 std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropArrays& drops) {
   std::sort(members.begin(), members.end(),
@@ -104,18 +106,57 @@ MassBalance change_film(const parallel::Executor& executor, const MergeUniforms&
 struct Merger::Scratch {
   MergeGrid grid;
   std::vector<std::int32_t> larger;
+  bool is_found = false;
 };
 
 Merger::Merger() : scratch_(std::make_unique<Scratch>()) {}
 Merger::~Merger() = default;
 
-std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms) {
+/// The drop that each drop points to.
+void Merger::find(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms) {
   MergeGrid& grid = scratch_->grid;
   grid.build(executor, drops, uniforms);
   std::vector<std::int32_t>& larger = scratch_->larger;
   larger.resize(std::max(larger.size(), static_cast<std::size_t>(grid.count)));
-  const std::int64_t chunk = std::min<std::int64_t>(1024, chunk_of(grid.count));
-  executor.for_range(grid.count, chunk, [&](std::int64_t begin, std::int64_t end) { find_larger_range(grid, begin, end, larger.data()); });
+  executor.for_range(grid.count, links_of_chunk(grid),
+                     [&](std::int64_t begin, std::int64_t end) { find_larger_range(grid, begin, end, larger.data()); });
+  scratch_->is_found = true;
+}
+
+void Merger::necks(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms,
+                   const NecksUniforms& necks_uniforms, Necks& necks) {
+  find(executor, drops, uniforms);
+  const MergeGrid& grid = scratch_->grid;
+  const std::vector<std::int32_t>& larger = scratch_->larger;
+  const auto index = [](std::int64_t i) { return static_cast<std::size_t>(i); };
+  std::vector<std::uint32_t> ended;
+  struct Pair {
+    std::uint32_t into;
+    float mass;
+    std::uint32_t id, slot;
+  };
+  std::vector<Pair> pairs;
+  for (std::int64_t i = 0; i < grid.count; ++i) {
+    const std::int32_t to = larger[index(i)];
+    if (to < 0) continue;
+    ended.push_back(grid.slot[index(i)]);
+    if (larger[index(to)] < 0) pairs.push_back({grid.slot[index(to)], grid.mass[index(i)], grid.id[index(i)], grid.slot[index(i)]});
+  }
+  std::sort(ended.begin(), ended.end());
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& a, const Pair& b) { return std::tuple(a.into, -a.mass, a.id) < std::tuple(b.into, -b.mass, b.id); });
+  std::vector<Joining> joining;
+  for (const Pair& p : pairs)
+    if (joining.empty() || joining.back().into != p.into) joining.push_back({p.into, p.slot});
+  necks.step(drops, necks_uniforms, joining, ended);
+}
+
+std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms) {
+  if (!scratch_->is_found) find(executor, drops, uniforms);
+  scratch_->is_found = false;
+  const MergeGrid& grid = scratch_->grid;
+  std::vector<std::int32_t>& larger = scratch_->larger;
+  const std::int64_t chunk = links_of_chunk(grid);
 
   // Ends of chains. What is known of a chain shortens it for the others: whatever of it a thread meets leads to the same end.
   // With the compilers' own atomics: libc++ before 19 has no std::atomic_ref.

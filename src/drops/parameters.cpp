@@ -44,6 +44,9 @@ std::vector<MemberParameter<Settings>> members(const std::string& prefix) {
       real<&Settings::trail_thickness>(key("trail_thickness"), "m", 0, 1e-4, "Film that a sliding drop leaves behind, as wide as its base.")
           .only(correct),
       real<&Settings::film_drying>(key("film_drying"), "m/s", 0, 1e-4, "Thickness that the film loses to the air.").only(correct),
+      real<&Settings::neck_time>(key("neck_time"), "s", 0, 3600,
+                                 "Merged drops keep the outline of both, with a neck, and are round in this time to 1 - 1/e; 0: at once.")
+          .only(correct),
   };
 }
 

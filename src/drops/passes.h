@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drops/drops.h"
+#include "drops/necks.h"
 #include "drops/uniforms.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
@@ -41,7 +42,13 @@ class Merger {
   /// it holds no more than most_mass. The result depends on the ids alone, not on slots.
   std::int64_t merge(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms);
 
+  /// necks, of the same drops and before it: what is found out of them serves the next run() or merge() too, before which no drop may
+  /// change. uniforms: of merge.
+  void necks(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, const NecksUniforms& necks_uniforms,
+             Necks& necks);
+
  private:
+  void find(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms);
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;
 };

@@ -41,4 +41,18 @@ const std::vector<capture::FieldRange>& GlassFrame::ranges(bool) {
   return all;
 }
 
+scene::UniformBlock Neck::layout() {
+  return scene::record<Neck>(
+      "Neck", {member<&Neck::offset>("offset", "1",
+                                     "From the larger drop's middle to the smaller one's, in plane axes, over the base radius of both."),
+               member<&Neck::share>("share", "1", "Of the smaller one in the mass of both."),
+               member<&Neck::left>("left", "1", "1 when they became one, falling; not above 0: none."),
+               member<&Neck::id>("id", "1", "Of the drop that they are.")});
+}
+const std::vector<capture::FieldRange>& Neck::ranges(bool) {
+  // Two that touch are apart by 2^(2/3) at most.
+  static const std::vector<capture::FieldRange> all{{"offset", -1.6, 1.6}, {"share", 0, 0.5}, {"left", 0, 1}};
+  return all;
+}
+
 }  // namespace rainref::drops

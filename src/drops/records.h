@@ -55,6 +55,18 @@ struct GlassFrame {
   static const std::vector<capture::FieldRange>& ranges(bool corrected);
 };
 
-static_assert(sizeof(Drop) == 32 && sizeof(GlassFrame) == 64);
+/// corrected: what is left of the outline of two drops that became one, which hysteresis pins for a while.
+struct Neck {
+  float offset[2];   ///< of the smaller one's middle from the larger one's, in axes of the plane [base radii of both together]
+  float share;       ///< of the smaller one in the mass of both
+  float left;        ///< 1 when they became one, 0 where their drop is round again
+  std::uint32_t id;  ///< of their drop
+  float padding0, padding1, padding2;
+
+  static scene::UniformBlock layout();
+  static const std::vector<capture::FieldRange>& ranges(bool corrected);
+};
+
+static_assert(sizeof(Neck) == 32 && sizeof(Drop) == 32 && sizeof(GlassFrame) == 64);
 
 }  // namespace rainref::drops

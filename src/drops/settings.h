@@ -30,6 +30,7 @@ struct Settings {
   double margin = 0.02;
   double trail_thickness = 2e-6;  ///< [m]
   double film_drying = 1e-7;      ///< [m/s]
+  double neck_time = 0;           ///< merged drops: time in which their outline comes near to round by 1 - 1/e; 0: at once [s]
 };
 
 /// The parameters: keys prefix.capacity, prefix.lifetime, …, and for corrected rain.rate and rain.smallest_drop.

@@ -171,7 +171,7 @@ SplatUniforms splat_uniforms(const SplatSettings& s) {
 }
 
 void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding,
-           std::span<const Drop> drops, const Image* film, Image& height, SplatScratch& scratch) {
+           std::span<const Drop> drops, std::span<const Neck> necks, const Image* film, Image& height, SplatScratch& scratch) {
   const bool fits = height.format() == Format::r16f && height.width() == static_cast<int>(uniforms.size[0]) &&
                     height.height() == static_cast<int>(uniforms.size[1]);
   const bool film_fits = !film || (film->format() == Format::r32f && film->width() == height.width() && film->height() == height.height() &&
@@ -183,7 +183,7 @@ void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half
   if (scratch.chunks.size() < chunk_count) scratch.chunks.resize(chunk_count);
   const std::span<StampChunk> chunks(scratch.chunks.data(), chunk_count);
   executor.for_range(static_cast<std::int64_t>(drops.size()), drops_of_chunk, [&](std::int64_t begin, std::int64_t end) {
-    make_stamps(uniforms, bands, drops.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)),
+    make_stamps(uniforms, bands, drops.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)), necks,
                 chunks[static_cast<std::size_t>(begin / drops_of_chunk)]);
   });
   const SplatJob job{uniforms, half_accumulation, rounding, film, &height};

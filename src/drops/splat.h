@@ -67,8 +67,8 @@ struct SplatScratch {
 };
 /// The pass: height (r16f, of uniforms.size) is cleared and drawn anew. Drops in slot order; dead ones draw nothing.
 /// uniforms.drop_count is taken from them. film: r32f of the same size, or null for none; corrected only, with float
-/// accumulation.
+/// accumulation. necks: in ascending id, of some of the drops; corrected only.
 void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding,
-           std::span<const Drop> drops, const Image* film, Image& height, SplatScratch& scratch);
+           std::span<const Drop> drops, std::span<const Neck> necks, const Image* film, Image& height, SplatScratch& scratch);
 
 }  // namespace rainref::drops

@@ -7,15 +7,24 @@
 //   gives h (1 + K a) kernel(q),    q^2 = (a / L)^2 + (b / (1 + T a / L))^2,    h over L (1 + T K <a^2>)
 // which keeps its volume, and lays its centre of mass below its middle. T = K = 0, L = 1: round.
 //
+// Of one that necks says to be two still (corrected), both footprints stay, discs of radii A and B about places on a line through its
+// middle, in lengths of R:
+//   q^2 = smooth minimum of |p - a|^2 + 1 - A^2 and |p - b|^2 + 1 - B^2
+// Both caps have one curvature: under the surface of a flat drop the pressure is the same everywhere, so that height has one Laplacian.
+// What the minimum rounds off is the neck. The larger grows to R while they come together; h is over the volume, summed along the line.
+// While it is two it leans less.
+//
 // R and h grow as the cube root of the mass. as-published measures each axis by its own length, so frame[1] is 0 there;
 // corrected measures in the plane, where a drop is round on sheared glass too. Needs drop-inl.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_DROPS_SPLAT_PASS_H_
 #define RAINREF_DROPS_SPLAT_PASS_H_
 #include <span>
+#include <string>
 #include <vector>
 
 #include "drops/drops.h"
+#include "drops/necks.pass.h"
 #include "drops/records.h"
 #include "drops/splat_uniforms.h"
 #include "pass/definition.h"
@@ -27,7 +36,7 @@ namespace rainref::drops {
 /// Its lanes are written by hand, drop by drop: see splat_kernels.cpp.
 struct SplatPass {
   static constexpr pass::About about{
-      "splat", "The height of the water: every live drop, in slot order; corrected: on the film.", {1}, {2}, {"length"}, "ordered_scatter"};
+      "splat", "The height of the water: every live drop, in slot order; corrected: on the film.", {1}, {3}, {"length"}, "ordered_scatter"};
   using Uniforms = SplatUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -51,8 +60,8 @@ struct SplatPass {
          member<&U::moment>("moment", "1", scene::share, "corrected: mean squared place along it, over its half length squared.")});
   }
   /// Whether a drop may add something to a tile of texels. Others surely add nothing: this one ends a texel and a fiftieth of its radius
-  /// further out than the text says.
-  static bool reaches(const SplatUniforms& u, const Drop& d, const parallel::Tile& t) {
+  /// further out than the text says. has_neck: it may have one.
+  static bool reaches(const SplatUniforms& u, const Drop& d, const parallel::Tile& t, bool has_neck) {
     if (!(d.life > 0 && d.mass > 0)) return false;
     const double column = 0.5 * (t.x0 + t.x1) - static_cast<double>(d.position[0]) * u.size[0],
                  row = 0.5 * (t.y0 + t.y1) - static_cast<double>(d.position[1]) * u.size[1];
@@ -61,7 +70,7 @@ struct SplatPass {
     // From the middle of the tile to the farthest centre in it, and a texel more.
     const double columns = 0.5 * (t.x1 - t.x0) + 0.5, rows = 0.5 * (t.y1 - t.y0) + 0.5;
     const double around = magnitude(u.frame[0]) * columns + (magnitude(u.frame[1]) + magnitude(u.frame[2])) * rows;
-    const double reach = 1.02 * static_cast<double>(lean_reach(u));
+    const double reach = 1.02 * static_cast<double>(has_neck ? lean_reach(u) * neck_reach : lean_reach(u));
     const double needed = (__builtin_sqrt(plane_x * plane_x + plane_y * plane_y) - around) / reach;  // of the radius
     const double scale = u.radius_scale;
     return needed < u.smallest_radius || needed * needed * needed < scale * scale * scale * d.mass;
@@ -71,17 +80,28 @@ struct SplatPass {
     const auto said = static_cast<std::size_t>(u.drop_count);
     return u.drop_count < 0 || said > all.size() ? all : all.first(said);
   }
-  static std::vector<Drop> near(const Uniforms& u, std::span<const Drop> all, bool, int, const parallel::Tile& t) {
+  static std::vector<Drop> near(const Uniforms& u, std::span<const Drop> all, bool corrected, int, const parallel::Tile& t) {
     std::vector<Drop> near;
     for (const Drop& d : counted(u, all))
-      if (reaches(u, d, t)) near.push_back(d);
+      if (reaches(u, d, t, corrected)) near.push_back(d);
     return near;
+  }
+  /// That of a drop, or null.
+  static const Neck* neck_of(std::span<const Neck> necks, std::uint32_t id) {
+    for (const Neck& n : necks)
+      if (n.id == id) return &n;
+    return nullptr;
+  }
+  template <class Inputs>
+  static std::string fault(const Inputs& m) {
+    return necks_fault(m.captured.necks.records);
   }
   static bool rounds_inside(const SplatUniforms& u) { return static_cast<SplatBlend>(u.blend) == SplatBlend::add_in_half; }
   template <class B>
   struct Io {
     typename B::template Records<Drop> drops = pass::In{.name = "drops"};
     typename B::template Texels<Format::r32f, 1> film = pass::In{.name = "film", .from = "merge", .variant = "corrected"};
+    typename B::template Records<Neck> necks = pass::In{.name = "necks", .from = "necks", .variant = "corrected", .optional = true};
     typename B::template Result<Format::r16f> height =
         pass::Out{.name = "height", .sentence = "Height of the water over the glass.", .unit = "mm", .range = {0, 8}};
   };
@@ -97,6 +117,8 @@ struct Stamp {
   N x, y, radius, inverse_radius_sq, height;
   // Of one that leans: a unit vector in the plane, 1 over its half length and half width, slopes.
   N lean_x, lean_y, inverse_length, inverse_radius, taper, skew;
+  // Of one that is two: the line through both middles, a unit vector; what is added to q^2 for each, and that over the way along the line.
+  N neck_x, neck_y, larger, larger_slope, smaller, smaller_slope, fillet, inverse_fillet;
   RAINREF_FN Stamp() {}
 };
 /// x / max(x, least): the share of a drop's own radius in the one that it is drawn with.
@@ -118,8 +140,67 @@ RAINREF_FN Lean<N> lean_of(const SplatUniforms& u, N root) {
   const auto is_pulled = size > N(1e-6f);
   return {select(is_pulled, x * inverse, N(1.0f)), select(is_pulled, y * inverse, N(0.0f)), min(size, N(1.0f))};
 }
+/// What of q^2 changes along the line through both middles, over its square: the smooth minimum of two straight lines.
 template <class N>
-RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position_v, N mass, N life) {
+RAINREF_FN N neck_profile(const Stamp<N>& s, N along) {
+  const N a = s.larger - s.larger_slope * along, b = s.smaller - s.smaller_slope * along;
+  return min(a, b) - square(max(s.fillet - abs(a - b), N(0.0f))) * s.inverse_fillet;
+}
+/// Area under the profile across the line where 1 - q^2 is c on it, over a factor; the smoothstep is nearly (1 - q^2)^(7/3).
+template <class N>
+RAINREF_FN N section(SplatKernel kernel, N c) {
+  switch (kernel) {
+    case SplatKernel::paraboloid:
+      return c * sqrt(c);
+    case SplatKernel::quartic:
+      return square(c) * sqrt(c);
+    case SplatKernel::smoothstep:
+      return (square(c) * sqrt(c)) * cube_root(c);
+    case SplatKernel::hemisphere:
+      return c;
+    default:
+      return sqrt(c);
+  }
+}
+/// The stamp of a drop with this neck. To a five-hundredth of the volume, but with the smoothstep, whose power is a likeness: a fourteenth.
+template <class N>
+RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp<N>& s) {
+  const N zero(0.0f), one(1.0f);
+  const N apart = length(neck.offset_x, neck.offset_y), inverse = one / max(apart, N(1e-6f)), way = neck.left * apart;
+  s.neck_x = neck.offset_x * inverse;
+  s.neck_y = neck.offset_y * inverse;
+  const Footprints<N> r = footprints(neck.share, neck.left);
+  const N to_larger = -(neck.share * way), to_smaller = (one - neck.share) * way;
+  s.larger = square(to_larger) + (one - square(r.larger));
+  s.smaller = square(to_smaller) + (one - square(r.smaller));
+  s.larger_slope = N(2.0f) * to_larger;
+  s.smaller_slope = N(2.0f) * to_smaller;
+  s.fillet = max((N(neck_width) * neck.left) * square(r.smaller), N(1e-6f));
+  s.inverse_fillet = N(0.25f) / s.fillet;
+  s.inverse_radius = one / s.radius;
+  // Of both and of a round drop, in the middles of equal parts of their length.
+  const N low = to_larger - r.larger, high = to_smaller + r.smaller;
+  const N middle = N(0.5f) * (low + high), half = N(0.5f) * (high - low);
+  const auto kernel = static_cast<SplatKernel>(u.kernel);
+  N both = zero, round = zero, moment = zero;
+  for (int i = 0; i < neck_parts; ++i) {
+    const N at(static_cast<float>(2 * i + 1 - neck_parts) * (1.0f / neck_parts)), along = middle + half * at;
+    const N cut = section(kernel, max(one - (square(along) + neck_profile(s, along)), zero));
+    both = both + cut;
+    moment = moment + along * cut;
+    round = round + section(kernel, one - square(at));
+  }
+  s.height = s.height * (round / max(both * half, N(1e-6f)));
+  if (leans(u)) {
+    // Caps of one curvature hold more where they are larger: the middle of mass is beside the middle, and a drop is higher and wider below.
+    const N below = (s.neck_x * s.lean_x + s.neck_y * s.lean_y) * (moment / max(both, N(1e-6f)));
+    const N even = one + (s.taper * s.skew) * N(u.moment);
+    s.height = s.height * (even / max(even + (s.taper + s.skew) * below, N(0.25f)));
+  }
+}
+/// neck: null where the drop has none.
+template <class N>
+RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position_v, N mass, N life, const NeckState<N>* neck = nullptr) {
   Stamp<N> s;
   s.x = position_u * N(u.size[0]);
   s.y = position_v * N(u.size[1]);
@@ -130,7 +211,8 @@ RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position
   N height = (N(u.height_scale) * root) * square(over_larger(own, u.smallest_radius));
   if (leans(u)) {
     const N one(1.0f);
-    const Lean<N> lean = lean_of(u, root);
+    Lean<N> lean = lean_of(u, root);
+    if (neck) lean.load = lean.load * (one - neck->left);
     const N stretched = one + N(u.longer) * lean.load;
     s.lean_x = lean.x;
     s.lean_y = lean.y;
@@ -141,6 +223,7 @@ RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position
     height = height / (stretched * (one + (s.taper * s.skew) * N(u.moment)));
   }
   s.height = select(life > N(0.0f), height, N(0.0f));
+  if (neck) put_neck(u, *neck, s);
   return s;
 }
 
@@ -162,14 +245,24 @@ RAINREF_FN N splat_profile(SplatKernel kernel, N q_sq) {
   }
 }
 /// What a drop gives to the texel with its centre at (x, y) [texel].
-template <bool is_leaning, class N>
+template <bool is_leaning, bool has_neck = false, class N>
 RAINREF_FN N splat_contribution(const SplatUniforms& u, SplatKernel kernel, const Stamp<N>& s, N x, N y) {
   const N column = x - s.x, row = y - s.y;
   const N plane_x = N(u.frame[0]) * column + N(u.frame[1]) * row, plane_y = N(u.frame[2]) * row;
   if constexpr (is_leaning) {
     const N one(1.0f), a = (s.lean_x * plane_x + s.lean_y * plane_y) * s.inverse_length;
     const N b = ((s.lean_x * plane_y - s.lean_y * plane_x) * s.inverse_radius) / max(one + s.taper * a, N(0.0625f));
+    if constexpr (has_neck) {
+      const N e = s.neck_x * s.lean_x + s.neck_y * s.lean_y, f = s.neck_y * s.lean_x - s.neck_x * s.lean_y;
+      const N q_sq = (square(a) + square(b)) + neck_profile(s, e * a + f * b);
+      return (s.height * max(one + s.skew * a, N(0.0f))) * splat_profile(kernel, max(q_sq, N(0.0f)));
+    }
     return (s.height * max(one + s.skew * a, N(0.0f))) * splat_profile(kernel, square(a) + square(b));
+  }
+  if constexpr (has_neck) {
+    const N a = plane_x * s.inverse_radius, b = plane_y * s.inverse_radius;
+    const N q_sq = (square(a) + square(b)) + neck_profile(s, s.neck_x * a + s.neck_y * b);
+    return s.height * splat_profile(kernel, max(q_sq, N(0.0f)));
   }
   return s.height * splat_profile(kernel, (square(plane_x) + square(plane_y)) * s.inverse_radius_sq);
 }
@@ -179,15 +272,18 @@ RAINREF_FN N splat_blend(SplatBlend blend, N before, N drop) {
 }
 
 /// The drops in a texel, which has all stamps offered. `blended` gives what the target holds after a drop: with `accumulate = half` its
-/// half, else the number itself.
+/// half, else the number itself. have_necks: of each stamp.
 template <class N, class Blended>
-RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, int x, int y, Blended blended) {
+RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, const unsigned char* have_necks, int x, int y, Blended blended) {
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
   N height(0.0f);
   for (int i = 0; i < u.drop_count; ++i) {
     const auto kernel = static_cast<SplatKernel>(u.kernel);
-    const N drop =
-        leans(u) ? splat_contribution<true>(u, kernel, stamps[i], fx, fy) : splat_contribution<false>(u, kernel, stamps[i], fx, fy);
+    const auto drop_with = [&](auto neck) {
+      return leans(u) ? splat_contribution<true, neck()>(u, kernel, stamps[i], fx, fy)
+                      : splat_contribution<false, neck()>(u, kernel, stamps[i], fx, fy);
+    };
+    const N drop = have_necks[i] ? drop_with(std::true_type()) : drop_with(std::false_type());
     height = blended(splat_blend(static_cast<SplatBlend>(u.blend), height, drop));
   }
   return height;
@@ -216,13 +312,21 @@ struct SplatPassText {
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const SplatUniforms& uniforms, const Io& io, int x, int y) {
     std::vector<Stamp<N> > near;
+    std::vector<unsigned char> have_necks;
     SplatUniforms u = uniforms;
-    for (const Drop& d : SplatPass::counted(uniforms, io.drops.records))
-      if (pass::meets_all<N>() || SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}))
-        near.push_back(splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life)));
+    for (const Drop& d : SplatPass::counted(uniforms, io.drops.records)) {
+      const Neck* const neck = corrected ? SplatPass::neck_of(io.necks.records, d.id) : nullptr;
+      if (!pass::meets_all<N>() && !SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}, neck)) continue;
+      NeckState<N> both;
+      if (neck) both = loaded_neck<N>(neck->offset, neck->share, neck->left);
+      near.push_back(splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life),
+                                    neck ? &both : nullptr));
+      have_necks.push_back(neck != nullptr);
+    }
     u.drop_count = static_cast<std::int32_t>(near.size());
     const bool rounds_each = SplatPass::rounds_inside(u);
-    const N drops = splat_drops<N>(u, near.data(), x, y, [&](N sum) { return rounds_each ? half_of(sum, io.height.rounding) : sum; });
+    const N drops = splat_drops<N>(u, near.data(), have_necks.data(), x, y,
+                                   [&](N sum) { return rounds_each ? half_of(sum, io.height.rounding) : sum; });
     if constexpr (corrected)
       io.height(film_height<N>(u, io.film.row[0], io.film.row[1], io.film.row[2], x) + drops);
     else

@@ -18,6 +18,7 @@ RAINREF_TARGET_BEGIN(drops)
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/cube_root_lanes-inl.h"
 #include "drops/drop-inl.h"
+#include "drops/neck-inl.h"
 #include "drops/splat.pass.h"
 #undef RAINREF_FN
 
@@ -29,15 +30,24 @@ constexpr float wider = 1.001f, more = 0.625f;
 /// The first index above z, in [0, size].
 HWY_INLINE int past(float z, int size) { return z < 0 ? 0 : z >= static_cast<float>(size) ? size : static_cast<int>(z) + 1; }
 
-void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops, StampChunk& out) {
+/// Its place among the necks, which are in ascending id, or -1.
+std::int32_t place_of(std::span<const Neck> necks, std::uint32_t id) {
+  const auto at = std::lower_bound(necks.begin(), necks.end(), id, [](const Neck& n, std::uint32_t sought) { return n.id < sought; });
+  return at != necks.end() && at->id == id ? static_cast<std::int32_t>(at - necks.begin()) : -1;
+}
+
+void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops, std::span<const Neck> necks, StampChunk& out) {
   const int n = Lanes::size(), drop_count = static_cast<int>(drops.size()), height = static_cast<int>(u.size[1]);
   const float shear = u.frame[1] / u.frame[2];
   const float columns = wider * __builtin_sqrtf(1.0f + shear * shear) / u.frame[0], rows = wider / u.frame[2];
   HWY_ALIGN float in[4][HWY_MAX_BYTES / sizeof(float)] = {}, made[11][HWY_MAX_BYTES / sizeof(float)];
-  const bool are_leaning = leans(u);
-  const float reach = lean_reach(u);
+  HWY_ALIGN float neck_in[4][HWY_MAX_BYTES / sizeof(float)] = {}, neck_made[10][HWY_MAX_BYTES / sizeof(float)];
+  const bool are_leaning = leans(u), have_necks = !necks.empty();
+  const float round_reach = lean_reach(u);
   StampRecord seen[drops_of_chunk];
   std::vector<LeanRecord> lean(are_leaning ? drops.size() : 0);
+  std::vector<std::int32_t> neck_of(have_necks ? drops.size() : 0, -1);
+  out.necks.clear();
   int seen_count = 0;
   std::array<std::uint32_t, Bands::most + 1> count{};
   for (int first = 0; first < drop_count; first += n) {
@@ -56,13 +66,52 @@ void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops
       const Lanes leaning[6] = {s.lean_x, s.lean_y, s.inverse_length, s.inverse_radius, s.taper, s.skew};
       for (int f = 0; f < 6; ++f) hn::Store(leaning[f].v, Lanes::D(), made[5 + f]);
     }
+    std::int32_t places[HWY_MAX_BYTES / sizeof(float)];
+    bool is_any = false;
+    for (int k = 0; have_necks && k < lanes; ++k)
+      is_any |= (places[k] = place_of(necks, drops[static_cast<std::size_t>(first + k)].id)) >= 0;
+    if (is_any) {
+      for (int k = 0; k < lanes; ++k) {
+        const Neck neck = places[k] < 0 ? Neck{} : necks[static_cast<std::size_t>(places[k])];
+        neck_in[0][k] = neck.offset[0];
+        neck_in[1][k] = neck.offset[1];
+        neck_in[2][k] = neck.share;
+        neck_in[3][k] = neck.left;
+      }
+      NeckState<Lanes> neck;
+      int field = 0;
+      NeckState<Lanes>::each(neck, [&](Lanes& number) HWY_ATTR { number = Lanes::load(neck_in[field++]); });
+      const Stamp<Lanes> two = splat_stamp(u, Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2]), Lanes::load(in[3]), &neck);
+      const Lanes stamped[10] = {two.neck_x,        two.neck_y, two.larger,         two.larger_slope,   two.smaller,
+                                 two.smaller_slope, two.fillet, two.inverse_fillet, two.inverse_radius, two.height};
+      for (int f = 0; f < 10; ++f) hn::Store(stamped[f].v, Lanes::D(), neck_made[f]);
+      if (are_leaning) {
+        const Lanes leaning[3] = {two.inverse_length, two.taper, two.skew};
+        constexpr int to[3] = {7, 9, 10};
+        HWY_ALIGN float of_two[HWY_MAX_BYTES / sizeof(float)];
+        for (int f = 0; f < 3; ++f) {
+          hn::Store(leaning[f].v, Lanes::D(), of_two);
+          for (int k = 0; k < lanes; ++k)
+            if (places[k] >= 0) made[to[f]][k] = of_two[k];
+        }
+      }
+      for (int k = 0; k < lanes; ++k)
+        if (places[k] >= 0) made[4][k] = neck_made[9][k];
+    }
     for (int k = 0; k < lanes; ++k) {
+      const bool has_neck = is_any && places[k] >= 0;
+      const float reach = has_neck ? neck_reach * round_reach : round_reach;
       const float x = made[0][k], y = made[1][k], radius = reach * made[2][k];
       const float half_width = radius * columns + more, half_height = radius * rows + more;
       const int first_row = past(y - half_height, height), end_row = past(y + half_height - 1, height);
       if (!(made[4][k] > 0 && x + half_width > 0 && x - half_width < u.size[0] && first_row < end_row)) continue;
       if (are_leaning)
         lean[static_cast<std::size_t>(seen_count)] = {made[5][k], made[6][k], made[7][k], made[8][k], made[9][k], made[10][k]};
+      if (has_neck) {
+        neck_of[static_cast<std::size_t>(seen_count)] = static_cast<std::int32_t>(out.necks.size());
+        out.necks.push_back({neck_made[0][k], neck_made[1][k], neck_made[2][k], neck_made[3][k], neck_made[4][k], neck_made[5][k],
+                             neck_made[6][k], neck_made[7][k], neck_made[8][k]});
+      }
       seen[seen_count++] = {x, y, radius, made[3][k], made[4][k], half_width, first_row, end_row};
       for (int band = first_row / bands.rows; band <= (end_row - 1) / bands.rows; ++band) ++count[static_cast<std::size_t>(band)];
     }
@@ -74,20 +123,25 @@ void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops
   }
   if (out.stamps.size() < total) out.stamps.resize(total);
   if (are_leaning && out.leans.size() < total) out.leans.resize(total);
+  if (out.necks.empty())
+    out.neck_of.clear();
+  else
+    out.neck_of.resize(std::max<std::size_t>(out.neck_of.size(), total));
   auto next = out.first;
   for (int i = 0; i < seen_count; ++i) {
     for (int band = seen[i].first_row / bands.rows; band <= (seen[i].end_row - 1) / bands.rows; ++band) {
       const std::size_t to = next[static_cast<std::size_t>(band)]++;
       out.stamps[to] = seen[i];
       if (are_leaning) out.leans[to] = lean[static_cast<std::size_t>(i)];
+      if (!out.necks.empty()) out.neck_of[to] = neck_of[static_cast<std::size_t>(i)];
     }
   }
 }
 
 /// What a band draws on: halves of the texture itself, or floats that are stored when all drops are in.
-template <SplatKernel kernel, bool is_leaning, class Target>
-HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const StampRecord& r, const LeanRecord* lean, int row0, int row1,
-                              int width, const Target& row_of) {
+template <SplatKernel kernel, bool is_leaning, bool has_neck, class Target>
+HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const StampRecord& r, const LeanRecord* lean,
+                              const NeckRecord* neck, int row0, int row1, int width, const Target& row_of) {
   const int n = Lanes::size();
   const SplatBlend blend = static_cast<SplatBlend>(u.blend);
   Stamp<Lanes> s;
@@ -103,8 +157,19 @@ HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const S
     s.taper = Lanes(lean->taper);
     s.skew = Lanes(lean->skew);
   }
+  if constexpr (has_neck) {
+    s.neck_x = Lanes(neck->x);
+    s.neck_y = Lanes(neck->y);
+    s.larger = Lanes(neck->larger);
+    s.larger_slope = Lanes(neck->larger_slope);
+    s.smaller = Lanes(neck->smaller);
+    s.smaller_slope = Lanes(neck->smaller_slope);
+    s.fillet = Lanes(neck->fillet);
+    s.inverse_fillet = Lanes(neck->inverse_fillet);
+    s.inverse_radius = Lanes(neck->inverse_radius);
+  }
   const auto blend_at = [&](auto* row, int x, float fy) RAINREF_LAMBDA {
-    const Lanes drop = splat_contribution<is_leaning>(u, kernel, s, Lanes::index(x) + Lanes(0.5f), Lanes(fy));
+    const Lanes drop = splat_contribution<is_leaning, has_neck>(u, kernel, s, Lanes::index(x) + Lanes(0.5f), Lanes(fy));
     // Rows of sums have room for a whole vector.
     const int count = std::is_same_v<decltype(row), float*> ? n : std::min(n, width - x);
     store(row + x, splat_blend(blend, Lanes::load(row + x), drop), rounding, count);
@@ -126,13 +191,16 @@ HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const S
   }
 }
 
-// Calls drawn(stamp, how it leans or null) for every stamp of the band, in slot order.
+// Calls drawn(stamp, how it leans or null, its neck or null) for every stamp of the band, in slot order.
 template <class Drawn>
 HWY_INLINE HWY_ATTR void for_stamps_of(std::span<const StampChunk> chunks, int band, const Drawn& drawn) {
   const std::size_t b = static_cast<std::size_t>(band);
   for (const StampChunk& chunk : chunks) {
-    for (std::uint32_t i = chunk.first[b]; i < chunk.first[b + 1]; ++i)
-      drawn(chunk.stamps[i], chunk.leans.empty() ? nullptr : &chunk.leans[i]);
+    for (std::uint32_t i = chunk.first[b]; i < chunk.first[b + 1]; ++i) {
+      const std::int32_t neck = chunk.neck_of.empty() ? -1 : chunk.neck_of[i];
+      drawn(chunk.stamps[i], chunk.leans.empty() ? nullptr : &chunk.leans[i],
+            neck < 0 ? nullptr : &chunk.necks[static_cast<std::size_t>(neck)]);
+    }
   }
 }
 
@@ -150,20 +218,26 @@ void band_of(const SplatJob& job, Bands bands, int band, std::span<const StampCh
   const SplatUniforms u = job.uniforms;
   Image& image = *job.height;
   const int n = Lanes::size(), width = image.width(), y0 = band * bands.rows, y1 = std::min(image.height(), y0 + bands.rows);
-  const auto rows_of = [&](const StampRecord& r, const LeanRecord* lean, auto&& row_of) RAINREF_LAMBDA {
-    draw<kernel, is_leaning>(u, job.rounding, r, lean, std::max(y0, r.first_row), std::min(y1, r.end_row), width, row_of);
+  const auto rows_of = [&](const StampRecord& r, const LeanRecord* lean, const NeckRecord* neck, auto&& row_of) RAINREF_LAMBDA {
+    const int row0 = std::max(y0, r.first_row), row1 = std::min(y1, r.end_row);
+    if (neck)
+      draw<kernel, is_leaning, true>(u, job.rounding, r, lean, neck, row0, row1, width, row_of);
+    else
+      draw<kernel, is_leaning, false>(u, job.rounding, r, lean, neck, row0, row1, width, row_of);
   };
   if (job.half_accumulation) {
     for (int y = y0; y < y1; ++y) std::memset(image.row<Half>(y), 0, static_cast<std::size_t>(width) * sizeof(Half));
-    for_stamps_of(chunks, band, [&](const StampRecord& r, const LeanRecord* lean) RAINREF_LAMBDA {
-      rows_of(r, lean, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); });
+    for_stamps_of(chunks, band, [&](const StampRecord& r, const LeanRecord* lean, const NeckRecord* neck) RAINREF_LAMBDA {
+      rows_of(r, lean, neck, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); });
     });
     return;
   }
   const std::size_t pitch = static_cast<std::size_t>(width + n);
   std::vector<float> sums(pitch * static_cast<std::size_t>(y1 - y0));
   const auto sum_row = [&](int y) RAINREF_LAMBDA { return sums.data() + pitch * static_cast<std::size_t>(y - y0); };
-  for_stamps_of(chunks, band, [&](const StampRecord& r, const LeanRecord* lean) RAINREF_LAMBDA { rows_of(r, lean, sum_row); });
+  for_stamps_of(chunks, band, [&](const StampRecord& r, const LeanRecord* lean, const NeckRecord* neck) RAINREF_LAMBDA {
+    rows_of(r, lean, neck, sum_row);
+  });
   const std::size_t film_pitch = pitch + 2;
   std::vector<float> film(job.film ? 3 * film_pitch : 0);
   float* rows[3] = {film.data(), film.data() + film_pitch, film.data() + 2 * film_pitch};
@@ -216,8 +290,8 @@ Bands splat_bands(int height) {
   const int rows = std::max(fewest_rows, (height + Bands::most - 1) / Bands::most);
   return {rows, (height + rows - 1) / rows};
 }
-void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, StampChunk& out) {
-  RAINREF_DISPATCH(MakeStamps)(uniforms, bands, drops, out);
+void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, std::span<const Neck> necks, StampChunk& out) {
+  RAINREF_DISPATCH(MakeStamps)(uniforms, bands, drops, necks, out);
 }
 void splat_band(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
   RAINREF_DISPATCH(SplatBand)(job, bands, band, chunks);

@@ -23,6 +23,10 @@ struct StampRecord {
 struct LeanRecord {
   float x, y, inverse_length, inverse_radius, taper, skew;
 };
+/// The neck of one, as neck_stamp gives it.
+struct NeckRecord {
+  float x, y, larger, larger_slope, smaller, smaller_slope, fillet, inverse_fillet, inverse_radius;
+};
 /// Bands of rows cut the texture by its height alone.
 struct Bands {
   static constexpr int most = 32;
@@ -34,12 +38,14 @@ Bands splat_bands(int height);
 /// reaches several stands in each of them.
 struct StampChunk {
   std::vector<StampRecord> stamps;
-  std::vector<LeanRecord> leans;                     ///< of each of them, where drops lean
+  std::vector<LeanRecord> leans;      ///< of each of them, where drops lean
+  std::vector<std::int32_t> neck_of;  ///< of each of them, where drops have necks: its place in `necks`, or -1
+  std::vector<NeckRecord> necks;
   std::array<std::uint32_t, Bands::most + 1> first;  ///< stamps [first[b], first[b + 1]) reach band b
 };
 constexpr int drops_of_chunk = 2048;
 /// Stamps of at most drops_of_chunk drops.
-void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, StampChunk& out);
+void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, std::span<const Neck> necks, StampChunk& out);
 
 struct SplatJob {
   SplatUniforms uniforms;

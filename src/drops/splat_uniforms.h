@@ -44,6 +44,13 @@ inline bool leans(const SplatUniforms& u) { return u.longer != 0 || u.taper != 0
 /// No drop reaches further than this many of its radii.
 inline float lean_reach(const SplatUniforms& u) { return 1 + (u.longer > u.taper ? u.longer : u.taper); }
 
+/// Of drops that are two: the neck between footprints that touch is this many times as wide, over twice the smaller one's radius, squared.
+constexpr float neck_width = 1.2f;
+/// Parts of such a drop's length in which its volume is summed.
+constexpr int neck_parts = 16;
+/// No drop that is two reaches further than this many of its radii: apart by 2^(2/3) at most, the smaller one ends at 1.8.
+constexpr float neck_reach = 2;
+
 static_assert(sizeof(SplatUniforms) == 80);
 
 }  // namespace rainref::drops

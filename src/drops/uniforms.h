@@ -46,6 +46,15 @@ struct MergeUniforms {
   float padding0, padding1, padding2;
 };
 
-static_assert(sizeof(SpawnUniforms) == 48 && sizeof(IntegrateUniforms) == 64 && sizeof(MergeUniforms) == 48);
+/// necks.
+struct NecksUniforms {
+  float frame[3];  ///< as IntegrateUniforms::frame [m]
+  float radius;    ///< as MergeUniforms::radius [m]
+  float dt;        ///< [s]
+  float keep;      ///< share of a neck that a step leaves
+  float padding0, padding1;
+};
+
+static_assert(sizeof(NecksUniforms) == 32 && sizeof(SpawnUniforms) == 48 && sizeof(IntegrateUniforms) == 64 && sizeof(MergeUniforms) == 48);
 
 }  // namespace rainref::drops

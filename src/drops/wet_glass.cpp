@@ -2,6 +2,7 @@
 
 #include "drops/integrate.pass.h"
 #include "drops/merge.pass.h"
+#include "drops/necks.pass.h"
 #include "drops/spawn.pass.h"
 #include "drops/splat.pass.h"
 #include "pass/run.h"
@@ -33,6 +34,7 @@ std::int64_t WetGlass::residual() const {
 void WetGlass::list_state(state::Items& items) {
   drops.list_state(items);
   if (settings_.corrected) items.image("film", film, {0, most_mass});
+  if (settings_.neck_time > 0) necks_.list_state(items, settings_.capacity);
   items.number("spawned", mass_balance.spawned, state::sums);
   items.number("evaporated", mass_balance.evaporated, state::sums);
   items.number("removed", mass_balance.removed, state::sums);
@@ -70,6 +72,17 @@ void WetGlass::merge(const pass::Moment& now, std::int64_t n) {
   const double texel_area = area_ / (static_cast<double>(film.width()) * film.height());
   const std::int64_t drying = film_loss(settings_, texel_area, n, steps_per_second_);
   const MergeUniforms uniforms = merge_uniforms(settings_, frame_, 1 / steps_per_second_, film.width(), film.height(), drying);
+  if (settings_.neck_time > 0) {
+    const NecksUniforms receding = necks_uniforms(settings_, frame_, 1 / steps_per_second_);
+    pass::HostIo<NecksPass> of_necks;
+    if (now.is_read("necks")) list();
+    of_necks.drops = listed_;
+    of_necks.necks.list = [this] { return capture::records(necks_.list()); };
+    pass::Run<NecksPass> run(receding, true, now.rounding, of_necks);
+    run.start(now);
+    run.tile([&] { merger_.necks(executor_, drops, uniforms, receding, necks_); });
+    run.finish(now);
+  }
   pass::HostIo<MergePass> io;
   io.film = film;
   io.new_film = film;
@@ -83,12 +96,15 @@ void WetGlass::splat(const pass::Moment& now, const SplatSettings& splat, const 
   pass::HostIo<SplatPass> io;
   io.drops = listed_;
   if (settings_.corrected) io.film = film;
+  const bool have_necks = settings_.neck_time > 0;
+  const std::span<const Neck> necks = have_necks ? std::span<const Neck>(necks_.list()) : std::span<const Neck>();
+  if (have_necks) io.necks = necks;
   io.height = height;
   pass::Run<SplatPass> run(uniforms, settings_.corrected, splat.keys.rounding, io);
   run.start(now);
   run.tile([&] {
-    drops::splat(executor_, uniforms, splat.keys.half_accumulation, splat.keys.rounding, listed_, settings_.corrected ? &film : nullptr,
-                 height, scratch_);
+    drops::splat(executor_, uniforms, splat.keys.half_accumulation, splat.keys.rounding, listed_, necks,
+                 settings_.corrected ? &film : nullptr, height, scratch_);
   });
   run.finish(now);
 }

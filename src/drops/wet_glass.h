@@ -26,7 +26,7 @@ class WetGlass {
   // The passes of one step; n counts the steps before it.
   void spawn(const pass::Moment& now, const Exposure& exposure, std::int64_t n);
   void integrate(const pass::Moment& now, const GlassFrame& glass);
-  /// corrected.
+  /// corrected: necks, where the settings have some, and merge.
   void merge(const pass::Moment& now, std::int64_t n);
   /// The pass of a frame. glass: of its last step; height: r16f, of the film's size.
   void splat(const pass::Moment& now, const SplatSettings& splat, const GlassFrame& glass, Image& height);
@@ -51,6 +51,7 @@ class WetGlass {
   const parallel::Executor& executor_;
   Arrivals arrivals_;
   Merger merger_;
+  Necks necks_;
   SplatScratch scratch_;
   std::vector<Drop> listed_;
 };

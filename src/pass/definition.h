@@ -4,7 +4,7 @@
 //                                                                with fault(bound): why a case whose buffers fit does not, or "";
 //                                                                with rounds_inside(uniforms): whether it rounds on its way as it
 //                                                                stores what it gives;
-//                                                                with near(uniforms, list, corrected, columns, tile): those of its
+//                                                                with near(uniforms, list, corrected, columns, tile): those of a
 //                                                                list that may count in a tile; the others change no bit there
 //   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y) of a texel;
 //                                                                with views(io), which is asked once a row: run(u, io, views, x, y);

@@ -248,7 +248,10 @@ Inputs<P> inputs_of(const capture::PassCase& c) {
   }
   if constexpr (requires { &P::near; }) {
     each<P>(m.captured, [&](auto& member) {
-      if constexpr (requires { member.near; })
+      if constexpr (requires(const parallel::Tile& t) {
+                      member.near;
+                      P::near(m.uniforms, member.records, m.corrected, m.width, t);
+                    })
         member.choose(m.width, m.height,
                       [&](const parallel::Tile& t) { return P::near(m.uniforms, member.records, m.corrected, m.width, t); });
     });

@@ -161,7 +161,11 @@ class Run {
   HostIo<P> near(const HostIo<P>& all, const parallel::Tile& t) const {
     HostIo<P> io = all;
     each<P>(io, [&](auto& member) {
-      if constexpr (requires { member.near; }) member.choose(P::near(uniforms_, member.records, corrected_, width_, t));
+      if constexpr (requires {
+                      member.near;
+                      P::near(uniforms_, member.records, corrected_, width_, t);
+                    })
+        member.choose(P::near(uniforms_, member.records, corrected_, width_, t));
     });
     return io;
   }

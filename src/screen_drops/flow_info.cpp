@@ -55,7 +55,8 @@ FlowSettings flow_settings(const Config& config, const std::string& prefix, cons
 
 std::vector<capture::PassInfo> flow_passes() {
   return {drops::corrected_only(drops::spawn_info({"merge", "merge"})), drops::corrected_only(drops::integrate_info("")),
-          drops::corrected_only(drops::merge_info("integrate", "merge")), drops::corrected_only(drops::splat_info({"merge", "merge"}))};
+          drops::corrected_only(drops::necks_info("integrate")), drops::corrected_only(drops::merge_info("integrate", "merge")),
+          drops::corrected_only(drops::splat_info({"merge", "merge"}))};
 }
 
 std::vector<capture::BufferInfo> flow_buffers() {
@@ -69,6 +70,7 @@ std::vector<UniformBlock> flow_records() { return drops::records(); }
 std::vector<capture::PassEvaluations> flow_evaluations() {
   return {{"spawn", nullptr, drops::recompute_spawn},
           {"integrate", drops::bind_integrate},
+          {"necks", drops::bind_necks},
           {"merge", drops::bind_merge},
           {"splat", drops::bind_splat}};
 }

@@ -18,12 +18,13 @@ cache::Recipe recipe_of(const FlowSettings& settings) {
   const auto& [fps, substeps, pane, gravity, wind, warm_up, drops, splat] = settings;
   const auto& [corrected, seed, capacity, lifetime, spawn_rate, mass_min, mass_max, inertia_coupling, wind_coupling, drag, rain_rate,
                smallest_drop, advancing_deg, receding_deg, wind_exposure, wind_drag, mobility, humidity, margin, trail_thickness,
-               film_drying] = drops;
+               film_drying, neck_time] = drops;
   cache::Recipe recipe("screen_drops warm-up");
   recipe.add(seed).add(static_cast<std::uint64_t>(capacity)).add(static_cast<std::uint64_t>(substeps)).add(std::uint64_t{corrected});
-  recipe.add({fps,          pane[0],       pane[1],          gravity,       wind,     warm_up,   lifetime,        spawn_rate,
-              mass_min,     mass_max,      inertia_coupling, wind_coupling, drag,     rain_rate, smallest_drop,   advancing_deg,
-              receding_deg, wind_exposure, wind_drag,        mobility,      humidity, margin,    trail_thickness, film_drying});
+  recipe.add({fps,           pane[0],         pane[1],      gravity,          wind,          warm_up,  lifetime,
+              spawn_rate,    mass_min,        mass_max,     inertia_coupling, wind_coupling, drag,     rain_rate,
+              smallest_drop, advancing_deg,   receding_deg, wind_exposure,    wind_drag,     mobility, humidity,
+              margin,        trail_thickness, film_drying,  neck_time});
   // Of the splat nothing counts before the first frame but the size of the film.
   return recipe.add(static_cast<std::uint64_t>(splat.width)).add(static_cast<std::uint64_t>(splat.height));
 }

@@ -16,6 +16,7 @@ const std::vector<capture::PassEvaluations>& evaluations() {
       {"spawn", nullptr, drops::recompute_spawn},
       {"integrate", drops::bind_integrate},
       {"wipe_drops", bind_wipe_drops},
+      {"necks", drops::bind_necks},
       {"merge", drops::bind_merge},
       {"splat", drops::bind_splat},
       {"persist", pass::bind<PersistPass, scalar::PersistPassText>},

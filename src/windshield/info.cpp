@@ -31,6 +31,7 @@ EffectInfo make() {
                  drops::spawn_info({"wipe_drops", "merge"}),
                  drops::integrate_info("windshield_frame"),
                  pass::info_of<WipeDropsPass>(),
+                 drops::necks_info("wipe_drops"),
                  drops::merge_info("wipe_drops", "wipe_drops"),
                  drops::splat_info({"wipe_drops", "merge"}),
                  pass::info_of<PersistPass>(),

@@ -39,7 +39,7 @@ TEST_P(PrintedBranches, AreJudgedRight) {
   ASSERT_EQ(packed.code, 0) << packed.err;
   const Pack pack(folder / "pack");
   // Under ieee alone: the reference's own bits pass under every profile.
-  expect_pass(judged(pack, without_mistake, "ieee"), b.pack);
+  expect_pass(judged(pack, without_mistake, "ieee"), pack.effect + "-" + pack.variant);
   const PortJudgement wrong = judged(
       pack, [&](const Written&) { return b.mistake; }, "vulkan", b.pass);
   EXPECT_EQ(pass_of(wrong, b.pass).status, Status::fail) << b.pass << ": " << b.mistake;
@@ -88,6 +88,11 @@ const std::vector<Branch> branches{
     {"Mist", "windshield-corrected", {"condensation.on=true", "condensation.tau=0.5"}, "condense", "wrong constant"},
     {"ThroughMist", "windshield-corrected", {"condensation.on=true", "condensation.blur_lod=1.3"}, "mist", "wrong constant"},
     {"Lean", "windshield-corrected", {"windshield.lean=1"}, "splat", "wrong constant"},
+    {"Outlines", "windshield-neck", {}, "necks", "wrong constant"},
+    {"OutlinesThatStay", "windshield-neck", {}, "necks", "no time"},
+    {"OutlinesOnAPane", "screen_drops-storm", {}, "necks", "wrong constant"},
+    {"Neck", "windshield-neck", {}, "splat", "wrong constant"},
+    {"UprightNeck", "windshield-neck", {"windshield.lean=0", "windshield.kernel=hemisphere"}, "splat", "wrong constant"},
     {"Smear", "windshield-corrected", {"smear.on=true", "smear.drying=2"}, "smear", "wrong constant"},
     {"ThroughSmear", "windshield-corrected", {"smear.on=true", "smear.spread=9"}, "soften", "wrong constant"},
     {"Inside", "windshield-corrected", {"interior.on=true"}, "interior", "wrong constant"},

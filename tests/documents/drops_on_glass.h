@@ -2,7 +2,9 @@
 // wipers.h.
 #pragma once
 
+#include <algorithm>
 #include <map>
+#include <optional>
 
 #include "documents/written.h"
 #include "math/half.h"
@@ -159,11 +161,119 @@ inline void merge(const Run& r, Given& out) {
     for (int x = 0; x < columns; ++x) out.store(out.index("film"), x, y, 0, film[static_cast<std::size_t>(y * columns + x)]);
 }
 
+struct Neck {
+  Float2 offset;
+  float share, left;
+  std::uint32_t id;
+  float padding[3] = {};
+};
+struct Footprints {
+  float A, B;
+};
+inline Footprints footprints(float share, float left) {
+  const float A = cube_root(std::max(1 - share, 0.125f)), B = cube_root(std::max(share, 0.0f)), swollen = mix(1 / A, 1.0f, left);
+  return {A * swollen, B * swollen};
+}
+inline std::vector<Neck> necks_of(const Run& r) {
+  std::vector<Neck> necks;
+  for (int i = 0; i < r.count("necks"); ++i)
+    necks.push_back({{r.of("necks", i, "offset", 0), r.of("necks", i, "offset", 1)},
+                     r.of("necks", i, "share"),
+                     r.of("necks", i, "left"),
+                     word_of(r, "necks", i, "id")});
+  return necks;
+}
+
+inline void necks(const Run& r, Given& out) {
+  const std::vector<Drop> drops = drops_of(r);
+  const auto radius = [&](float mass) { return r.u("radius") * cube_root(std::max(mass, 1.0f)); };
+  const auto is_larger = [](const Drop& a, const Drop& b) { return a.mass > b.mass || (a.mass == b.mass && a.id < b.id); };
+  const auto stands_out = [&](const Neck& n) {
+    const Footprints f = footprints(n.share, n.left);
+    return n.left > 1 / 64.0f && length(n.offset) * n.left + f.B > f.A;
+  };
+  std::vector<const Drop*> to(drops.size(), nullptr);
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    for (const Drop& other : drops) {
+      if (!is_larger(other, drops[i])) continue;
+      const Float2 apart = plane(r, other.position) - plane(r, drops[i].position);
+      const float reach = radius(drops[i].mass) + radius(other.mass);
+      if (dot(apart, apart) < reach * reach && (!to[i] || is_larger(other, *to[i]))) to[i] = &other;
+    }
+  }
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    const Drop& d = drops[i];
+    if (to[i]) continue;
+    Neck neck{{}, 0, 0, d.id};
+    for (const Neck& old : necks_of(r)) {
+      if (old.id != d.id) continue;
+      neck = old;
+      const float way = length(plane(r, d.velocity)) * r.u("dt");
+      neck.left = std::max(old.left * r.unless("no time", r.u("keep"), 1.0f) - way / radius(d.mass), 0.0f);
+    }
+    const Drop* taken = nullptr;
+    for (std::size_t k = 0; k < drops.size(); ++k)
+      if (to[k] == &d && (!taken || is_larger(drops[k], *taken))) taken = &drops[k];
+    if (taken) {
+      const float both = d.mass + taken->mass;
+      const Neck fresh{constant(r, 1, 1.1f) * ((1 / radius(both)) * plane(r, taken->position - d.position)),
+                       taken->mass / std::max(both, 1.0f), 1, d.id};
+      if (stands_out(fresh) && !(neck.share * neck.left > fresh.share)) neck = fresh;
+    }
+    if (stands_out(neck)) out.append("necks", neck);
+  }
+}
+
+/// What a neck makes of a drop.
+class Two {
+ public:
+  Two(const Run& r, const Neck& neck) : kernel_(r.whole("kernel")) {
+    const float n = neck.left, apart = length(neck.offset), way = n * apart;
+    e = (1 / std::max(apart, 1e-6f)) * neck.offset;
+    const Footprints f = footprints(neck.share, n);
+    a_ = -(neck.share * way);
+    b_ = (1 - neck.share) * way;
+    A2_ = f.A * f.A;
+    B2_ = f.B * f.B;
+    K_ = std::max(constant(r, 1, 0.4f) * 1.2f * n * B2_, 1e-6f);
+    const float high = b_ + f.B, low = a_ - f.A, l = 0.5f * (high - low);
+    float V = 0, V0 = 0, M = 0;
+    for (int i = 0; i < 16; ++i) {
+      const float t = static_cast<float>(2 * i + 1 - 16) / 16, x = 0.5f * (high + low) + l * t;
+      const float cut = section(std::max(1 - (x * x + L(x)), 0.0f));
+      V += cut;
+      M += x * cut;
+      V0 += section(1 - t * t);
+    }
+    height = V0 / std::max(V * l, 1e-6f);
+    middle = M / std::max(V, 1e-6f);
+  }
+  float L(float x) const {
+    const float X = (a_ * a_ + (1 - A2_)) - 2 * a_ * x, Y = (b_ * b_ + (1 - B2_)) - 2 * b_ * x;
+    const float round = std::max(K_ - std::abs(X - Y), 0.0f);
+    return std::min(X, Y) - round * round * (0.25f / K_);
+  }
+  Float2 e;
+  float height, middle;
+
+ private:
+  float section(float c) const {
+    const float root = std::sqrt(c);
+    return kernel_ == 0 ? c * root : kernel_ == 1 ? c * c * root : kernel_ == 2 ? c * c * root * cube_root(c) : kernel_ == 3 ? c : root;
+  }
+  int kernel_;
+  float a_, b_, A2_, B2_, K_;
+};
+
 inline bool splat(const Run& r, int x, int y, float* out) {
   const Float2 centre{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
   const int kernel = r.whole("kernel"), blend = r.whole("blend");
   float sum = 0;
+  const std::vector<Neck> necks = r.taken().corrected() && r.taken().input("necks") ? necks_of(r) : std::vector<Neck>();
   for (int i = 0; i < r.count("drops"); ++i) {
+    const std::uint32_t id = word_of(r, "drops", i, "id");
+    const auto neck = std::find_if(necks.begin(), necks.end(), [&](const Neck& n) { return n.id == id; });
+    const bool is_two = neck != necks.end();
     const float mass = std::max(r.of("drops", i, "mass"), 0.0f), root = r.unless("mass for its root", cube_root(mass), mass);
     const float own = r.unless("diameter for radius", 1.0f, 0.5f) * (r.u("radius_scale") * root);
     const float radius = std::max(own, r.u("smallest_radius")), shrunk = own / radius;
@@ -173,13 +283,26 @@ inline bool splat(const Run& r, int x, int y, float* out) {
     const Float2 away = centre - Float2{place.x * r.u("size", 0), place.y * r.u("size", 1)};
     const Float2 in_plane = plane(r, away);
     float squared = dot(in_plane, in_plane) * (1 / (radius * radius));
-    if (r.taken().corrected() && (r.u("longer") != 0 || r.u("taper") != 0 || r.u("skew") != 0)) {
+    const bool is_leaning = r.taken().corrected() && (r.u("longer") != 0 || r.u("taper") != 0 || r.u("skew") != 0);
+    std::optional<Two> two;
+    if (is_two) {
+      two.emplace(r, *neck);
+      h = h * two->height;
+      if (!is_leaning) squared = std::max(squared + two->L(dot(two->e, in_plane) * (1 / radius)), 0.0f);
+    }
+    if (is_leaning) {
       const Float2 F{root * root * r.u("gravity", 0) + root * r.u("wind", 0), root * root * r.u("gravity", 1) + root * r.u("wind", 1)};
-      const float load = std::min(length(F), 1.0f), t = r.u("taper") * load, k = r.u("skew") * load, l = 1 + r.u("longer") * load;
+      const float load = std::min(length(F), 1.0f) * (is_two ? 1 - neck->left : 1.0f), t = r.u("taper") * load, k = r.u("skew") * load,
+                  l = 1 + r.u("longer") * load;
       const Float2 d = length(F) > 1e-6f ? (1 / std::max(length(F), 1e-6f)) * F : Float2{1, 0};
       const float a = dot(d, in_plane) * ((1 / radius) / l), b = cross(d, in_plane) * (1 / radius) / std::max(1 + t * a, 0.0625f);
       h = h / (l * (1 + t * k * r.u("moment"))) * std::max(1 + constant(r, 1, 0.9f) * k * a, 0.0f);
       squared = a * a + b * b;
+      if (is_two) {
+        const float u = 1 + t * k * r.u("moment");
+        h = h * (u / std::max(u + (t + k) * (dot(two->e, d) * two->middle), 0.25f));
+        squared = std::max(squared + two->L(dot(two->e, d) * a + cross(d, two->e) * b), 0.0f);
+      }
     }
     const float cap = std::max(constant(r, 1, 1.1f) - squared, 0.0f);
     const float shape = kernel == 0   ? cap
@@ -246,6 +369,19 @@ integrate         m = max(mass, 1)^(1/3),  i = 1/m,  j = i i;   |x| of glass vec
                   loss = floor(evaporation·m·dt + phase),  phase = fract(fract(life / 64) · phase_rate), life of before;   mass = max(mass − loss, 0)
                   life −= dt;  lives on while life > 0, mass > 0 and u, v in [−margin, 1 + margin])"}}},
       {corrected,
+       "necks",
+       "wrong constant",
+       nullptr,
+       necks,
+       {plane_and_life,
+        {document,
+         R"(necks             r = radius · max(mass, 1)^(1/3);  who points to whom as in merge;  of drops that end, and of those that are not there, none
+                  footprints  A = max(1 − share, 1/8)^(1/3),  B = max(share, 0)^(1/3),  both times mix(1/A, 1, left)
+                  a neck stands out where left > 1/64 and |offset| left + B > A;  others are given up
+                  an old one  left = max(left keep − (|velocity| dt) / r, 0),  |velocity| in the plane
+                  a new one of the largest drop that points to this one:  offset = plane(other's position − its own) (1/r of both masses),
+                  share = mass₂ / max(mass + mass₂, 1),  left = 1;  the old one stays where that does not stand out or old share · left > share)"}}},
+      {corrected,
        "merge",
        "wrong constant",
        nullptr,
@@ -271,6 +407,14 @@ gives       h · kernel(q²),  q² = |(frame.x Δx + frame.y Δy, frame.z Δy)|�
 leaning     corrected, longer, taper or skew not 0:  F = root² gravity + root wind,  d = F (1/max(|F|, 10⁻⁶)), (1, 0) unless |F| > 10⁻⁶,  load = min(|F|, 1)
             l = 1 + longer load,  t = taper load,  k = skew load,  h = h / (l (1 + t k moment)),  P = (frame.x Δx + frame.y Δy, frame.z Δy)
             a = d·P ((1/R) / l),  b = cross(d, P) (1/R) / max(1 + t a, 1/16);  gives h max(1 + k a, 0) · kernel(a² + b²)
+two         corrected, of a drop whose id a neck has, its left below n:  δ = n |offset|,  e = offset (1/max(|offset|, 10⁻⁶)),  A, B its footprints
+            a = −(share δ),  b = (1 − share) δ,  K = max((1.2 n) B², 10⁻⁶);  of a place x on the line along e:  X = (a² + (1 − A²)) − 2a x,
+            Y = (b² + (1 − B²)) − 2b x,  L(x) = min(X, Y) − max(K − |X − Y|, 0)² ((1/4) / K)
+            gives h · kernel(max(q² + L(e·P (1/R)), 0));  leaning, load (1 − n) for load, a² + b² for q², and e·d a + cross(d, e) b for e·P (1/R)
+            h = h (V₀ / max(V l, 10⁻⁶)),  t = (2i + 1 − 16) / 16, i < 16,  x = ½ ((b + B) + (a − A)) + l t,  l = ½ ((b + B) − (a − A))
+            V = sum of section(max(1 − (x² + L(x)), 0)),  V₀ of section(1 − t²),  M of x section(…)
+            leaning, then  h = h (u / max(u + (t + k) (e·d M / max(V, 10⁻⁶)), 1/4)),  u = 1 + t k moment
+section(c)  0: c √c   1: c² √c   2: (c² √c) c^(1/3)   3: c   4: √c
 kernel      0: max(1 − q², 0)   1: max(1 − q², 0)²   2: 1 − smoothstep(0, 1, q)   3: √max(1 − q², 0)   4: 1 where q² ≤ 1
 blend       in the order of the list, from 0:  0: add   1: max   2: add, rounded to half after each drop
 corrected   + film_scale · tent(film),  tent(a, b, c) = ½ b + ¼ (a + c) of columns, then of rows, edge texels repeated)"}}},

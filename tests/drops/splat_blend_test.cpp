@@ -95,7 +95,7 @@ TEST(SplatBlending, DeadAndDistantDropsDrawNothingAndTheTextureIsCleared) {
   expect_all(image, 1);
   SplatScratch scratch;
   const std::vector<Drop> none{dead, dying, drop_at(3, 0.5, 1), drop_at(-2, -2, 1), drop_at(0.5, 1.5, 1), drop_at(0.5, 0.5, 0)};
-  splat(two_threads(), splat_uniforms(s), true, Rounding::rne, none, nullptr, image, scratch);
+  splat(two_threads(), splat_uniforms(s), true, Rounding::rne, none, {}, nullptr, image, scratch);
   expect_all(image, 0);
 }
 
@@ -111,7 +111,7 @@ TEST(SplatBlending, TheFilmKeepsItsWater) {
     film.row<float>(height - 1)[20] = 32;  // at an edge,
     film.row<float>(17)[22] = 64;          // and inside
     SplatScratch scratch;
-    splat(two_threads(), u, false, Rounding::rne, {}, &film, image, scratch);
+    splat(two_threads(), u, false, Rounding::rne, {}, {}, &film, image, scratch);
     double sum = 0;
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) sum += at(image, x, y);
@@ -129,8 +129,8 @@ TEST(SplatBlending, ImagesThatDoNotFitAreRefused) {
   const SplatSettings s = flat(1, false);
   SplatScratch scratch;
   Image small(Format::r16f, width - 1, height), good(Format::r16f, width, height), film(Format::r32f, width, height);
-  EXPECT_THROW(splat(two_threads(), splat_uniforms(s), false, Rounding::rne, {}, nullptr, small, scratch), Error);
-  EXPECT_THROW(splat(two_threads(), splat_uniforms(s), true, Rounding::rne, {}, &film, good, scratch), Error) << "halves and a film";
+  EXPECT_THROW(splat(two_threads(), splat_uniforms(s), false, Rounding::rne, {}, {}, nullptr, small, scratch), Error);
+  EXPECT_THROW(splat(two_threads(), splat_uniforms(s), true, Rounding::rne, {}, {}, &film, good, scratch), Error) << "halves and a film";
 }
 
 }  // namespace

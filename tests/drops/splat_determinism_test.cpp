@@ -17,6 +17,8 @@ struct Case {
   double mass;
   bool film;
   Pull pull = {};
+  bool necks = false;
+  std::vector<Neck> necks_of(const std::vector<Drop>& drops) const { return necks ? any_necks(drops, 3) : std::vector<Neck>(); }
 };
 std::vector<Case> cases(int width, int height) {
   std::vector<Case> all;
@@ -35,7 +37,9 @@ std::vector<Case> cases(int width, int height) {
             SplatSettings leaning = s;
             leaning.keys.lean = 1;
             const double root = std::cbrt(mass);
-            all.push_back({leaning, mass, true, {{0.3 / (root * root), -1.2 / (root * root)}, {0.4 / root, 0.5 / root}, {0.9, 0.3}}});
+            const Pull pull{{0.3 / (root * root), -1.2 / (root * root)}, {0.4 / root, 0.5 / root}, {0.9, 0.3}};
+            all.push_back({leaning, mass, true, pull});
+            all.push_back({k % 2 ? leaning : s, mass, true, k % 2 ? pull : Pull(), true});
           }
           if (!corrected) {
             s.keys.half_accumulation = false;
@@ -55,9 +59,10 @@ std::vector<Case> cases(int width, int height) {
   }
   return ::testing::AssertionSuccess();
 }
-Image plain_image(const SplatSettings& s, const std::vector<Drop>& drops, const Image* film, const Pull& pull) {
+Image plain_image(const SplatSettings& s, const std::vector<Drop>& drops, const Image* film, const Pull& pull,
+                  const std::vector<Neck>& necks) {
   const SplatUniforms u = splat_uniforms(s, pull);
-  const auto stamps = stamps_of<F>(u, drops);
+  const auto stamps = stamps_of<F>(u, drops, necks);
   Image image(Format::r16f, s.keys.width, s.keys.height);
   for (int y = 0; y < s.keys.height; ++y) {
     for (int x = 0; x < s.keys.width; ++x) {
@@ -82,13 +87,13 @@ TEST_F(SplatDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
       if (number++ % 5 != width % 5) continue;
       const std::vector<Drop> drops = any_drops(75, static_cast<unsigned>(width), c.mass);
       const Image* under = c.film ? &film : nullptr;
-      const Image expected = plain_image(c.settings, drops, under, c.pull);
+      const Image expected = plain_image(c.settings, drops, under, c.pull, c.necks_of(drops));
       for (const std::string& target : simd_targets()) {
         select_simd_target(target);
         for (parallel::Executor& executor : executors) {
           const int threads = executor.threads();
           executor.shuffle_tiles(static_cast<std::uint64_t>(threads + width));
-          ASSERT_TRUE(equal(splatted(executor, c.settings, drops, under, c.pull), expected))
+          ASSERT_TRUE(equal(splatted(executor, c.settings, drops, under, c.pull, c.necks_of(drops)), expected))
               << target << ", " << threads << " threads, width " << width << ", case " << number;
         }
       }
@@ -102,13 +107,13 @@ TEST_F(SplatDeterminism, EveryCaseOnALargeTexture) {
   for (const Case& c : cases(width, height)) {
     const std::vector<Drop> drops = any_drops(60, 11, c.mass);
     const Image* under = c.film ? &film : nullptr;
-    const Image expected = plain_image(c.settings, drops, under, c.pull);
+    const Image expected = plain_image(c.settings, drops, under, c.pull, c.necks_of(drops));
     double sum = 0;
     for (int x = 0; x < width; ++x) sum += at(expected, x, 90);
     EXPECT_GT(sum, 0) << "something is there";
     for (const std::string& target : simd_targets()) {
       select_simd_target(target);
-      ASSERT_TRUE(equal(splatted(two_threads(), c.settings, drops, under, c.pull), expected)) << target;
+      ASSERT_TRUE(equal(splatted(two_threads(), c.settings, drops, under, c.pull, c.necks_of(drops)), expected)) << target;
     }
   }
 }
@@ -134,8 +139,8 @@ TEST_F(SplatDeterminism, FloatsAreWithinRoundingOfDoubles) {
     if (c.settings.keys.kernel == SplatKernel::disc) continue;  // its edge is a decision
     const std::vector<Drop> drops = any_drops(60, 12, c.mass);
     const SplatUniforms u = splat_uniforms(c.settings, c.pull);
-    const auto floats = stamps_of<F>(u, drops);
-    const auto doubles = stamps_of<D>(u, drops);
+    const auto floats = stamps_of<F>(u, drops, c.necks_of(drops));
+    const auto doubles = stamps_of<D>(u, drops, c.necks_of(drops));
     double worst = 0, top = 0;
     for (int y = 0; y < height; y += 3) {
       for (int x = 0; x < width; x += 3) {

@@ -39,10 +39,10 @@ inline Drop drop_at(double u, double v, double mass, std::uint32_t id = 0) {
   return {{static_cast<float>(u), static_cast<float>(v)}, {0, 0}, static_cast<float>(mass), 1, id, 0};
 }
 inline Image splatted(const parallel::Executor& executor, const SplatSettings& s, const std::vector<Drop>& drops,
-                      const Image* film = nullptr, const Pull& pull = {}) {
+                      const Image* film = nullptr, const Pull& pull = {}, std::span<const Neck> necks = {}) {
   Image height(Format::r16f, s.keys.width, s.keys.height);
   SplatScratch scratch;
-  splat(executor, splat_uniforms(s, pull), s.keys.half_accumulation, s.keys.rounding, drops, film, height, scratch);
+  splat(executor, splat_uniforms(s, pull), s.keys.half_accumulation, s.keys.rounding, drops, necks, film, height, scratch);
   return height;
 }
 inline const parallel::Executor& two_threads() {
@@ -73,18 +73,47 @@ inline Image any_film(int width, int height, unsigned seed) {
   return film;
 }
 
+/// Of every third of them, of shares and rests of all sizes.
+inline std::vector<Neck> any_necks(const std::vector<Drop>& drops, unsigned seed) {
+  std::mt19937 words(seed);
+  const auto unit = [&] { return words() * 0x1p-32; };
+  std::vector<Neck> necks;
+  for (std::size_t i = 0; i < drops.size(); i += 3) {
+    const double angle = 2 * pi * unit(), apart = 1.58 * unit();
+    necks.push_back({{static_cast<float>(apart * std::cos(angle)), static_cast<float>(apart * std::sin(angle))},
+                     static_cast<float>(0.5 * unit()),
+                     static_cast<float>(unit()),
+                     drops[i].id,
+                     0,
+                     0,
+                     0});
+  }
+  return necks;
+}
+
+/// Stamps, and which of them have necks.
 template <class N>
-std::vector<scalar::Stamp<N>> stamps_of(const SplatUniforms& u, const std::vector<Drop>& drops) {
-  std::vector<scalar::Stamp<N>> stamps;
-  for (const Drop& d : drops) stamps.push_back(scalar::splat_stamp(u, N(d.position[0]), N(d.position[1]), N(d.mass), N(d.life)));
+struct Stamps {
+  std::vector<scalar::Stamp<N>> all;
+  std::vector<unsigned char> have_necks;
+};
+template <class N>
+Stamps<N> stamps_of(const SplatUniforms& u, const std::vector<Drop>& drops, std::span<const Neck> necks = {}) {
+  Stamps<N> stamps;
+  for (const Drop& d : drops) {
+    const Neck* const neck = SplatPass::neck_of(necks, d.id);
+    scalar::NeckState<N> both;
+    if (neck) both = scalar::loaded_neck<N>(neck->offset, neck->share, neck->left);
+    stamps.all.push_back(scalar::splat_stamp(u, N(d.position[0]), N(d.position[1]), N(d.mass), N(d.life), neck ? &both : nullptr));
+    stamps.have_necks.push_back(neck != nullptr);
+  }
   return stamps;
 }
 /// One texel of the finished texture, before it is stored, by a scalar evaluation.
 template <class N>
-N plain_texel(SplatUniforms u, bool half_accumulation, Rounding rounding, const std::vector<scalar::Stamp<N>>& stamps, const Image* film,
-              int x, int y) {
-  u.drop_count = static_cast<std::int32_t>(stamps.size());
-  const N sum = scalar::splat_drops(u, stamps.data(), x, y, [&](N h) {
+N plain_texel(SplatUniforms u, bool half_accumulation, Rounding rounding, const Stamps<N>& stamps, const Image* film, int x, int y) {
+  u.drop_count = static_cast<std::int32_t>(stamps.all.size());
+  const N sum = scalar::splat_drops(u, stamps.all.data(), stamps.have_necks.data(), x, y, [&](N h) {
     if constexpr (std::is_same_v<N, scalar::Scalar<float>>) {
       if (!half_accumulation) return h;
       Half stored;

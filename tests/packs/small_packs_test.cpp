@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Packs, SmallPack,
                                          "windshield-corrected", "edge_splash-as-published", "edge_splash-corrected",
                                          "rainy_glass-as-published", "rainy_glass-corrected", "screen_drops-as-published",
                                          "screen_drops-corrected", "rainy_glass-slopes", "screen_drops-storm", "windshield-closing",
-                                         "windshield-trails", "windshield-panes", "windshield-smear"),
+                                         "windshield-trails", "windshield-panes", "windshield-smear", "windshield-neck"),
                          name_of);
 
 }  // namespace

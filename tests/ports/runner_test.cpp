@@ -109,14 +109,15 @@ TEST(Bindings, MissingKeysAreNamed) {
 }
 TEST(Bindings, UnknownKeysGetTheNearestOne) {
   expect_refused("unknown key 'program', expected one of programs; did you mean 'programs'?", [](json& all) { all["program"] = 1; });
-  expect_refused("programs / " + display +
-                     ": unknown key 'one_gruop', expected one of spirv, inputs, outputs, constants, one_group, group, capacity; did you "
-                     "mean 'one_group'?",
-                 [](json& all) { all["programs"][display]["one_gruop"] = true; });
+  expect_refused(
+      "programs / " + display +
+          ": unknown key 'one_gruop', expected one of spirv, inputs, outputs, constants, lists, one_group, group, capacity; did you "
+          "mean 'one_group'?",
+      [](json& all) { all["programs"][display]["one_gruop"] = true; });
 }
 TEST(Bindings, EachKeyIsDocumented) {
   const std::string readme = contents(examples + "/README.md");
-  for (const char* key : {"spirv", "inputs", "outputs", "constants", "one_group", "group", "capacity"})
+  for (const char* key : {"spirv", "inputs", "outputs", "constants", "lists", "one_group", "group", "capacity"})
     EXPECT_THAT(readme, HasSubstr("\n| `" + std::string(key) + "` | "));
 }
 TEST(Bindings, IllTypedValuesAreShown) {
@@ -148,6 +149,8 @@ TEST(Bindings, NamesThatNothingHasGetTheNearestOne) {
                  constant("input", "wvae"));
   expect_refused("programs / " + display + " / inputs: expected what the pass reads, colour, found 'color'; did you mean 'colour'?",
                  [](json& all) { all["programs"][display]["inputs"] = json::array({"color"}); });
+  expect_refused("programs / " + display + " / lists: expected some of the program's inputs, colour, found ",
+                 [](json& all) { all["programs"][display]["lists"] = json::array({"color"}); });
   expect_refused("programs / " + display + " / outputs: expected what the pass writes, picture, found 'image'",
                  [](json& all) { all["programs"][display]["outputs"] = json::array({"image"}); });
 }

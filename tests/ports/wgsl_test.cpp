@@ -124,7 +124,9 @@ TEST_F(Wgsl, APassOfEachKindPassesUnderWebgpu) {
                                                     {"screen_drops-corrected", "merge"},     // a list and an image
                                                     {"windshield-closing", "wipe_texture"},  // three images of two formats
                                                     {"puddle-shore", "wave_step"},           // a rim
-                                                    {"windshield-smear", "splat"},
+                                                    {"windshield-smear", "splat"},           // without a list
+                                                    {"windshield-neck", "necks"},
+                                                    {"windshield-neck", "splat"},
                                                     {"windshield-smear", "smear"},
                                                     {"windshield-smear", "soften"},
                                                     {"windshield-mist", "condense"},

@@ -9,7 +9,7 @@ using namespace ports;
 std::string windshield(const std::string& variant) { return pack_of(variant, "windshield"); }
 
 class WindshieldPort : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Packs, WindshieldPort, testing::Values("as-published", "corrected", "trails", "panes", "mist"),
+INSTANTIATE_TEST_SUITE_P(Packs, WindshieldPort, testing::Values("as-published", "corrected", "trails", "panes", "mist", "neck"),
                          [](const auto& pack) -> std::string { return pack.param[0] == 'a' ? "AsPublished" : pack.param; });
 
 // Every pass of it has a port.
@@ -24,7 +24,7 @@ TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
 
 // Some bugs of each pass; scripts/full/mutants has them all.
 TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
-  const Outcome surface = judge_mutants("windshield_surface.json", "1503,1533,1562,1581,1412,1450,1702,1714,1721");
+  const Outcome surface = judge_mutants("windshield_surface.json", "1503,1533,1562,1581,1412,1450,1702,1714,1721,1759,1763,1778");
   EXPECT_EQ(surface.code, 0) << surface.text;
   const Outcome motion = judge_mutants("windshield_motion.json", "1104,1126,1146,1176,1189,1210");
   EXPECT_EQ(motion.code, 0) << motion.text;
@@ -40,7 +40,7 @@ TEST(WindshieldPort, MutantsAreManyAndNamedOnce) {
 // The blocks in the shaders are what describe prints for this version.
 TEST(WindshieldPort, UniformBlocksAreTheDescribedOnes) {
   EXPECT_GE(check_blocks("windshield", {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {",
-                                        "struct GlassFrame {", "struct Streak {"}),
+                                        "struct Neck {", "struct GlassFrame {", "struct Streak {"}),
             12);
 }
 

@@ -79,13 +79,15 @@ inline std::vector<StateScene> state_scenes() {
     if (corrected) windshield("interior", {"scene.moves=false", "interior.on=true"});
     if (corrected) windshield("condensation", {"scene.moves=false", "condensation.on=true", "condensation.tau=1"});
     if (corrected) windshield("smear", {"scene.moves=false", "smear.on=true", "smear.drying=2", "windshield.lean=1"});
+    if (corrected) windshield("neck", {"scene.moves=false", "windshield.neck_time=2"});
     if (!corrected) {
       windshield("trails", {"scene.moves=false", "windshield.height_tau=0.5", "windshield.blend=max"});
       windshield("float", {"scene.moves=false", "windshield.accumulate=float"});
     }
   }
   add("screen_drops", "corrected", "flow",
-      {"flow.on=true", "flow.height_size=[37, 29]", "flow.capacity=500", "flow.warm_up=0.7", "rain.rate=100", "rain.wind=20"});
+      {"flow.on=true", "flow.height_size=[37, 29]", "flow.capacity=500", "flow.warm_up=0.7", "flow.neck_time=0.5", "rain.rate=100",
+       "rain.wind=20"});
   add("screen_drops", "corrected", "dry", {"flow.on=false"});
   return all;
 }

@@ -210,7 +210,8 @@ INSTANTIATE_TEST_SUITE_P(Effects, EveryItem,
 // What passes declare to read of a run before is among the items, under its own name or as what it is made of.
 TEST(StateItems, HoldWhatPassesReadOfBefore) {
   const parallel::Executor executor(1);
-  const std::map<std::string, std::string> made_of{{"wave", "previous"}, {"drops", "life"}, {"previous_height", "height"}};
+  const std::map<std::string, std::string> made_of{
+      {"wave", "previous"}, {"drops", "life"}, {"previous_height", "height"}, {"necks", "neck_left"}};
   std::map<std::string, std::set<std::string>> listed, wanted;  // by effect and variant
   for (const StateScene& scene : state_scenes()) {
     const scene::Config config = scene::parse(scene.text, simulation::effect_table());
@@ -225,7 +226,7 @@ TEST(StateItems, HoldWhatPassesReadOfBefore) {
       }
     }
   }
-  EXPECT_EQ(wanted["windshield corrected"], (std::set<std::string>{"clear_time", "film", "laid", "life", "wiped"}));
+  EXPECT_EQ(wanted["windshield corrected"], (std::set<std::string>{"clear_time", "film", "laid", "life", "neck_left", "wiped"}));
   for (const auto& [which, names] : wanted) {
     for (const std::string& name : names) EXPECT_TRUE(listed[which].contains(name)) << which << ": " << name;
   }

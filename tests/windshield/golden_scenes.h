@@ -74,6 +74,9 @@ inline std::vector<GoldenScene> golden_scenes() {
                     std::string(wet_drive) + "[rain]\nrate = 120\nsmallest_drop = 0.8\n[smear]\non = true\nwear = 0.6\n"});
   scenes.push_back(
       {"windshield/corrected/lean", "corrected", std::string(wet_drive) + "lean = 0.8\n[rain]\nrate = 120\nsmallest_drop = 0.8\n"});
+  // Drops that have merged, and others that merge with them.
+  scenes.push_back({"windshield/corrected/neck", "corrected",
+                    std::string(wet_drive) + "neck_time = 1.5\nlean = 0.8\n[rain]\nrate = 150\nsmallest_drop = 0.8\n"});
   scenes.push_back({"windshield/corrected/interior", "corrected",
                     std::string(wet_drive) + "[rain]\nrate = 120\n[interior]\non = true\nlight = 0.1\n[camera]\nvertical_fov_deg = 44\n"});
   // Three panes and a weather that changes.

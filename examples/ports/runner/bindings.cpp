@@ -87,7 +87,7 @@ Fact read_fact(const Place& from, const Names& inputs) {
 }
 
 Program read_program(const Place& from, const fs::path& folder) {
-  from.object({"spirv", "inputs", "outputs"}, {"constants", "one_group", "group", "capacity"});
+  from.object({"spirv", "inputs", "outputs"}, {"constants", "lists", "one_group", "group", "capacity"});
   const auto at = [&](const char* name) { return from.inside(name, *from.find(name)); };
   Program p;
   p.spirv = folder / at("spirv").text();
@@ -99,6 +99,12 @@ Program read_program(const Place& from, const fs::path& folder) {
     if (!constants.value.is_array()) constants.refuse("a list of constants");
     for (std::size_t i = 0; i < constants.value.size(); ++i)
       p.constants.push_back(read_fact(constants.inside(std::to_string(i), constants.value[i]), p.inputs));
+  }
+  if (from.find("lists") != nullptr) {
+    p.lists = at("lists").texts();
+    for (const std::string& name : p.lists)
+      if (std::find(p.inputs.begin(), p.inputs.end(), name) == p.inputs.end())
+        at("lists").refuse("some of the program's inputs, " + joined(p.inputs), did_you_mean(name, p.inputs));
   }
   if (from.find("one_group") != nullptr) p.one_group = at("one_group").flag();
   if (from.find("group") != nullptr) {

@@ -6,7 +6,7 @@
 //   input records   std430 storage buffer: an array of the records
 //   output image    storage image in the buffer's format
 //   output records  std430 storage buffer: the count in the first of four words, the records from byte 16
-// An input that the case does not have is bound as one texel of zeros.
+// An input that the case does not have is bound as one texel of zeros, one of `lists` as one record of zeros.
 #pragma once
 
 #include <map>
@@ -26,6 +26,7 @@ struct Fact {
 struct Program {
   fs::path spirv;
   std::vector<std::string> inputs, outputs;
+  std::vector<std::string> lists;  ///< those inputs that a case may lack and that are records
   std::vector<Fact> constants;
   bool one_group = false;  ///< one workgroup; otherwise one invocation for each texel of the first output
   std::uint32_t group[2] = {8, 8};

@@ -197,6 +197,11 @@ class Run {
       for (const Level& level : b->levels) texels.push_back(load(pack_, *b, level));
       return sample(*b, texels);
     }
+    if (std::find(program_.lists.begin(), program_.lists.end(), name) != program_.lists.end()) {
+      constexpr std::size_t largest_record = 256;
+      storage(largest_record);
+      return;
+    }
     Buffer absent;
     absent.name = name;
     absent.format = {VK_FORMAT_R32_SFLOAT, "'<f4'", 1, 4};

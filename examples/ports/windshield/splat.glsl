@@ -25,6 +25,10 @@ struct Drop {
   float padding_0;  //  28  padding
 };
 layout(std430, binding = 1) readonly buffer DropBuffer { Drop drops[]; };
+#include "neck.glsl"
+
+// Of a drop: nothing is left of it where it has none. Declared by the shader.
+Neck neck_of(uint id);
 
 float profile(float q_sq) {
   float inside = max(1.0 - q_sq, 0.0);
@@ -38,6 +42,52 @@ float profile(float q_sq) {
   return q_sq <= 1.0 ? 1.0 : 0.0;
 }
 
+// A drop with a neck: the line through both middles, what is added to q^2 for each of them and that over the way along the line, the width
+// of the neck; its height over that of a round drop, and its middle of mass on the line.
+struct Two {
+  vec2 way;
+  float larger, larger_slope, smaller, smaller_slope, fillet, height, balance;
+};
+float neck_profile(Two two, float along) {
+  float a = two.larger - two.larger_slope * along, b = two.smaller - two.smaller_slope * along;
+  float rounded_off = max(two.fillet - abs(a - b), 0.0);
+  return min(a, b) - rounded_off * rounded_off * (0.25 / two.fillet);
+}
+// Area under the profile across the line, where 1 - q^2 is c on it.
+float section(float c) {
+  if (u.kernel == 0) return c * sqrt(c);
+  if (u.kernel == 1) return c * c * sqrt(c);
+  if (u.kernel == 2) return c * c * sqrt(c) * pow(c, 1.0 / 3.0);
+  if (u.kernel == 3) return c;
+  return sqrt(c);
+}
+Two two_of(Neck neck) {
+  Two two;
+  float size = length(neck.offset), apart = neck.left * size;
+  two.way = neck.offset * (1.0 / max(size, 1e-6));
+  vec2 radii = footprints(neck);
+  float to_larger = -neck.share * apart, to_smaller = (1.0 - neck.share) * apart;
+  two.larger = to_larger * to_larger + (1.0 - radii.x * radii.x);
+  two.smaller = to_smaller * to_smaller + (1.0 - radii.y * radii.y);
+  two.larger_slope = 2.0 * to_larger;
+  two.smaller_slope = 2.0 * to_smaller;
+  two.fillet = max(1.2 * neck.left * (radii.y * radii.y), 1e-6);
+  // Volumes of both and of a round drop, from sections.
+  const int parts = 16;
+  float low = to_larger - radii.x, high = to_smaller + radii.y, middle = 0.5 * (low + high), half_length = 0.5 * (high - low);
+  float both = 0.0, moment = 0.0, round_drop = 0.0;
+  for (int i = 0; i < parts; ++i) {
+    float at = float(2 * i + 1 - parts) / float(parts), along = middle + half_length * at;
+    float cut = section(max(1.0 - (along * along + neck_profile(two, along)), 0.0));
+    both += cut;
+    moment += along * cut;
+    round_drop += section(1.0 - at * at);
+  }
+  two.height = round_drop / max(both * half_length, 1e-6);
+  two.balance = moment / max(both, 1e-6);
+  return two;
+}
+
 // The height that a drop gives to a texel.
 float contribution(Drop drop, ivec2 texel) {
   float root = pow(max(drop.mass, 0.0), 1.0 / 3.0), own = u.radius_scale * root;
@@ -46,15 +96,30 @@ float contribution(Drop drop, ivec2 texel) {
   if (drop.life <= 0.0) height = 0.0;
   vec2 to = vec2(texel) + 0.5 - drop.position * u.size;
   vec2 plane = vec2(u.frame.x * to.x + u.frame.y * to.y, u.frame.z * to.y);
+  Neck neck = neck_of(drop.id);
+  Two two;
+  if (neck.left > 0.0) two = two_of(neck);
   if (u.longer != 0.0 || u.taper != 0.0 || u.skew != 0.0) {
     vec2 pull = root * root * u.gravity + root * u.wind;
     float size = length(pull), load = min(size, 1.0);
     vec2 way = size > 1e-6 ? pull * (1.0 / max(size, 1e-6)) : vec2(1.0, 0.0);
+    if (neck.left > 0.0) load = load * (1.0 - neck.left);
     float stretched = 1.0 + u.longer * load, taper = u.taper * load, skew = u.skew * load, inverse = 1.0 / radius;
     float a = (way.x * plane.x + way.y * plane.y) * (inverse / stretched);
     float b = ((way.x * plane.y - way.y * plane.x) * inverse) / max(1.0 + taper * a, 0.0625);
-    height = height / (stretched * (1.0 + (taper * skew) * u.moment));
-    return (height * max(1.0 + skew * a, 0.0)) * profile(a * a + b * b);
+    float even = 1.0 + (taper * skew) * u.moment, q_sq = a * a + b * b;
+    height = height / (stretched * even);
+    if (neck.left > 0.0) {
+      float below = dot(two.way, way) * two.balance;
+      height = height * two.height * (even / max(even + (taper + skew) * below, 0.25));
+      vec2 turned = vec2(dot(two.way, way), two.way.y * way.x - two.way.x * way.y);
+      q_sq = max(q_sq + neck_profile(two, turned.x * a + turned.y * b), 0.0);
+    }
+    return (height * max(1.0 + skew * a, 0.0)) * profile(q_sq);
+  }
+  if (neck.left > 0.0) {
+    vec2 place = plane * (1.0 / radius);
+    return height * two.height * profile(max(dot(place, place) + neck_profile(two, dot(two.way, place)), 0.0));
   }
   return height * profile((plane.x * plane.x + plane.y * plane.y) * (1.0 / (radius * radius)));
 }

@@ -5,6 +5,8 @@
 #include "splat.glsl"
 layout(binding = 2) uniform writeonly image2D heights;
 
+Neck neck_of(uint id) { return Neck(vec2(0.0), 0.0, 0.0, id, 0.0, 0.0, 0.0); }
+
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
   if (outside(texel, imageSize(heights))) return;

@@ -4,7 +4,14 @@
 #include "port.glsl"
 #include "splat.glsl"
 layout(binding = 2) uniform sampler2D film;
-layout(binding = 3) uniform writeonly image2D heights;
+layout(std430, binding = 3) readonly buffer NeckBuffer { Neck necks[]; };
+layout(binding = 4) uniform writeonly image2D heights;
+
+Neck neck_of(uint id) {
+  for (int i = 0; i < necks.length(); ++i)
+    if (necks[i].id == id) return necks[i];
+  return Neck(vec2(0.0), 0.0, 0.0, id, 0.0, 0.0, 0.0);
+}
 
 float quanta(ivec2 at) {
   ivec2 last = textureSize(film, 0) - 1;

@@ -39,6 +39,67 @@ fn profile(q_sq: f32) -> f32 {
   return select(0.0, 1.0, q_sq <= 1.0);
 }
 
+// A drop with a neck: the line through both middles, what is added to q^2 for each of them and that over the way along the line, the width
+// of the neck; its height over that of a round drop, and its middle of mass on the line.
+struct Two {
+  way : vec2f,
+  larger : f32,
+  larger_slope : f32,
+  smaller : f32,
+  smaller_slope : f32,
+  fillet : f32,
+  height : f32,
+  balance : f32,
+}
+fn neck_profile(two: Two, along: f32) -> f32 {
+  let a = two.larger - two.larger_slope * along;
+  let b = two.smaller - two.smaller_slope * along;
+  let rounded_off = max(two.fillet - abs(a - b), 0.0);
+  return min(a, b) - rounded_off * rounded_off * (0.25 / two.fillet);
+}
+// Area under the profile across the line, where 1 - q^2 is c on it.
+fn section(c: f32) -> f32 {
+  if (u.kernel == 0) { return c * sqrt(c); }
+  if (u.kernel == 1) { return c * c * sqrt(c); }
+  if (u.kernel == 2) { return c * c * sqrt(c) * pow(c, 1.0 / 3.0); }
+  if (u.kernel == 3) { return c; }
+  return sqrt(c);
+}
+fn two_of(neck: Neck) -> Two {
+  var two: Two;
+  let size = length(neck.offset);
+  let apart = neck.left * size;
+  two.way = neck.offset * (1.0 / max(size, 1e-6));
+  let radii = footprints(neck);
+  let to_larger = -neck.share * apart;
+  let to_smaller = (1.0 - neck.share) * apart;
+  two.larger = to_larger * to_larger + (1.0 - radii.x * radii.x);
+  two.smaller = to_smaller * to_smaller + (1.0 - radii.y * radii.y);
+  two.larger_slope = 2.0 * to_larger;
+  two.smaller_slope = 2.0 * to_smaller;
+  two.fillet = max(1.2 * neck.left * (radii.y * radii.y), 1e-6);
+  // Volumes of both and of a round drop, from sections.
+  let parts = 16;
+  let low = to_larger - radii.x;
+  let high = to_smaller + radii.y;
+  let middle = 0.5 * (low + high);
+  let half_length = 0.5 * (high - low);
+  var both = 0.0;
+  var moment = 0.0;
+  var round_drop = 0.0;
+  for (var i = 0; i < parts; i++) {
+    let at = f32(2 * i + 1 - parts) / f32(parts);
+    let along = middle + half_length * at;
+    let cut = section(max(1.0 - (along * along + neck_profile(two, along)), 0.0));
+    both += cut;
+    moment += along * cut;
+    round_drop += section(1.0 - at * at);
+  }
+  two.height = round_drop / max(both * half_length, 1e-6);
+  two.balance = moment / max(both, 1e-6);
+  return two;
+}
+
 // The height that a drop gives to a texel.
 fn contribution(drop: Drop, texel: vec2i) -> f32 {
   let root = pow(max(drop.mass, 0.0), 1.0 / 3.0);
@@ -49,10 +110,14 @@ fn contribution(drop: Drop, texel: vec2i) -> f32 {
   let height = u.height_scale * root * (share * share);
   let to = vec2f(texel) + 0.5 - drop.position * u.size;
   let plane = vec2f(u.frame.x * to.x + u.frame.y * to.y, u.frame.z * to.y);
+  let neck = neck_of(drop.id);
+  var two: Two;
+  if (neck.left > 0.0) { two = two_of(neck); }
   if (u.longer != 0.0 || u.taper != 0.0 || u.skew != 0.0) {
     let pull = root * root * u.gravity + root * u.wind;
     let size = length(pull);
-    let load = min(size, 1.0);
+    var load = min(size, 1.0);
+    if (neck.left > 0.0) { load = load * (1.0 - neck.left); }
     let way = select(vec2f(1.0, 0.0), pull * (1.0 / max(size, 1e-6)), size > 1e-6);
     let stretched = 1.0 + u.longer * load;
     let taper = u.taper * load;
@@ -60,8 +125,19 @@ fn contribution(drop: Drop, texel: vec2i) -> f32 {
     let inverse = 1.0 / radius;
     let a = (way.x * plane.x + way.y * plane.y) * (inverse / stretched);
     let b = ((way.x * plane.y - way.y * plane.x) * inverse) / max(1.0 + taper * a, 0.0625);
-    let kept = height / (stretched * (1.0 + (taper * skew) * u.moment));
-    return (kept * max(1.0 + skew * a, 0.0)) * profile(a * a + b * b);
+    let even = 1.0 + (taper * skew) * u.moment;
+    var kept = height / (stretched * even);
+    var q_sq = a * a + b * b;
+    if (neck.left > 0.0) {
+      let turned = vec2f(dot(two.way, way), two.way.y * way.x - two.way.x * way.y);
+      kept = kept * two.height * (even / max(even + (taper + skew) * (turned.x * two.balance), 0.25));
+      q_sq = max(q_sq + neck_profile(two, turned.x * a + turned.y * b), 0.0);
+    }
+    return (kept * max(1.0 + skew * a, 0.0)) * profile(q_sq);
+  }
+  if (neck.left > 0.0) {
+    let place_in = plane * (1.0 / radius);
+    return height * two.height * profile(max(dot(place_in, place_in) + neck_profile(two, dot(two.way, place_in)), 0.0));
   }
   return height * profile((plane.x * plane.x + plane.y * plane.y) * (1.0 / (radius * radius)));
 }

@@ -1,5 +1,14 @@
 // windshield.splat, corrected. The height of the water: every live drop, in slot order, on the film.
 @group(0) @binding(2) var film: texture_2d<f32>;
+@group(0) @binding(3) var<storage, read> necks: array<Neck>;
+
+// A list without records is bound as one of zeros, of which nothing is left.
+fn neck_of(id: u32) -> Neck {
+  for (var i = 0u; i < arrayLength(&necks); i++) {
+    if (necks[i].id == id) { return necks[i]; }
+  }
+  return no_neck(id);
+}
 
 fn quanta(at: vec2i) -> f32 {
   let last = vec2i(textureDimensions(film)) - 1;

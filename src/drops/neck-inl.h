@@ -1,0 +1,35 @@
+// A neck as the passes compute with it. Text, for every number; after drop-inl.h, before the passes that need it.
+
+/// The floats of the record Neck, in its order.
+template <class N>
+struct NeckState {
+  N offset_x, offset_y, share, left;
+  RAINREF_FN NeckState() {}
+  template <class Neck, class F>
+  static RAINREF_FN void each(Neck& n, const F& f) {
+    f(n.offset_x);
+    f(n.offset_y);
+    f(n.share);
+    f(n.left);
+  }
+};
+template <class N>
+RAINREF_FN NeckState<N> loaded_neck(const float* offset, const float& share, const float& left) {
+  NeckState<N> n;
+  n.offset_x = N::load(offset);
+  n.offset_y = N::load(offset + 1);
+  n.share = N::load(&share);
+  n.left = N::load(&left);
+  return n;
+}
+/// Radii of the two footprints over that of their drop: as they were where left is 1; both grow until the larger is the drop.
+template <class N>
+struct Footprints {
+  N larger, smaller;
+};
+template <class N>
+RAINREF_FN Footprints<N> footprints(N share, N left) {
+  const N larger = cube_root(max(N(1.0f) - share, N(0.125f))), smaller = cube_root(max(share, N(0.0f)));
+  const N swollen = mix(N(1.0f) / larger, N(1.0f), left);
+  return {larger * swollen, smaller * swollen};
+}
