@@ -47,7 +47,8 @@ class CaseJudge {
     for (CaseJudgement& j : whole)
       for (OutputJudgement& o : j.outputs) o.map.assign(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
     options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
-      Scratch scratch(SecondTier(slots_, model_, *options_.profile));
+      Scratch scratch(SecondTier(slots_, model_, *options_.profile),
+                      SecondTier(slots_, model_, options_.typical ? *options_.typical : *options_.profile));
       for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x) invocation(x, y, scratch, parts[static_cast<std::size_t>(tile.y0 / rows)], whole);
     });
@@ -71,10 +72,10 @@ class CaseJudge {
     Alternatives alternatives, others;
     Stored stored;
     std::vector<CodeRange> ranges, nearest, other_ranges;
-    std::vector<char> vacuous;  ///< of each value
-    SecondTier second;
+    std::vector<char> vacuous;        ///< of each value
+    SecondTier second, other_second;  ///< by the profile, and by what real devices do
 
-    explicit Scratch(const SecondTier& tier) : second(tier) {}
+    Scratch(const SecondTier& tier, const SecondTier& other) : second(tier), other_second(other) {}
   };
 
   Part empty_part() const {
@@ -256,9 +257,11 @@ class CaseJudge {
     for (const std::int64_t code : s.stored.expected) s.ranges.push_back({code, code});
   }
 
-  /// What the profile leaves without a useful bound is held to what real devices do; what it bounds only warns by it.
+  /// What the profile leaves without a useful bound is held to what real devices do with the formula as written; what it bounds only warns
+  /// by it, where they do not come to it by a rearrangement that the profile allows either.
   void check_typical(int x, int y, Scratch& s, HalfMode mode, CaseJudgement& counts, CaseJudgement& whole) const {
     int best = -1;
+    bool is_rearranged = false;
     if (options_.typical) {
       s.others.run(model_, x, y, s.stored.got_values.data(), as_stored(*options_.typical, mode));
       std::size_t fewest = slots_.size() + 1;
@@ -271,13 +274,20 @@ class CaseJudge {
         best = a;
       }
     }
-    if (best >= 0) code_ranges(slots_, s.others.values[static_cast<std::size_t>(best)], *options_.typical, mode, s.other_ranges);
+    if (best >= 0) {
+      code_ranges(slots_, s.others.values[static_cast<std::size_t>(best)], *options_.typical, mode, s.other_ranges);
+      bool is_outside = false;
+      for (std::size_t v = 0; v < slots_.size(); ++v)
+        is_outside |= !s.stored.free[v] && !s.vacuous[v] && !s.other_ranges[v].contains(s.stored.got[v]);
+      is_rearranged =
+          is_outside && s.second.exists() && s.other_second.accepts(options_.profile->rearrangement, x, y, s.stored, s.other_ranges, mode);
+    }
     for (std::size_t v = 0; v < slots_.size(); ++v) {
       if (s.stored.free[v]) continue;
       OutputJudgement& out = counts.outputs[static_cast<std::size_t>(slots_[v].output)];
       const bool is_bounded =
           best >= 0 && !bound_of(slots_[v], s.others.values[static_cast<std::size_t>(best)][v], s.other_ranges[v]).vacuous;
-      if (best >= 0 && !s.other_ranges[v].contains(s.stored.got[v])) {
+      if (best >= 0 && !s.other_ranges[v].contains(s.stored.got[v]) && (s.vacuous[v] || !is_rearranged)) {
         ++out.atypical;
         mark(whole, slots_[v].output, x, y, 2);
       } else if (s.vacuous[v]) {
