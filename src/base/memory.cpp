@@ -9,12 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "base/process_memory.h"
 #include "rainref/error.h"
 
 namespace rainref {
 namespace {
-
-std::uint64_t page() { return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
 
 /// The number that a file begins with; none where there is no such file, or a word like "max".
 std::optional<std::uint64_t> number_in(const std::filesystem::path& file) {
@@ -59,26 +58,17 @@ void lower_by_groups(MemoryLimit& least, const std::filesystem::path& root) {
   }
 }
 
-struct Pages {
-  std::uint64_t size = 0, resident = 0, data = 0;
-};
-Pages pages() {
-  Pages p;
-  std::uint64_t skipped = 0;
-  std::ifstream("/proc/self/statm") >> p.size >> p.resident >> skipped >> skipped >> skipped >> p.data;
-  return p;
-}
-
 }  // namespace
 
 MemoryLimit memory_limit(const std::filesystem::path& root) {
-  MemoryLimit least{static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * page(), "this machine has"};
+  MemoryLimit least{static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)),
+                    "this machine has"};
   lower_by_groups(least, root);
-  const Pages p = pages();
+  const ProcessMemory p = process_memory();
   const auto lower_by_resource = [&](auto resource, std::uint64_t taken, const char* owner) {
     rlimit limit{};
     if (::getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
-    const std::uint64_t reserved = taken > p.resident ? (taken - p.resident) * page() : 0;
+    const std::uint64_t reserved = taken > p.resident ? taken - p.resident : 0;
     lower(least, limit.rlim_cur > reserved ? limit.rlim_cur - reserved : 0, owner);
   };
   lower_by_resource(RLIMIT_AS, p.size, "the limit RLIMIT_AS (ulimit -v) allows");
@@ -86,7 +76,7 @@ MemoryLimit memory_limit(const std::filesystem::path& root) {
   return least;
 }
 
-std::uint64_t resident_memory() { return pages().resident * page(); }
+std::uint64_t resident_memory() { return process_memory().resident; }
 
 void require_memory(std::string_view subject, std::uint64_t bytes) {
   const std::uint64_t need = bytes + resident_memory();

@@ -186,7 +186,7 @@ TEST(Layers, SeamsHaveSeveralFiles) {
     EXPECT_TRUE(fs::exists(file)) << line;
     ++files[match[1]];
   }
-  EXPECT_EQ(files.size(), 8u);
+  EXPECT_EQ(files.size(), 9u);
   for (const auto& [stem, count] : files) EXPECT_GE(count, 2) << stem;
 }
 
