@@ -5,12 +5,16 @@
 #include <vector>
 
 #include "capture/pass_model.h"
+#include "drops/records.h"
 
 namespace rainref::drops {
 
 /// Allows more than every profile: what is settled under it is settled under each of them. Groups of drops that share
 /// decisions are found by it.
 const enclosed::Profile& loosest_profile();
+
+/// Of two drops that touch the larger takes the other: by mass, of equal ones that of lower id.
+inline bool is_larger(const Drop& a, const Drop& b) { return a.mass != b.mass ? a.mass > b.mass : a.id < b.id; }
 
 std::unique_ptr<capture::PassModel> bind_merge(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_necks(const capture::PassCase& c);

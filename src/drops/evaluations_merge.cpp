@@ -31,8 +31,6 @@ double mass_of(const scalar::DropState<N>& d) {
 }
 double mass_of(const State& d) { return d.mass.lo; }
 
-bool is_larger(const Drop& a, const Drop& b) { return a.mass != b.mass ? a.mass > b.mass : a.id < b.id; }
-
 /// Whole numbers between which a whole number lies.
 struct MassRange {
   std::int64_t least = 0, most = 0;

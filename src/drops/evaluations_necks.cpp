@@ -16,8 +16,6 @@ using enclosed::Enclosure;
 using perturbed::Perturbed;
 using Number = scalar::Scalar<float>;
 
-bool is_larger_drop(const Drop& a, const Drop& b) { return a.mass != b.mass ? a.mass > b.mass : a.id < b.id; }
-
 class NecksOfDrops : public capture::KeyedModel {
  public:
   explicit NecksOfDrops(pass::Inputs<NecksPass> in) : u_(in.uniforms), drops_(std::move(in.captured.drops.records)) {
@@ -52,7 +50,7 @@ class NecksOfDrops : public capture::KeyedModel {
   std::optional<std::size_t> larger_of(std::size_t i, const Places& others) const {
     std::optional<std::size_t> to;
     for (const std::size_t k : others)
-      if (k != i && is_larger_drop(drops_[k], drops_[i]) && (!to || is_larger_drop(drops_[k], drops_[*to])) && touching<N>(i, k)) to = k;
+      if (k != i && is_larger(drops_[k], drops_[i]) && (!to || is_larger(drops_[k], drops_[*to])) && touching<N>(i, k)) to = k;
     return to;
   }
   template <class N>
@@ -64,7 +62,7 @@ class NecksOfDrops : public capture::KeyedModel {
       neck = scalar::receded(u_, pass::loaded<State<N>>(own->second), state_of<N>(d));
     std::optional<std::size_t> taken;
     for (const std::size_t k : others) {
-      if (k == i || !is_larger_drop(d, drops_[k]) || (taken && is_larger_drop(drops_[*taken], drops_[k])) || !touching<N>(i, k)) continue;
+      if (k == i || !is_larger(d, drops_[k]) || (taken && is_larger(drops_[*taken], drops_[k])) || !touching<N>(i, k)) continue;
       if (larger_of<N>(k, others == all_ ? all_ : near_[k]) == i) taken = k;
     }
     if (!taken) return neck;

@@ -14,7 +14,7 @@ namespace {
 using windshield::Wiper;
 using windshield::WipeTextureUniforms;
 
-/// The pass's text in float, but for the blade: a compiler made one product of outer axis - inner axis.
+/// A device of its own: the document's formula in float, the blade's two products made one, (outer - inner) axis, as a compiler may.
 float time_since_wipe(const WipeTextureUniforms& u, const Wiper& w, float wiped, int x, int y) {
   const float column = static_cast<float>(x) + 0.5f, row = static_cast<float>(y) + 0.5f;
   const float px = (u.frame[0] * column + u.frame[1] * row) - w.pivot[0], py = u.frame[2] * row - w.pivot[1];
@@ -74,7 +74,7 @@ TEST(Typical, WhatARearrangementGivesIsWhatDevicesDoWhereItIsAllowed) {
   const PassJudgement allowed = judged("vulkan"), forbidden = judged("cuda");
   EXPECT_EQ(allowed.status, Status::pass) << allowed.reason;
   EXPECT_EQ(atypical(allowed), 0);
-  // The profile's own bounds hold it: its divisions are coarser.
+  // CUDA lets no compiler do so.
   EXPECT_NE(forbidden.status, Status::pass);
 }
 
