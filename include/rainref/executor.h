@@ -14,7 +14,7 @@ struct Tile {
 
 /// Which thread takes a piece of work; no result depends on it.
 enum class Placement : std::uint8_t {
-  any_thread,   ///< whoever is free: where pieces differ in cost
+  any_thread,   ///< its neighbours' one, or whoever is free: where pieces differ in cost
   same_thread,  ///< the same as in other loops of as many pieces, while no other work disturbs: its caches hold what it wrote there
 };
 
@@ -37,7 +37,7 @@ class Executor {
   /// left. Rethrows the first exception of a body. body must write only what its tile owns.
   void for_tiles(int width, int height, int tile_width, int tile_height, const std::function<void(const Tile&)>& body,
                  Placement placement = Placement::any_thread) const;
-  /// Runs body(i) for i in [0, count), in chunks of `chunk` consecutive indices.
+  /// Runs body(i) for i in [0, count), in chunks of `chunk` consecutive indices. Throws Error(internal) for more than 2^31 chunks.
   void for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t begin, std::int64_t end)>& body,
                  Placement placement = Placement::any_thread) const;
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <tuple>
 
@@ -40,7 +41,33 @@ std::int64_t parts_of(const std::vector<std::vector<T>>& lists) {
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(count / least), 1, most_parts);
 }
 
-std::int64_t links_of_chunk(const MergeGrid& grid) { return std::min<std::int64_t>(1024, chunk_of(grid.count)); }
+/// Places [result[k], result[k + 1]) of the grid are part k's: in each about as many ends of chains, by counts of a sample in blocks of
+/// places. Drops crowd where a blade has pushed them.
+std::vector<std::int64_t> places_of_parts(const std::vector<std::vector<Member>>& lists, std::int64_t places, std::int64_t parts) {
+  constexpr std::size_t blocks = 1024, sampled = 8192;
+  int shift = 0;
+  while (static_cast<std::size_t>(places) >> shift > blocks) ++shift;
+  std::size_t members = 0;
+  for (const std::vector<Member>& list : lists) members += list.size();
+  const std::size_t step = members / sampled + 1;
+  std::array<std::int64_t, blocks + 1> in_block{};
+  std::int64_t counted = 0;
+  for (const std::vector<Member>& list : lists) {
+    for (std::size_t i = 0; i < list.size(); i += step, ++counted) ++in_block[list[i].root >> shift];
+  }
+  std::vector<std::int64_t> first{0};
+  std::int64_t before = 0;
+  for (std::size_t block = 0; block < blocks && static_cast<std::int64_t>(first.size()) < parts; ++block) {
+    before += in_block[block];
+    const auto after_block = static_cast<std::int64_t>(block + 1) << shift;
+    if (before * parts >= counted * static_cast<std::int64_t>(first.size())) first.push_back(std::min(after_block, places));
+  }
+  first.resize(static_cast<std::size_t>(parts), places);
+  first.push_back(places);
+  return first;
+}
+
+std::int64_t links_of_chunk(const MergeGrid& grid) { return std::min<std::int64_t>(256, chunk_of(grid.count)); }
 
 /// Drops that end, all of theirs that end in the same one among them, into those in which they end. How many did.
 std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropArrays& drops) {
@@ -174,9 +201,10 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
   });
   // Each part takes those whose chains end in its share of the grid; looking through all of them costs less than sorting them.
   const std::int64_t parts = parts_of(of_chunk);
+  const std::vector<std::int64_t> places = places_of_parts(of_chunk, grid.count, parts);
   std::vector<std::int64_t> ended_in(static_cast<std::size_t>(parts), 0);
   executor.for_range(parts, 1, [&](std::int64_t part, std::int64_t) {
-    const std::int64_t first = grid.count * part / parts, last = grid.count * (part + 1) / parts;
+    const std::int64_t first = places[static_cast<std::size_t>(part)], last = places[static_cast<std::size_t>(part) + 1];
     std::vector<Member> members;
     for (const std::vector<Member>& some : of_chunk) {
       for (const Member& m : some)

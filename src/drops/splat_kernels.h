@@ -29,7 +29,7 @@ struct NeckRecord {
 };
 /// Bands of rows cut the texture by its height alone.
 struct Bands {
-  static constexpr int most = 32;
+  static constexpr int most = 64;
   int rows, count;
 };
 Bands splat_bands(int height);
@@ -43,7 +43,7 @@ struct StampChunk {
   std::vector<NeckRecord> necks;
   std::array<std::uint32_t, Bands::most + 1> first;  ///< stamps [first[b], first[b + 1]) reach band b
 };
-constexpr int drops_of_chunk = 2048;
+constexpr int drops_of_chunk = 512;
 /// Stamps of at most drops_of_chunk drops.
 void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, std::span<const Neck> necks, StampChunk& out);
 

@@ -28,7 +28,8 @@ void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::func
                          Placement placement) const {
   if (count <= 0) return;
   const FloatingPointGuard caller;
-  const std::int64_t chunks = (count + chunk - 1) / chunk;
+  const std::int64_t chunks = (count - 1) / chunk + 1;
+  if (chunks > Pool::most_pieces) throw Error(ExitCode::internal, fmt::format("a loop of {} pieces: at most 2^31 are handed out", chunks));
   std::vector<std::int64_t> order;
   if (shuffle_seed_ != 0) {
     order.resize(static_cast<std::size_t>(chunks));
@@ -42,7 +43,7 @@ void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::func
   const auto run_chunk = [&](std::int64_t i) {
     const std::int64_t index = order.empty() ? i : order[static_cast<std::size_t>(i)];
     const FloatingPointGuard guard;
-    body(index * chunk, std::min(count, (index + 1) * chunk));
+    body(index * chunk, index * chunk + std::min(chunk, count - index * chunk));
   };
   pool_->run(chunks, run_chunk, placement);
 }

@@ -32,7 +32,7 @@ namespace {
 
 using capture::Stopwatch;
 
-constexpr int wave_tile_rows = 32, picture_tile_rows = 2;
+constexpr int wave_tile_rows = 32, picture_tile_rows = 2, picture_tile_columns = 256;
 
 Format channel_format(Format storage) {
   switch (storage) {
@@ -330,7 +330,7 @@ void Puddle::render(Recorder* recorder) {
   pass::Run<DisplayPass> display(of_display, corrected, rounding, at_display);
 
   // These passes read no neighbours, so that a tile goes through all of them while it lies in the cache.
-  s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& tile) {
+  s.executor.for_tiles(s.settings.width, s.settings.height, picture_tile_columns, picture_tile_rows, [&](const parallel::Tile& tile) {
     surface_hit.tile(tile);
     if (ground_noise) ground_noise->tile(tile);
     if (s.is_moderate)

@@ -46,7 +46,12 @@ class Blocks {
   }
 
  private:
-  int first_row(int band) const { return static_cast<int>(static_cast<std::int64_t>(height_) * band / bands_); }
+  /// A band that ends at a wall is not narrower there in later steps; it begins narrower by as much, so that each has as many rows to make.
+  int first_row(int band) const {
+    if (band == 0 || band == bands_) return band == 0 ? 0 : height_;
+    const int less = wraps_ ? 0 : std::min((steps_ - 1) * reach_ / 2, height_ / bands_ / 2);
+    return static_cast<int>(static_cast<std::int64_t>(height_ + 2 * less) * band / bands_) - less;
+  }
   /// Rows [y0, y1) of a step; negative ones stand at the upper end of a wave that wraps.
   void rows(int step, int y0, int y1) const {
     if (y0 < 0) {

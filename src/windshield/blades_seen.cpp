@@ -122,7 +122,7 @@ void draw_blades(std::span<const SeenBlade> blades, const std::array<double, 2>&
   for (const SeenBlade& b : blades)
     for (const bool is_arm : {false, true}) parts.push_back({&b, is_arm, outline_of(b, is_arm, step_y)});
   const auto column_of = [&](double x) { return static_cast<int>((std::clamp(x, -half_size[0], half_size[0]) + half_size[0]) / step_x); };
-  executor.for_tiles(width, height, width, 8, [&](const parallel::Tile& tile) {
+  executor.for_tiles(width, height, width, 2, [&](const parallel::Tile& tile) {
     std::vector<Cover> covers(static_cast<std::size_t>(width));
     for (int row = tile.y0; row < tile.y1; ++row) {
       const double y = (row + 0.5) * step_y - half_size[1];

@@ -44,34 +44,25 @@ void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const pas
   }
 }
 
-void WipeFilmRows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
-                  std::uint64_t* mass_units) {
+void WipeFilmRow(const WipeDropsUniforms& uniforms, const Wiper* wipers, Image& film, int y, int x0, int x1, std::uint64_t* mass_units) {
   const int n = Lanes::size();
   HWY_ALIGN float held[lane_room], swept_by[lane_room], swept_in[lane_room];
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    int x0 = film.width(), x1 = 0;
-    for (int i = 0; i < uniforms.wiper_count; ++i) {
-      if (y < boxes[i].y0 || y >= boxes[i].y1) continue;
-      x0 = std::min(x0, boxes[i].x0);
-      x1 = std::max(x1, boxes[i].x1);
+  float* row = film.row<float>(y);
+  for (int x = x0; x < x1; x += n) {
+    const int count = std::min(n, x1 - x);
+    const SweptTexel<Lanes> swept = swept_texel<Lanes>(uniforms, wipers, x, y);
+    const auto is_swept = swept.wiper >= Lanes(0.0f);
+    if (!any(is_swept)) continue;
+    const Lanes here = Lanes::load(row + x);
+    hn::Store(here.v, Lanes::D(), held);
+    hn::Store(swept.wiper.v, Lanes::D(), swept_by);
+    hn::Store(swept.bin.v, Lanes::D(), swept_in);
+    for (int k = 0; k < count; ++k) {
+      if (swept_by[k] < 0 || held[k] <= 0) continue;
+      const int bin = static_cast<int>(swept_by[k]) * uniforms.bin_count + static_cast<int>(swept_in[k]);
+      mass_units[bin] += static_cast<std::uint64_t>(held[k]);
     }
-    float* row = film.row<float>(y);
-    for (int x = x0; x < x1; x += n) {
-      const int count = std::min(n, x1 - x);
-      const SweptTexel<Lanes> swept = swept_texel<Lanes>(uniforms, wipers, x, y);
-      const auto is_swept = swept.wiper >= Lanes(0.0f);
-      if (!any(is_swept)) continue;
-      const Lanes here = Lanes::load(row + x);
-      hn::Store(here.v, Lanes::D(), held);
-      hn::Store(swept.wiper.v, Lanes::D(), swept_by);
-      hn::Store(swept.bin.v, Lanes::D(), swept_in);
-      for (int k = 0; k < count; ++k) {
-        if (swept_by[k] < 0 || held[k] <= 0) continue;
-        const int bin = static_cast<int>(swept_by[k]) * uniforms.bin_count + static_cast<int>(swept_in[k]);
-        mass_units[bin] += static_cast<std::uint64_t>(held[k]);
-      }
-      store(row + x, select(is_swept, Lanes(0.0f), here), Rounding::rne, count);
-    }
+    store(row + x, select(is_swept, Lanes(0.0f), here), Rounding::rne, count);
   }
 }
 RAINREF_TARGET_END(windshield)
@@ -81,7 +72,7 @@ namespace rainref::windshield {
 
 RAINREF_EXPORT(WindshieldFrame);
 RAINREF_EXPORT(WipeDropsRange);
-RAINREF_EXPORT(WipeFilmRows);
+RAINREF_EXPORT(WipeFilmRow);
 
 drops::GlassFrame windshield_frame(const WindshieldFrameUniforms& uniforms, bool corrected) {
   drops::GlassFrame out{};
@@ -92,9 +83,8 @@ void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const p
                       std::int64_t begin, std::int64_t end) {
   RAINREF_DISPATCH(WipeDropsRange)(uniforms, corrected, io, wiper, bin, begin, end);
 }
-void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
-                    std::uint64_t* mass_units) {
-  RAINREF_DISPATCH(WipeFilmRows)(uniforms, wipers, boxes, film, tile, mass_units);
+void wipe_film_row(const WipeDropsUniforms& uniforms, const Wiper* wipers, Image& film, int y, int x0, int x1, std::uint64_t* mass_units) {
+  RAINREF_DISPATCH(WipeFilmRow)(uniforms, wipers, film, y, x0, x1, mass_units);
 }
 
 }  // namespace rainref::windshield

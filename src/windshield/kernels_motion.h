@@ -30,9 +30,7 @@ void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const p
 struct TexelBox {
   int x0, y0, x1, y1;
 };
-/// corrected: sets the swept texels of the tile's rows to 0 and adds what they held to mass_units[wiper * bin_count + bin].
-/// boxes: one for each record.
-void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
-                    std::uint64_t* mass_units);
+/// corrected: sets what is swept of the texels [x0, x1) of row y to 0 and adds what they held to mass_units[wiper * bin_count + bin].
+void wipe_film_row(const WipeDropsUniforms& uniforms, const Wiper* wipers, Image& film, int y, int x0, int x1, std::uint64_t* mass_units);
 
 }  // namespace rainref::windshield

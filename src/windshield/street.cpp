@@ -121,7 +121,7 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   u.behind_by = static_cast<float>(gone);
   u.ahead_by = static_cast<float>(&ahead == &behind ? gone : gone - s.apart());
   u.share = &ahead == &behind ? 0.0f : static_cast<float>(gone / s.apart());
-  s.executor.for_tiles(s.width, s.height, s.width, 8, [&](const parallel::Tile& tile) { reproject_rows(u, behind, ahead, view, tile); });
+  s.executor.for_tiles(s.width, s.height, s.width, 2, [&](const parallel::Tile& tile) { reproject_rows(u, behind, ahead, view, tile); });
   return true;
 }
 

@@ -15,11 +15,13 @@ namespace {
 
 double steps_per_second(const Settings& s) { return s.fps * s.substeps; }
 
+constexpr int composite_rows = 2;  // of a tile: where there is water a row costs several times one without
+
 /// All of its texels; before: seconds that the host spent on it.
 template <class P>
-void draw_all(pass::Run<P> pass, const pass::Moment& now, const parallel::Executor& executor, double before = 0) {
+void draw_all(pass::Run<P> pass, const pass::Moment& now, const parallel::Executor& executor, double before = 0, int rows = tile_rows) {
   pass.start(now);
-  pass.tiles(executor, tile_rows);
+  pass.tiles(executor, rows);
   pass.finish(now, 1, before);
 }
 
@@ -229,7 +231,7 @@ void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTextur
   seen.mask = mask_;
   seen.glints = lights;
   seen.colour = colour;
-  draw_all(pass::Run<CompositePass>(view_, corrected_, settings_.surface.rounding, seen), now, executor_, before);
+  draw_all(pass::Run<CompositePass>(view_, corrected_, settings_.surface.rounding, seen), now, executor_, before, composite_rows);
 }
 
 void WetPane::soften(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,

@@ -8,7 +8,7 @@ namespace rainref::windshield {
 namespace {
 
 constexpr std::int64_t drops_to_a_chunk = 1024;
-constexpr int rows_to_a_tile = 16;
+constexpr int rows_to_a_tile = 4;
 constexpr auto largest_mass = static_cast<std::uint64_t>(drops::most_mass);
 
 /// Of a chunk of drops: those that ride on a blade, and the mass units that left the glass.
@@ -20,44 +20,99 @@ struct Met {
   std::uint64_t removed = 0;
 };
 
+// The ends of the blade before and after, widened by half_width and by how far the arc bulges over its chord; in texels of the film.
+struct SweptArea {
+  double corners[4][2], margin[2];
+};
+SweptArea swept_area(const Wiper& w, const WipeDropsUniforms& u) {
+  const double cosine = static_cast<double>(w.previous_axis[0]) * w.axis[0] + static_cast<double>(w.previous_axis[1]) * w.axis[1];
+  const double bulge = w.outer_radius * (1 - __builtin_sqrt(std::max(0.0, 0.5 * (1 + cosine))));
+  const double margin = w.half_width + bulge;
+  const auto magnitude = [](double x) { return x < 0 ? -x : x; };
+  const double reach[2] = {margin * (magnitude(u.inverse_frame[0]) + magnitude(u.inverse_frame[1])),
+                           margin * magnitude(u.inverse_frame[2])};
+  SweptArea area{};
+  for (int axis = 0; axis < 2; ++axis) {
+    const double texel = u.texel[axis];
+    const double at[4] = {w.previous_inner[axis], w.previous_outer[axis], w.inner[axis], w.outer[axis]};
+    for (int k = 0; k < 4; ++k) area.corners[k][axis] = at[k] / texel;
+    area.margin[axis] = reach[axis] / texel + 2;  // two texels more for rounding
+  }
+  return area;
+}
+
+struct Range {
+  int begin, end;
+};
+Range range_of(double low, double high, int size) {
+  const auto whole = [&](double x) { return static_cast<int>(std::clamp(x, -1.0, size + 1.0)); };
+  return {std::clamp(whole(low) - 1, 0, size), std::clamp(whole(high) + 1, 0, size)};
+}
+
+/// Columns outside of which nothing of the row is swept: those of the corners' convex hull within the margin of the row, which the lines
+/// between all corners span.
+Range columns_of(const SweptArea& area, int row, int width) {
+  const double low = row - area.margin[1], high = row + 1 + area.margin[1];
+  double first = 1e30, last = -1e30;
+  const auto take = [&](double x) {
+    first = std::min(first, x);
+    last = std::max(last, x);
+  };
+  for (int i = 0; i < 4; ++i) {
+    const double* from = area.corners[i];
+    if (from[1] >= low && from[1] <= high) take(from[0]);
+    for (int j = 0; j < i; ++j) {
+      const double* to = area.corners[j];
+      for (const double y : {low, high})
+        if ((from[1] < y) != (to[1] < y)) take(from[0] + (to[0] - from[0]) * (y - from[1]) / (to[1] - from[1]));
+    }
+  }
+  return first > last ? Range{0, 0} : range_of(first - area.margin[0], last + area.margin[0], width);
+}
+
 // Mass units by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
 std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
                                       const parallel::Executor& executor) {
-  std::vector<TexelBox> boxes;
-  for (const Wiper& w : wipers) boxes.push_back(swept_texels(w, u));
+  std::vector<SweptArea> areas;
+  for (const Wiper& w : wipers)
+    if (w.direction != 0) areas.push_back(swept_area(w, u));
   const std::size_t bins = wipers.size() * static_cast<std::size_t>(u.bin_count);
-  std::vector<std::vector<std::uint64_t>> by_tile(static_cast<std::size_t>((film.height() + rows_to_a_tile - 1) / rows_to_a_tile),
-                                                  std::vector<std::uint64_t>(bins));
+  std::vector<std::vector<std::uint64_t>> by_tile(static_cast<std::size_t>((film.height() + rows_to_a_tile - 1) / rows_to_a_tile));
   executor.for_tiles(film.width(), film.height(), film.width(), rows_to_a_tile, [&](const parallel::Tile& tile) {
-    wipe_film_rows(u, wipers.data(), boxes.data(), film, tile, by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)].data());
+    std::vector<std::uint64_t>& taken = by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)];
+    std::vector<Range> ranges;
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      ranges.clear();
+      for (const SweptArea& area : areas) ranges.push_back(columns_of(area, y, film.width()));
+      std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+      int done = 0;
+      for (const Range& r : ranges) {
+        const int begin = std::max(r.begin, done);
+        if (begin >= r.end) continue;
+        taken.resize(bins);
+        wipe_film_row(u, wipers.data(), film, y, begin, r.end, taken.data());
+        done = r.end;
+      }
+    }
   });
   std::vector<std::uint64_t> mass_units(bins);
-  for (const auto& tile : by_tile) {
-    for (std::size_t k = 0; k < bins; ++k) mass_units[k] += tile[k];
+  for (const std::vector<std::uint64_t>& tile : by_tile) {
+    for (std::size_t k = 0; k < tile.size(); ++k) mass_units[k] += tile[k];
   }
   return mass_units;
 }
 
 }  // namespace
 
-// The ends of the blade before and after, widened by half_width and by how far the arc bulges over its chord; one texel
-// more for rounding.
 TexelBox swept_texels(const Wiper& w, const WipeDropsUniforms& u) {
   if (w.direction == 0) return {0, 0, 0, 0};
-  const double cosine = static_cast<double>(w.previous_axis[0]) * w.axis[0] + static_cast<double>(w.previous_axis[1]) * w.axis[1];
-  const double bulge = w.outer_radius * (1 - __builtin_sqrt(std::max(0.0, 0.5 * (1 + cosine))));
-  const double margin = w.half_width + bulge;
-  const auto magnitude = [](double x) { return x < 0 ? -x : x; };
-  const auto range = [&](int axis, double reach, float texel, int size, int& from, int& to) {
-    const auto [low, high] = std::minmax({w.previous_inner[axis], w.previous_outer[axis], w.inner[axis], w.outer[axis]});
-    const auto texels = [&](double x) { return static_cast<int>(std::clamp(x / texel, -2.0, size + 2.0)); };
-    from = std::clamp(texels(low - reach) - 2, 0, size);
-    to = std::clamp(texels(high + reach) + 2, 0, size);
+  const SweptArea area = swept_area(w, u);
+  const auto range = [&](int axis, int size) {
+    const auto [low, high] = std::minmax({area.corners[0][axis], area.corners[1][axis], area.corners[2][axis], area.corners[3][axis]});
+    return range_of(low - area.margin[axis], high + area.margin[axis], size);
   };
-  TexelBox box{};
-  range(0, margin * (magnitude(u.inverse_frame[0]) + magnitude(u.inverse_frame[1])), u.texel[0], u.columns, box.x0, box.x1);
-  range(1, margin * magnitude(u.inverse_frame[2]), u.texel[1], u.rows, box.y0, box.y1);
-  return box;
+  const Range x = range(0, u.columns), y = range(1, u.rows);
+  return {x.begin, y.begin, x.end, y.end};
 }
 
 std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<const Wiper> wipers, const DropSpans& drops, Image* film,

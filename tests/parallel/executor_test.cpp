@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <limits>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -21,21 +23,53 @@ constexpr int thread_counts[] = {1, 2, 3, 8};
 TEST(Executor, EveryIndexIsVisitedOnceInChunksOfTheSizeGiven) {
   for (const int threads : thread_counts) {
     const Executor executor(threads);
+    const auto check = [&](std::int64_t count, std::int64_t chunk, Placement placement) {
+      std::vector<std::atomic<int>> visits(static_cast<std::size_t>(count));
+      std::atomic<int> calls = 0, wrong = 0;
+      executor.for_range(
+          count, chunk,
+          [&](std::int64_t begin, std::int64_t end) {
+            ++calls;
+            wrong += begin % chunk != 0 || end != std::min(count, begin + chunk);
+            for (std::int64_t i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
+          },
+          placement);
+      ASSERT_EQ(calls, (count + chunk - 1) / chunk);
+      ASSERT_EQ(wrong, 0);
+      for (const auto& v : visits) ASSERT_EQ(v, 1) << threads << " threads, " << count << " by " << chunk;
+    };
     for (const std::int64_t count : {0, 1, 2, 7, 16, 17, 1000}) {
       for (const std::int64_t chunk : {1, 2, 3, 16, 1000, 5000}) {
-        std::vector<std::atomic<int>> visits(static_cast<std::size_t>(count));
-        std::atomic<int> calls = 0, wrong = 0;
-        executor.for_range(count, chunk, [&](std::int64_t begin, std::int64_t end) {
-          ++calls;
-          wrong += begin % chunk != 0 || end != std::min(count, begin + chunk);
-          for (std::int64_t i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
-        });
-        ASSERT_EQ(calls, (count + chunk - 1) / chunk);
-        ASSERT_EQ(wrong, 0);
-        for (const auto& v : visits) ASSERT_EQ(v, 1) << threads << " threads, " << count << " by " << chunk;
+        for (const Placement placement : {Placement::any_thread, Placement::same_thread}) check(count, chunk, placement);
       }
     }
   }
+}
+
+// Each piece in turn waits for all others: whosever share it is in, others must take what comes after it.
+TEST(Executor, NoPieceWaitsBehindALongOne) {
+  const Executor executor(2);
+  constexpr std::int64_t count = 7;
+  for (std::int64_t slow = 0; slow < count; ++slow) {
+    std::atomic<std::int64_t> done = 0;
+    std::atomic<bool> too_late = false;
+    executor.for_range(count, 1, [&](std::int64_t i, std::int64_t) {
+      const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+      while (i == slow && done < count - 1 && !too_late) {
+        if (std::chrono::steady_clock::now() > until) too_late = true;
+        std::this_thread::yield();
+      }
+      ++done;
+    });
+    ASSERT_FALSE(too_late) << slow;
+  }
+}
+
+TEST(Executor, RefusesMorePiecesThanItCanHandOut) {
+  EXPECT_THROW(Executor(2).for_range((std::int64_t{1} << 31) + 1, 1, [](std::int64_t, std::int64_t) {}), Error);
+  int calls = 0;
+  Executor(1).for_range(std::numeric_limits<std::int64_t>::max(), std::int64_t{1} << 62, [&](std::int64_t, std::int64_t) { ++calls; });
+  EXPECT_EQ(calls, 2);
 }
 
 TEST(Executor, ANegativeCountIsNothing) {
