@@ -14,11 +14,22 @@ requires(std::same_as<N, Lanes>) RAINREF_FN bool is_uniform(const T& t, const ty
 struct WordPair {
   hn::Vec<Lanes::DI> first, second;
 };
+/// Offsets of the lanes, below 2^32, one by one. Two of them leave the vector as one word, and without a sign nothing extends it.
+struct ByteOffsets {
+  HWY_ALIGN std::uint64_t two[HWY_MAX_BYTES / sizeof(std::uint64_t)];
+  HWY_INLINE HWY_ATTR explicit ByteOffsets(hn::Vec<Lanes::DI> bytes) {
+    const hn::Repartition<std::uint64_t, Lanes::DI> d;
+    hn::Store(hn::BitCast(d, bytes), d, two);
+  }
+  HWY_INLINE HWY_ATTR std::size_t operator[](int lane) const {
+    const std::uint64_t both = two[lane / 2];
+    return lane % 2 == 0 ? static_cast<std::uint32_t>(both) : both >> 32;
+  }
+};
 /// Two neighbouring 32-bit words from each byte offset on: loads of 8 bytes, because some processors gather more slowly.
 RAINREF_FN WordPair gather_words(const void* from, hn::Vec<Lanes::DI> bytes) {
   const Lanes::DI d;
-  HWY_ALIGN std::int32_t at[HWY_MAX_BYTES / sizeof(std::int32_t)];
-  hn::Store(bytes, d, at);
+  const ByteOffsets at(bytes);
   const auto one = [&](int i) RAINREF_LAMBDA {
     return hn::LoadU(hn::Full64<std::int32_t>(), reinterpret_cast<const std::int32_t*>(static_cast<const char*>(from) + at[i]));
   };
@@ -58,8 +69,7 @@ struct FourWords {
 RAINREF_FN FourWords load_words(const void* from, hn::Vec<Lanes::DI> bytes) {
   const Lanes::DI d;
   const hn::Repartition<std::int64_t, Lanes::DI> pairs;
-  HWY_ALIGN std::int32_t at[HWY_MAX_BYTES / sizeof(std::int32_t)];
-  hn::Store(bytes, d, at);
+  const ByteOffsets at(bytes);
   const auto block = [&](int i) RAINREF_LAMBDA {
     return hn::LoadU(hn::Full128<std::int32_t>(), reinterpret_cast<const std::int32_t*>(static_cast<const char*>(from) + at[i]));
   };
