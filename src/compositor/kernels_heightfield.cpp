@@ -11,45 +11,13 @@ RAINREF_TARGET_BEGIN(compositor)
 
 /// + 0 makes the zero positive: targets disagree on the sign of floor(-0).
 HWY_INLINE Real64Lanes whole(Real64Lanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(Real64Lanes::D())); }
-#if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
-/// Places of the lanes, one by one; two of them leave the vector as one word.
-struct Places {
-  static constexpr int count = HWY_MAX_BYTES / sizeof(double);
-  HWY_ALIGN std::int64_t two[count / 2];
-  HWY_INLINE HWY_ATTR explicit Places(Real64Lanes index) {
-    const hn::Rebind<std::int32_t, Real64Lanes::D> di;
-    const hn::Repartition<std::int64_t, decltype(di)> d;
-    hn::Store(hn::BitCast(d, hn::DemoteTo(di, index.v)), d, two);
-  }
-  HWY_INLINE HWY_ATTR std::int64_t operator[](int lane) const {
-    return lane % 2 == 0 ? static_cast<std::int32_t>(two[lane / 2]) : two[lane / 2] >> 32;
-  }
-};
-#endif
-HWY_INLINE HWY_ATTR Real64Lanes gather(const float* p, Real64Lanes index) {
-#if HWY_TARGET <= HWY_AVX3
-  const Places at(index);
-  const auto one = [&](int i) HWY_ATTR { return hn::LoadU(hn::Full32<float>(), p + at[i]); };
-  const auto two = [&](int i) HWY_ATTR { return hn::Combine(hn::Full64<float>(), one(i + 1), one(i)); };
-  const auto four = [&](int i) HWY_ATTR { return hn::Combine(hn::Full128<float>(), two(i + 2), two(i)); };
-  return widen(hn::Combine(NarrowTag(), four(4), four(0)));
-#else
+HWY_INLINE Real64Lanes gather(const float* p, Real64Lanes index) {
   const hn::Rebind<std::int32_t, Real64Lanes::D> di;
   return widen(hn::GatherIndex(NarrowTag(), p, hn::DemoteTo(di, index.v)));
-#endif
 }
 /// p[i] and p[i + 1].
-HWY_INLINE HWY_ATTR void gather_two(const float* p, Real64Lanes index, Real64Lanes& a, Real64Lanes& b) {
-#if HWY_TARGET <= HWY_AVX3
-  const Places at(index);
-  const auto one = [&](int i) HWY_ATTR { return hn::LoadU(hn::Full64<float>(), p + at[i]); };
-  const auto two = [&](int i) HWY_ATTR { return hn::Combine(hn::Full128<float>(), one(i + 1), one(i)); };
-  const auto four = [&](int i) HWY_ATTR { return hn::Combine(hn::Full256<float>(), two(i + 2), two(i)); };
-  const hn::Full512<float> all;
-  const auto both = hn::Combine(all, four(4), four(0));
-  a = widen(hn::LowerHalf(NarrowTag(), hn::ConcatEven(all, both, both)));
-  b = widen(hn::LowerHalf(NarrowTag(), hn::ConcatOdd(all, both, both)));
-#elif HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
+HWY_INLINE void gather_two(const float* p, Real64Lanes index, Real64Lanes& a, Real64Lanes& b) {
+#if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
   const hn::RebindToSigned<Real64Lanes::D> di;
   const Real64Lanes::DU du;
   const hn::Rebind<std::uint32_t, Real64Lanes::D> narrow;
