@@ -22,7 +22,7 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr int wave_tile_rows = 32, picture_tile_rows = 8;  // as puddle.cpp cuts its work
+constexpr int wave_tile_rows = 32, picture_tile_rows = 2;  // as puddle.cpp cuts its work
 
 // The defaults of a scene, and these values.
 Settings settings(const std::string& variant, const std::vector<std::string>& values) {

@@ -10,7 +10,7 @@
 namespace rainref::screen_drops {
 namespace {
 
-constexpr int picture_tile_rows = 8;  // as screen_drops.cpp cuts its work
+constexpr int picture_tile_rows = 4;  // as screen_drops.cpp cuts its work
 
 void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, bool flows, int height,
              int threads) {

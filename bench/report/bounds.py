@@ -1,10 +1,12 @@
 """scripts/bench --bounds: what holds a row of one thread. A call of its kernel is stepped through, instruction by instruction, so that what is
 counted is what was executed, with any vectors; llvm-mca says which ports each instruction may take. The bound is the time that the busiest
-set of ports needs for all of them: no cache miss, no wrong branch, no wait for a result."""
+set of ports needs for all of them: no cache miss, no wrong branch, no wait for a result. Then the same instructions in their order go through
+llvm-mca's model of the pipeline, which waits for results, of ports and for room among the instructions that have begun."""
 import collections
 import ctypes
 import itertools
 import json
+import math
 import os
 import re
 import shutil
@@ -12,22 +14,22 @@ import signal
 import subprocess
 import tempfile
 
-STEPS = 150_000  # instructions of a call that are enough
-# Row of the bench, kernel (demangled, after the namespace of the target), elements of its unit in a round of its loop, in vectors of floats,
-# and the call that is stepped through: in the middle of the picture.
+STEPS, SIMULATED = 150_000, 60_000  # instructions that are enough: of a row whose rounds are alike; for the model of the pipeline
+# Row of the bench, kernel (demangled, after the namespace of the target), the calls that are stepped through, spread over the picture, whose parts
+# cost unlike amounts, and how many elements each makes; 0: a vector of floats for each round of its loop, so that the call need not end.
 ROWS = (
-    ("edge_splash.splash/as-published/1920x1080", r"rows_of<.*PublishedSplashPass,", 1, 67),
-    ("edge_splash.splash/corrected/1920x1080", r"rows_of<.*::SplashPass,", 1, 67),
-    ("composite/as-published/1920x1080", r"rows_of<.*CompositePass,.*false>", 1, 67),
-    ("composite/corrected/1920x1080", r"rows_of<.*CompositePass,.*true>", 1, 67),
-    ("integrate/corrected/100000", r"drops::\w+::IntegrateRange\(", 2, 3),
-    ("surface_hit/as-published/1280x720", r"published_hit_rows<\(rainref::Address\)0>", 2, 40),
-    ("shade/as-published/1280x720", r"rows_of<.*ShadePass,.*false>", 1, 40),
-    ("shade/corrected/1280x720", r"rows_of<.*ShadePass,.*true>", 1, 40),
-    ("rain_on_glass/as-published/pane/1080p", r"RainOnGlassPassRows", 1, 67),
-    ("rain_on_glass/corrected/pane/1080p", r"RainOnGlassPassRows", 1, 67),
-    ("screen_drops.drops/as-published/1080p", r"rows_of<.*PublishedDropsPass,", 1, 67),
-    ("screen_drops.drops/corrected/still/1080p", r"screen_drops::\w+::DropsPassRows", 1, 67),
+    ("edge_splash.splash/as-published/1920x1080", r"rows_of<.*PublishedSplashPass,", (67, 200), 0),
+    ("edge_splash.splash/corrected/1920x1080", r"rows_of<.*::SplashPass,", (67, 200), 0),
+    ("composite/as-published/1920x1080", r"rows_of<.*CompositePass,.*false>", (135, 270, 405), 0),
+    ("composite/corrected/1920x1080", r"rows_of<.*CompositePass,.*true>", (135, 270, 405), 0),
+    ("integrate/corrected/100000", r"drops::\w+::IntegrateRange\(", (3,), 2048),
+    ("surface_hit/as-published/1280x720", r"paired_hit_rows<false, \(rainref::Address\)0>", (400, 900, 1400), 512),
+    ("shade/as-published/1280x720", r"rows_of<.*ShadePass,.*false>", (400, 900, 1400), 512),
+    ("shade/corrected/1280x720", r"puddle::\w+::ShadeOrBackground\(", (400, 900, 1400), 512),
+    ("rain_on_glass/as-published/pane/1080p", r"rainy_glass::\w+::RainOnGlassPassRows\(", (67, 200), 0),
+    ("rain_on_glass/corrected/pane/1080p", r"rainy_glass::\w+::RainOnGlassPassRows\(", (67, 200), 7680),
+    ("screen_drops.drops/as-published/1080p", r"rows_of<.*PublishedDropsPass,", (50, 100, 150, 200), 0),
+    ("screen_drops.drops/corrected/still/1080p", r"screen_drops::\w+::DropsPassRows\(", (33, 101, 169, 237), 7680),
 )
 TARGETS = (("avx512f", "AVX3", 16, "icelake-server"), ("avx2", "AVX2", 8, "haswell"))
 TRACEME, PEEKTEXT, PEEKUSER, POKETEXT, POKEUSER, CONT, SINGLESTEP = 0, 1, 3, 4, 6, 7, 9
@@ -55,8 +57,8 @@ def wait_for_trap(pid):
         raise CannotStep("the program ended before the kernel was called so often")
 
 
-def stepped(program, row, entry, skipped):
-    """How often each address of the program was executed in one call of the function at `entry`, the one after `skipped` others."""
+def start(program, row):
+    """A process of the program that has not begun."""
     pid = os.fork()
     if pid == 0:
         libc.personality(0x0040000)  # the same addresses in every run
@@ -65,13 +67,36 @@ def stepped(program, row, entry, skipped):
         os.dup2(nothing, 1)
         os.dup2(nothing, 2)
         os.execv(program, [program, f"--benchmark_filter=^{row.replace('.', '[.]')}/threads:1/", "--benchmark_min_time=0.0000001"])
-    try:
+    wait_for_trap(pid)
+    return pid
+
+
+def run_to(pid, place, stack):
+    """Until the caller of the function whose return address lies at `stack` goes on."""
+    while True:
+        whole = ptrace(PEEKTEXT, pid, place)
+        ptrace(POKETEXT, pid, place, whole & ~0xff | 0xcc)
+        ptrace(CONT, pid)
         wait_for_trap(pid)
+        ptrace(POKETEXT, pid, place, whole)
+        ptrace(POKEUSER, pid, RIP, place)
+        if ptrace(PEEKUSER, pid, RSP) > stack:
+            return
+        ptrace(SINGLESTEP, pid)
+        wait_for_trap(pid)
+
+
+def stepped(program, row, entry, calls, most):
+    """The addresses of the program that these calls of the function at `entry` execute, at most so many of each, in their order: a list for each
+    call, counted from 0."""
+    pid = start(program, row)
+    try:
         with open(f"/proc/{pid}/maps", encoding="ascii") as maps:
             base = min(int(line.split("-")[0], 16) for line in maps if line.rstrip().endswith(os.path.basename(program)))
         place = base + entry
         whole = ptrace(PEEKTEXT, pid, place)
-        for call in range(skipped + 1):
+        out = []
+        for call in range(calls[-1] + 1):
             ptrace(POKETEXT, pid, place, whole & ~0xff | 0xcc)
             ptrace(CONT, pid)
             wait_for_trap(pid)
@@ -79,20 +104,21 @@ def stepped(program, row, entry, skipped):
                 raise CannotStep("the program stopped elsewhere")
             ptrace(POKETEXT, pid, place, whole)
             ptrace(POKEUSER, pid, RIP, place)
-            if call < skipped:
+            if call not in calls:
                 ptrace(SINGLESTEP, pid)
                 wait_for_trap(pid)
-        back = ptrace(PEEKTEXT, pid, ptrace(PEEKUSER, pid, RSP))
-        counts = collections.Counter()
-        at = place
-        for _ in range(STEPS):
-            counts[at - base] += 1
-            ptrace(SINGLESTEP, pid)
-            wait_for_trap(pid)
-            at = ptrace(PEEKUSER, pid, RIP)
-            if at == back:
-                break
-        return counts
+                continue
+            stack = ptrace(PEEKUSER, pid, RSP)
+            back, at, executed = ptrace(PEEKTEXT, pid, stack), place, []
+            while (at != back or ptrace(PEEKUSER, pid, RSP) <= stack) and len(executed) < most:
+                executed.append(at - base)
+                ptrace(SINGLESTEP, pid)
+                wait_for_trap(pid)
+                at = ptrace(PEEKUSER, pid, RIP)
+            out.append(executed)
+            if at != back and call != calls[-1]:
+                run_to(pid, back, stack)
+        return out
     finally:
         try:
             os.kill(pid, signal.SIGKILL)
@@ -101,9 +127,16 @@ def stepped(program, row, entry, skipped):
             pass
 
 
-def kernel_addresses(program, namespace):
+def entries_of(program, namespace):
+    """Where each row's kernel begins in the program; raises CannotStep where a row names none."""
     text = subprocess.run(["nm", "-C", program], capture_output=True, text=True, check=True).stdout
-    return [(int(line[:16], 16), line[19:]) for line in text.splitlines() if namespace in line and line[17] in "tTwWu"]
+    symbols = [(int(line[:16], 16), line[19:]) for line in text.splitlines() if f"N_{namespace}::" in line and line[17] in "tTwWu"]
+    found = {}
+    for row, kernel, *_ in ROWS:
+        found[row] = next((address for address, name in symbols if re.search(kernel, name) and ".cold" not in name), None)
+        if found[row] is None:
+            raise CannotStep(f"{program} has no {kernel} of {namespace}")
+    return found
 
 
 def disassembly(program, addresses):
@@ -176,6 +209,16 @@ def port_bound(weights, pressure):
     return best
 
 
+def simulated_cycles(texts, cpu):
+    """Of these instructions in their order, all data in the nearest cache, each branch foreseen, no load of what was just stored late."""
+    source = "\n".join(re.sub(r"^(j\w+|call)\b.*", "nop", text) for text in texts)
+    run = subprocess.run(["llvm-mca", f"-mcpu={cpu}", "-iterations=1", "-instruction-info=0", "-resource-pressure=0"], input=source + "\n", capture_output=True, text=True)
+    found = re.search(r"Total Cycles:\s+(\d+)", run.stdout)
+    if not found:
+        raise CannotStep(f"llvm-mca does not take the instructions: {run.stderr.strip().splitlines()[:1]}")
+    return int(found[1])
+
+
 def rate_of(given, row):
     """The row's fastest go on one thread [M/s]."""
     run = subprocess.run([os.path.join(given.build, "bench/rainref_bench"), f"--benchmark_filter=^{row.replace('.', '[.]')}/threads:1/",
@@ -208,40 +251,44 @@ def measure(given, clock, measured, say):
     except StopIteration:
         raise CannotStep("this processor has neither AVX2 nor AVX-512") from None
     program = os.path.abspath(os.path.join(given.build, "bench/rainref_bench"))
-    symbols = kernel_addresses(program, f"N_{namespace}::")
+    entries = entries_of(program, namespace)
     out = []
-    for row, kernel, vectors, skipped in ROWS:
+    for row, _, calls, elements in ROWS:
         if not re.search(given.only, row):
             continue
         say(row)
-        entry = next((address for address, name in symbols if re.search(kernel, name) and ".cold" not in name), None)
-        if entry is None:
-            raise CannotStep(f"{program} has no {kernel} of {namespace}")
-        counts = stepped(program, row, entry, skipped)
-        texts = disassembly(program, counts)
-        # Nearly every instruction of a loop runs once a round: the commonest count is that of the rounds.
-        rounds = collections.Counter(c for c in counts.values() if c > 4).most_common(1)[0][0]
+        executed = stepped(program, row, entries[row], calls, math.inf if elements else STEPS // len(calls))
+        texts = disassembly(program, set(itertools.chain(*executed)))
+        if elements:
+            vectors = len(calls) * elements / lanes
+        else:  # Nearly every instruction of a loop runs once a round: the commonest count is that of the rounds.
+            counts = collections.Counter(itertools.chain(*executed))
+            vectors = collections.Counter(c for c in counts.values() if c > 4).most_common(1)[0][0]
         kinds, weights = collections.Counter(), collections.Counter()
-        for address, count in counts.items():
+        for address, count in collections.Counter(itertools.chain(*executed)).items():
             text = texts.get(address)
             if text is None:
                 continue  # of a library
-            kinds[kind_of(text)] += count / rounds / vectors
-            weights[text] += count / rounds / vectors
+            kinds[kind_of(text)] += count / vectors
+            weights[text] += count / vectors
         cycles, ports = port_bound(weights, eligible_ports(weights, cpu))
-        rate = clock * 1e3 * lanes / cycles
-        out.append({"row": row, "lanes": lanes, "model": cpu, "rounds": rounds, "instructions": sum(kinds.values()), **kinds, "cycles": cycles, "ports": ports,
-                    "bound": rate, "measured": measured(row)})
+        instructions = sum(kinds.values())
+        some = [texts[address] for call in executed for address in call[:SIMULATED // len(calls)] if address in texts]
+        simulated = simulated_cycles(some, cpu) * instructions / len(some)
+        rate = clock * 1e3 * lanes
+        out.append({"row": row, "lanes": lanes, "model": cpu, "instructions": instructions, **kinds, "cycles": cycles, "ports": ports, "bound": rate / cycles,
+                    "simulated_cycles": simulated, "simulated": rate / simulated, "measured": measured(row)})
     return out
 
 
 def markdown(result, clock):
-    lines = ["| row | instructions | vector | gathers | divisions | roots | loads | stores | cycles at least | of | bound [M/s] | measured [M/s] | % |",
-             "|---|---|---|---|---|---|---|---|---|---|---|---|---|"]
+    lines = ["| row | instructions | vector | gathers | divisions | roots | loads | stores | cycles at least | of | bound [M/s] | cycles simulated | simulated [M/s] | measured [M/s] | % of bound | % of simulated |",
+             "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"]
     for r in result:
         number = lambda key: f"{r.get(key, 0):.1f}"
         lines.append(f"| `{r['row']}` | {r['instructions']:.0f} | {number('vectors')} | {number('gathers')} | {number('divisions')} | {number('roots')} | {number('loads')} | "
-                     f"{number('stores')} | {r['cycles']:.0f} | {' '.join(r['ports'])} | {r['bound']:.0f} | {r['measured']:.1f} | {100 * r['measured'] / r['bound']:.0f} |")
+                     f"{number('stores')} | {r['cycles']:.0f} | {' '.join(r['ports'])} | {r['bound']:.0f} | "
+                     f"{r['simulated_cycles']:.0f} | {r['simulated']:.0f} | {r['measured']:.1f} | {100 * r['measured'] / r['bound']:.0f} | {100 * r['measured'] / r['simulated']:.0f} |")
     if not result:
         return "No row has such a name.\n"
     return (f"For a vector of {result[0]['lanes']} elements, at {clock:.2f} GHz; ports by llvm-mca's model {result[0]['model']}.\n\n" + "\n".join(lines) + "\n")

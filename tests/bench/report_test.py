@@ -12,6 +12,7 @@ import xml.etree.ElementTree as xml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "bench/report"))
+import bounds  # noqa: E402
 import document  # noqa: E402
 import frames  # noqa: E402
 import growth  # noqa: E402
@@ -307,6 +308,19 @@ class Captures(unittest.TestCase):
         found, skipped = peers.prepare_ports("/nowhere", "/nowhere", lambda row: True)
         self.assertEqual((found, skipped[0]["peer"]), ([], "lavapipe"))
         self.assertTrue(re.search("is not built", skipped[0]["reason"]))
+
+
+class Bounds(unittest.TestCase):
+    @unittest.skipUnless(os.environ.get("RAINREF_BENCH_PROGRAM") and shutil.which("nm"), "the benchmarks, or nm, are not there")
+    def test_each_row_names_a_kernel_of_the_program(self):
+        for _, namespace, *_ in bounds.TARGETS:
+            entries = bounds.entries_of(os.environ["RAINREF_BENCH_PROGRAM"], namespace)
+            self.assertEqual(len(entries), len(bounds.ROWS))
+
+    def test_the_busiest_ports_decide(self):
+        pressure = {"a": {"Port0": 0.5, "Port1": 0.5}, "b": {"Port0": 1.0}, "c": {"Port2": 1.0}}
+        self.assertEqual(bounds.port_bound({"a": 2, "b": 4, "c": 3}, pressure), (4.0, ("Port0",)))
+        self.assertEqual(bounds.port_bound({"a": 8, "b": 4, "c": 3}, pressure), (6.0, ("Port0", "Port1")))
 
 
 if __name__ == "__main__":
