@@ -79,7 +79,7 @@ def markdown(result, pictures):
         out += [whole]
     if not result["rows"]:
         return "\n".join(out)
-    out += ["Beside peers, in the same run; the ratio is of medians (Embree: the median of pairs):", "", peers_table(result)]
+    out += ["Beside peers, in the same run; the ratio is of medians (Embree: the median of pairs, the update of the water for a frame on both sides):", "", peers_table(result)]
     for name in plots.PLOTS:
         out += [f"![{name}]({pictures}{name}.svg)", ""]
     out += ["Medians; ± is half the distance of the quartiles, in percent of the median:", "", rows_table(result)]

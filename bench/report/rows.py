@@ -90,7 +90,7 @@ def _best_rate(row):
 def comparisons(result):
     """For each row of a peer that has one of ours on as many threads: {"row", "threads", "peer", "ours", "theirs", "ratio", "ratio_best", "goal"}.
 
-    ratio: of medians, or the median of pairs where the bench measured pairs; ratio_best: of the fastest goes.
+    ratio: of medians, or where the bench measured pairs the median of pairs, the water's update on both sides; ratio_best: of the fastest goes.
     """
     ours = {(r["row"], r["threads"]): r for r in result["rows"]}
     found = []
@@ -104,7 +104,7 @@ def comparisons(result):
                 continue
             best = _best_rate(row) / _best_rate(peer) if "best_ms" in peer and "best_ms" in row else None
             found.append({"row": name, "threads": peer["threads"], "peer": peer["peer"], "ours": row["rate"], "theirs": peer["rate"],
-                          "unit": peer["unit"], "ratio": significant(peer.get("ratio", row["rate"] / peer["rate"])),
+                          "unit": peer["unit"], "ratio": significant(peer.get("ratio_with_update", row["rate"] / peer["rate"])),
                           "ratio_best": None if best is None else significant(best), "goal": goal(peer)})
     return found
 
@@ -116,6 +116,8 @@ def goal(peer):
         return 1.5
     if peer["peer"] == "lavapipe":
         return 3.5 if name.startswith("composite") else 6.0 if name.startswith("edge_splash.splash") else 3.0
+    if peer["peer"] == "embree":
+        return {"camera": 2.0, "reflection": 4.0, "grazing": 1.5}.get(name.split("/")[1])
     return None
 
 
