@@ -48,6 +48,9 @@ TEST(Executor, EveryIndexIsVisitedOnceInChunksOfTheSizeGiven) {
 
 // Each piece in turn waits for all others: whosever share it is in, others must take what comes after it.
 TEST(Executor, NoPieceWaitsBehindALongOne) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "there threads take turns, so that neighbours always run on different ones";
+#endif
   const Executor executor(2);
   constexpr std::int64_t count = 7;
   for (std::int64_t slow = 0; slow < count; ++slow) {
