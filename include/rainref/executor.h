@@ -14,7 +14,7 @@ struct Tile {
 
 /// Which thread takes a piece of work; no result depends on it.
 enum class Placement : std::uint8_t {
-  any_thread,   ///< its neighbours' one, or whoever is free: where pieces differ in cost
+  any_thread,   ///< the one whose share it lies in, or whoever is free by then: where pieces differ in cost
   same_thread,  ///< the same as in other loops of as many pieces, while no other work disturbs: its caches hold what it wrote there
 };
 

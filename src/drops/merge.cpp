@@ -34,11 +34,15 @@ void prefetch(DropArrays& drops, std::int64_t slot) {
 /// Into how many parts work on the elements of these lists is cut where each part looks through all of them.
 constexpr std::int64_t most_parts = 32;
 template <class T>
-std::int64_t parts_of(const std::vector<std::vector<T>>& lists) {
-  constexpr std::size_t least = 64;  // elements that are worth handing out
+std::size_t elements_of(const std::vector<std::vector<T>>& lists) {
   std::size_t count = 0;
   for (const std::vector<T>& list : lists) count += list.size();
-  return std::clamp<std::int64_t>(static_cast<std::int64_t>(count / least), 1, most_parts);
+  return count;
+}
+template <class T>
+std::int64_t parts_of(const std::vector<std::vector<T>>& lists) {
+  constexpr std::size_t least = 64;  // elements that are worth handing out
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(elements_of(lists) / least), 1, most_parts);
 }
 
 /// Places [result[k], result[k + 1]) of the grid are part k's: in each about as many ends of chains, by counts of a sample in blocks of
@@ -47,9 +51,7 @@ std::vector<std::int64_t> places_of_parts(const std::vector<std::vector<Member>>
   constexpr std::size_t blocks = 1024, sampled = 8192;
   int shift = 0;
   while (static_cast<std::size_t>(places) >> shift > blocks) ++shift;
-  std::size_t members = 0;
-  for (const std::vector<Member>& list : lists) members += list.size();
-  const std::size_t step = members / sampled + 1;
+  const std::size_t step = elements_of(lists) / sampled + 1;
   std::array<std::int64_t, blocks + 1> in_block{};
   std::int64_t counted = 0;
   for (const std::vector<Member>& list : lists) {
@@ -67,7 +69,7 @@ std::vector<std::int64_t> places_of_parts(const std::vector<std::vector<Member>>
   return first;
 }
 
-std::int64_t links_of_chunk(const MergeGrid& grid) { return std::min<std::int64_t>(256, chunk_of(grid.count)); }
+constexpr std::int64_t links_of_chunk = 256;
 
 /// Drops that end, all of theirs that end in the same one among them, into those in which they end. How many did.
 std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropArrays& drops) {
@@ -145,7 +147,7 @@ void Merger::find(const parallel::Executor& executor, DropArrays& drops, const M
   grid.build(executor, drops, uniforms);
   std::vector<std::int32_t>& larger = scratch_->larger;
   larger.resize(std::max(larger.size(), static_cast<std::size_t>(grid.count)));
-  executor.for_range(grid.count, links_of_chunk(grid),
+  executor.for_range(grid.count, links_of_chunk,
                      [&](std::int64_t begin, std::int64_t end) { find_larger_range(grid, begin, end, larger.data()); });
   scratch_->is_found = true;
 }
@@ -183,14 +185,13 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
   scratch_->is_found = false;
   const MergeGrid& grid = scratch_->grid;
   std::vector<std::int32_t>& larger = scratch_->larger;
-  const std::int64_t chunk = links_of_chunk(grid);
 
   // Ends of chains. What is known of a chain shortens it for the others: whatever of it a thread meets leads to the same end.
   // With the compilers' own atomics: libc++ before 19 has no std::atomic_ref.
   const auto next = [&](std::int64_t i) { return &larger[static_cast<std::size_t>(i)]; };
-  std::vector<std::vector<Member>> of_chunk(static_cast<std::size_t>((grid.count + chunk - 1) / chunk));
-  executor.for_range(grid.count, chunk, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<Member>& ended = of_chunk[static_cast<std::size_t>(begin / chunk)];
+  std::vector<std::vector<Member>> of_chunk(static_cast<std::size_t>((grid.count + links_of_chunk - 1) / links_of_chunk));
+  executor.for_range(grid.count, links_of_chunk, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<Member>& ended = of_chunk[static_cast<std::size_t>(begin / links_of_chunk)];
     for (std::int64_t i = begin; i < end; ++i) {
       std::int32_t root = __atomic_load_n(next(i), __ATOMIC_RELAXED);
       if (root < 0) continue;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "math/half.h"
+#include "windshield/extent_between.h"
 
 namespace rainref::windshield {
 namespace {
@@ -50,7 +51,7 @@ Cover cover_of(const SeenBlade& b, bool is_arm, double x, double y, double texel
 
 /// What may be hidden of the plane at distance 1: four corners in their order, or everything where one of them is not before the eye.
 struct Outline {
-  std::array<std::array<double, 2>, 4> corners{};
+  std::array<Corner, 4> corners{};
   bool is_everything = false;
 };
 Outline outline_of(const SeenBlade& b, bool is_arm, double texel) {
@@ -76,17 +77,8 @@ Outline outline_of(const SeenBlade& b, bool is_arm, double texel) {
 }
 /// Of the rows from `low` to `high`, from where to where; nothing: the first is above the second.
 std::array<double, 2> extent(const Outline& o, double low, double high) {
-  constexpr double far = 1e30;
-  if (o.is_everything) return {-far, far};
-  std::array<double, 2> found{far, -far};
-  const auto take = [&](double x) { found = {std::min(found[0], x), std::max(found[1], x)}; };
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto &from = o.corners[k], &to = o.corners[(k + 1) % 4];
-    if (from[1] >= low && from[1] <= high) take(from[0]);
-    for (const double y : {low, high})
-      if ((from[1] < y) != (to[1] < y)) take(from[0] + (to[0] - from[0]) * (y - from[1]) / (to[1] - from[1]));
-  }
-  return found;
+  if (o.is_everything) return {-1e30, 1e30};
+  return extent_between(o.corners, low, high);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 double steps_per_second(const Settings& s) { return s.fps * s.substeps; }
 
-constexpr int composite_rows = 2;  // of a tile: where there is water a row costs several times one without
+constexpr int composite_rows = 2;  // of a tile: rows differ in cost
 
 /// All of its texels; before: seconds that the host spent on it.
 template <class P>

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "windshield/extent_between.h"
+
 namespace rainref::windshield {
 namespace {
 
@@ -22,7 +24,8 @@ struct Met {
 
 // The ends of the blade before and after, widened by half_width and by how far the arc bulges over its chord; in texels of the film.
 struct SweptArea {
-  double corners[4][2], margin[2];
+  std::array<Corner, 4> corners;
+  std::array<double, 2> margin;
 };
 SweptArea swept_area(const Wiper& w, const WipeDropsUniforms& u) {
   const double cosine = static_cast<double>(w.previous_axis[0]) * w.axis[0] + static_cast<double>(w.previous_axis[1]) * w.axis[1];
@@ -32,10 +35,10 @@ SweptArea swept_area(const Wiper& w, const WipeDropsUniforms& u) {
   const double reach[2] = {margin * (magnitude(u.inverse_frame[0]) + magnitude(u.inverse_frame[1])),
                            margin * magnitude(u.inverse_frame[2])};
   SweptArea area{};
-  for (int axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
     const double texel = u.texel[axis];
     const double at[4] = {w.previous_inner[axis], w.previous_outer[axis], w.inner[axis], w.outer[axis]};
-    for (int k = 0; k < 4; ++k) area.corners[k][axis] = at[k] / texel;
+    for (std::size_t k = 0; k < 4; ++k) area.corners[k][axis] = at[k] / texel;
     area.margin[axis] = reach[axis] / texel + 2;  // two texels more for rounding
   }
   return area;
@@ -49,24 +52,9 @@ Range range_of(double low, double high, int size) {
   return {std::clamp(whole(low) - 1, 0, size), std::clamp(whole(high) + 1, 0, size)};
 }
 
-/// Columns outside of which nothing of the row is swept: those of the corners' convex hull within the margin of the row, which the lines
-/// between all corners span.
+/// Columns outside of which nothing of the row is swept.
 Range columns_of(const SweptArea& area, int row, int width) {
-  const double low = row - area.margin[1], high = row + 1 + area.margin[1];
-  double first = 1e30, last = -1e30;
-  const auto take = [&](double x) {
-    first = std::min(first, x);
-    last = std::max(last, x);
-  };
-  for (int i = 0; i < 4; ++i) {
-    const double* from = area.corners[i];
-    if (from[1] >= low && from[1] <= high) take(from[0]);
-    for (int j = 0; j < i; ++j) {
-      const double* to = area.corners[j];
-      for (const double y : {low, high})
-        if ((from[1] < y) != (to[1] < y)) take(from[0] + (to[0] - from[0]) * (y - from[1]) / (to[1] - from[1]));
-    }
-  }
+  const auto [first, last] = extent_between(area.corners, row - area.margin[1], row + 1 + area.margin[1]);
   return first > last ? Range{0, 0} : range_of(first - area.margin[0], last + area.margin[0], width);
 }
 
@@ -107,7 +95,7 @@ std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<cons
 TexelBox swept_texels(const Wiper& w, const WipeDropsUniforms& u) {
   if (w.direction == 0) return {0, 0, 0, 0};
   const SweptArea area = swept_area(w, u);
-  const auto range = [&](int axis, int size) {
+  const auto range = [&](std::size_t axis, int size) {
     const auto [low, high] = std::minmax({area.corners[0][axis], area.corners[1][axis], area.corners[2][axis], area.corners[3][axis]});
     return range_of(low - area.margin[axis], high + area.margin[axis], size);
   };
