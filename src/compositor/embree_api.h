@@ -23,10 +23,6 @@ using RayHit = std::conditional_t<width == 1, RTCRayHit,
 struct Query {
   RTCIntersectContext context;
   Query() { rtcInitIntersectContext(&context); }
-  /// How to traverse: together, or each ray for itself when most have gone elsewhere.
-  void set_coherent(bool coherent) {
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  }
 };
 inline Query& query_of(RTCIntersectContext* context) { return *reinterpret_cast<Query*>(context); }
 #define RAINREF_EMBREE_ASK(verb, width, ...)                 \
@@ -52,9 +48,6 @@ struct Query {
     intersect.context = occluded.context = &context;
   }
   Query(const Query&) = delete;
-  void set_coherent(bool coherent) {
-    intersect.flags = occluded.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-  }
 };
 inline Query& query_of(RTCRayQueryContext* context) { return *reinterpret_cast<Query*>(context); }
 #define RAINREF_EMBREE_ASK(verb, width, ...)             \

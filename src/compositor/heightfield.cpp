@@ -1,6 +1,7 @@
 #include "compositor/heightfield.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -21,12 +22,48 @@ namespace scalar {
 
 namespace {
 
-int tiles_of(int cells, int tile) { return (cells + tile - 1) / tile; }
+int pieces_of(int cells, int piece) { return (cells + piece - 1) / piece; }
 
 }  // namespace
 
+void set_margins(const HeightfieldView& field, double cell_height, HeightfieldTile& tile) {
+  const double columns = tile.x1 - tile.x0, rows = tile.y1 - tile.y0, longest = std::max(columns, rows) + 2;
+  const double spread = std::max(tile.high - tile.low, 0x1p-8 * cell_height);
+  tile.margin = 1e-6 * (tile.high - tile.low) + 1e-9 * (cell_height + std::max(magnitude(tile.low), magnitude(tile.high)));
+  // Some four roundings of the ray's height, which came down from `far`, and of its place, whose numbers are those of the whole field.
+  constexpr double far = 0x1p14;
+  tile.roundings = 0x1p-48 * ((far + field.columns + field.rows) * tile.steepest + far * cell_height +
+                              std::max(magnitude(tile.low), magnitude(tile.high)));
+  const float middle = static_cast<float>(0.5 * (tile.low + tile.high));
+  const double doubt = 0x1p-20 * spread + 2 * tile.margin, doubt_for_cell = 8 * 0x1p-20 * tile.steepest;
+  const double most_doubt = doubt + longest * doubt_for_cell, from_middle = static_cast<double>(middle);
+  const auto x0 = static_cast<int>(tile.x0), y0 = static_cast<int>(tile.y0), x1 = static_cast<int>(tile.x1), y1 = static_cast<int>(tile.y1);
+  const int block_x = x0 / block_cells, block_y = y0 / block_cells;
+  FloatTile& f = tile.floats;
+  f.columns = static_cast<float>(columns);
+  f.rows = static_cast<float>(rows);
+  f.middle = middle;
+  f.low = static_cast<float>(tile.low - from_middle - most_doubt);
+  f.high = static_cast<float>(tile.high - from_middle + most_doubt);
+  f.beside = static_cast<float>(0x1p-18 * longest);
+  f.longest = static_cast<float>(longest);
+  f.away = longest <= 0x1p20 ? static_cast<float>(4 * longest) : -1;  // cells of a larger tile have no exact numbers
+  f.tall = static_cast<float>(2 * spread);
+  f.far_beside = static_cast<float>(far);
+  f.far_above = static_cast<float>(far * cell_height);
+  f.doubt = static_cast<float>(doubt);
+  f.doubt_for_cell = static_cast<float>(doubt_for_cell);
+  f.steepest_twice = static_cast<float>(2 * tile.steepest);
+  f.first = y0 * (static_cast<int>(field.columns) + 1) + x0;
+  f.first_block = block_y * field.blocks_across + block_x;
+  f.into_block_x = static_cast<float>(x0 - block_x * block_cells);
+  f.into_block_y = static_cast<float>(y0 - block_y * block_cells);
+  f.last_block_x = static_cast<float>((x1 - 1) / block_cells - block_x);
+  f.last_block_y = static_cast<float>((y1 - 1) / block_cells - block_y);
+}
+
 Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, int tile_cells)
-    : frame_(frame), columns_(columns), rows_(rows), tile_cells_(tile_cells) {
+    : frame_(frame), columns_(columns), rows_(rows) {
   if (columns < 1 || rows < 1 || static_cast<std::int64_t>(columns) * rows >= std::int64_t{1} << 30 || tile_cells < 1) {
     throw Error(ExitCode::usage,
                 fmt::format("a heightfield of {} x {} cells in tiles of {}: each must be positive, and the cells fewer than 2^30", columns,
@@ -38,22 +75,30 @@ Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, i
     throw Error(ExitCode::usage, "the edges and the axis of a heightfield must not lie in one plane");
   const Vec to_x = cross(v, n) / volume, to_y = cross(n, u) / volume, to_h = cross(u, v) / volume;
   heights_.assign(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1), 0.0f);
-  first_cell_ = static_cast<std::size_t>(cells_ahead - 1) * static_cast<std::size_t>(columns + 1);
-  highest_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 2 * first_cell_, 0.0f);
+  first_cell_ = static_cast<std::size_t>(cells_ahead - 1) * static_cast<std::size_t>(columns + 2);
+  highest_.assign(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows) + 2 * first_cell_, 0.0f);
   cell_height_ = std::max(glm::length(u), glm::length(v)) / glm::length(n);
-  tiles_across_ = tiles_of(columns, tile_cells);
-  for (int y = 0; y < rows; y += tile_cells) {
-    for (int x = 0; x < columns; x += tile_cells) {
-      tiles_.push_back({double(x), double(std::min(x + tile_cells, columns)), double(y), double(std::min(y + tile_cells, rows)), 0, 0,
-                        1e-9 * cell_height_});
-    }
-  }
+  pairs_.assign(2 * static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows), 0.0f);
+  blocks_across_ = pieces_of(columns, block_cells);
+  blocks_down_ = pieces_of(rows, block_cells);
+  blocks_.assign(static_cast<std::size_t>(blocks_across_) * static_cast<std::size_t>(blocks_down_), 0.0f);
+  nearby_ = blocks_;
   view_ = {heights_.data(),
+           pairs_.data(),
            highest_.data() + first_cell_,
+           nearby_.data(),
+           blocks_across_,
            double(columns),
            rows,
            {frame.origin.x, frame.origin.y, frame.origin.z},
            {{to_x.x, to_x.y, to_x.z}, {to_y.x, to_y.y, to_y.z}, {to_h.x, to_h.y, to_h.z}}};
+  for (int y = 0; y < rows; y += tile_cells) {
+    for (int x = 0; x < columns; x += tile_cells) {
+      HeightfieldTile tile{double(x), double(std::min(x + tile_cells, columns)), double(y), double(std::min(y + tile_cells, rows))};
+      set_margins(view_, cell_height_, tile);
+      tiles_.push_back(tile);
+    }
+  }
 }
 
 void Heightfield::assign(std::span<const float> heights, const parallel::Executor& executor) {
@@ -66,9 +111,26 @@ void Heightfield::assign(std::span<const float> heights, const parallel::Executo
   });
   executor.for_range(static_cast<std::int64_t>(tiles_.size()), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      HeightfieldTile& tile = tiles_[i];
-      summarize_tile(heights_.data(), columns_, highest_.data() + first_cell_, tile);
-      tile.margin = 1e-6 * (tile.high - tile.low) + 1e-9 * (cell_height_ + std::max(magnitude(tile.low), magnitude(tile.high)));
+      summarize_tile(heights_.data(), columns_, highest_.data() + first_cell_, pairs_.data(), tiles_[i]);
+      set_margins(view_, cell_height_, tiles_[i]);
+    }
+  });
+  executor.for_range(blocks_down_, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      summarize_blocks(view_.highest + static_cast<std::ptrdiff_t>(y) * block_cells * (columns_ + 1), columns_,
+                       std::min(block_cells, rows_ - y * block_cells), blocks_.data() + static_cast<std::ptrdiff_t>(y) * blocks_across_);
+    }
+  });
+  executor.for_range(blocks_down_, 8, [&](std::int64_t begin, std::int64_t end) {
+    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      for (int x = 0; x < blocks_across_; ++x) {
+        float& top = nearby_[static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks_across_) + static_cast<std::size_t>(x)];
+        top = -std::numeric_limits<float>::infinity();
+        for (int j = std::max(y - 1, 0); j < std::min(y + 2, blocks_down_); ++j) {
+          const float* const row = blocks_.data() + static_cast<std::ptrdiff_t>(j) * blocks_across_;
+          top = std::max(top, *std::max_element(row + std::max(x - 1, 0), row + std::min(x + 2, blocks_across_)));
+        }
+      }
     }
   });
   ++revision_;

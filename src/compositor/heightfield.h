@@ -61,10 +61,11 @@ class Heightfield final : public Surface {
 
  private:
   HeightfieldFrame frame_;
-  int columns_, rows_, tile_cells_, tiles_across_;
+  int columns_, rows_;
   double cell_height_;      ///< longer side of a cell, in units of the axis
   std::size_t first_cell_;  ///< of highest_, which has cells to spare on both sides
-  std::vector<float> heights_, highest_;
+  int blocks_across_, blocks_down_;
+  std::vector<float> heights_, pairs_, highest_, blocks_, nearby_;  ///< as HeightfieldView has them; of each block alone its highest
   std::vector<HeightfieldTile> tiles_;
   HeightfieldView view_;
   std::uint64_t revision_ = 0;

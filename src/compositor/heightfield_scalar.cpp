@@ -15,9 +15,9 @@ R whole(R a) {
   return cut > a.v ? cut - 1 : cut;
 }
 R gather(const float* p, R index) { return static_cast<double>(p[static_cast<std::int64_t>(index.v)]); }
-void gather_two(const float* p, R index, R& a, R& b) {
-  a = gather(p, index);
-  b = gather(p + 1, index);
+void corners(const float* pairs, R index, R& h00, R& h10, R& h01, R& h11) {
+  const float* const p = pairs + 2 * static_cast<std::int64_t>(index.v);
+  h00 = static_cast<double>(p[0]), h01 = static_cast<double>(p[1]), h10 = static_cast<double>(p[2]), h11 = static_cast<double>(p[3]);
 }
 
 #define RAINREF_FN inline

@@ -10,7 +10,7 @@
 // change of sign, or that begin after the nearer hit. So the answer does not depend on tiles, lanes or what else is met.
 //
 // Needs of R: + - * /, comparisons to R::Mask, & | ^ of masks and without(a, b) (a and not b), select, R::any, whole(a) (the floor of a,
-// for |a| < 2^31), gather(p, i) (p[i], widened), gather_two(p, i, a, b) (p[i] and p[i + 1]), minimum and maximum.
+// for |a| < 2^31), gather(p, i) (p[i], widened), corners(pairs, i, ...) (of the cell after vertex i), minimum and maximum.
 
 /// A ray in the grid's axes: x and y in cells, h along the axis.
 template <class R>
@@ -49,6 +49,17 @@ RAINREF_FN R leaving_wall(R t, R o, R d, R inverse, R ahead, R step, double firs
   const R k = whole(maximum(R(first), minimum(R(last), o + t * d))) + ahead;
   const auto late = (k - o) * inverse <= t, early = (k - step - o) * inverse > t;
   return select(late, k + step, select(early, k - step, k));
+}
+
+/// When the ray is on the plane of a triangle of cell (i, j); and how fast it comes closer to it, in height.
+template <class R>
+RAINREF_FN R meet_plane(const GridRay<R>& r, R i, R j, R upper, typename R::Mask is_upper, R h00, R h10, R h01, R h11, R& closing) {
+  const R base = select(is_upper, h11, h00), slope_x = select(is_upper, h11 - h01, h10 - h00),
+          slope_y = select(is_upper, h11 - h10, h01 - h00);
+  const R x = r.ox - i - upper, y = r.oy - j - upper;
+  const R gap = r.oh - (base + (x * slope_x + y * slope_y));
+  closing = r.dh - (r.dx * slope_x + r.dy * slope_y);
+  return (R(0.0) - gap) / without_zero(closing);
 }
 
 /// Meets the tile with the rays in `active`; `limit` is the nearest hit known. Gives the mask of rays that hit before or
@@ -99,8 +110,7 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   if (R::any(unknown)) {
     const R i = kx - ahead_x, j = ky - ahead_y, at = select(unknown, j * stride + i, zero);
     R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
-    gather_two(field.heights, at, h00, h10);
-    gather_two(field.heights, at + stride, h01, h11);
+    corners(field.pairs, at, h00, h10, h01, h11);
     const R tx = (kx - step_x - r.ox) * ix, ty = (ky - step_y - r.oy) * iy, entry = maximum(tx, ty);
     const R g = at_wall(entry, tx > ty, ty > tx, i, j, select(right, h00, h10), select(right, h01, h11), select(up, h00, h01),
                         select(up, h10, h11), one - ahead_y);
@@ -110,17 +120,17 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     above = (unknown & (select(r.nearest > entry, inside, g) > zero)) | without(falls, unknown);
   }
 
-  const R lowered = r.oh - R(tile.margin), first_cell = zero - (ahead_y * columns + ahead_x);
-  R hit_i = zero, hit_j = zero, hit_upper = zero, base = zero, slope_x = zero, slope_y = zero;
-  Mask walking = active, waiting = nowhere;
-  while (R::any(walking)) {
+  const R lowered = r.oh - R(tile.margin), first_cell = zero - (ahead_y * stride + ahead_x);
+  R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
+  Mask walking = without(active, unknown), waiting = unknown, found_upper = nowhere;
+  while (R::any(walking | waiting)) {
     // Every ray walks to a cell that it may hit; there it waits for the others. A ray runs a few cells ahead of the answer
     // whether it may go there, so that the fetches of several cells overlap.
-    do {
+    while (R::any(walking)) {
       R ahead_kx = kx, ahead_ky = ky, ahead_t = t;
       _Pragma("GCC unroll 4") for (int cell = 0; cell < cells_ahead; ++cell) {
         const R tx = (ahead_kx - r.ox) * ix, ty = (ahead_ky - r.oy) * iy, exit = minimum(tx, ty);
-        const R top = gather(field.highest, ahead_ky * columns + ahead_kx + first_cell);
+        const R top = gather(field.highest, ahead_ky * stride + ahead_kx + first_cell);
         const Mask clear = lowered + select(falls, exit, ahead_t) * r.dh > top;
         waiting = waiting | without(walking, clear);
         walking = walking & clear & (exit < end);
@@ -131,16 +141,14 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
         ky = select(walking, ahead_ky, ky);
         t = select(walking, exit, t);
       }
-    } while (R::any(walking));
+    }
     if (!R::any(waiting)) break;
     // A ray that passes a cell that it might have hit may well hit the next one, so that is met without being asked.
     int cells_met = 0;
     do {
       const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
-      const R i = kx - ahead_x, j = ky - ahead_y, at = select(waiting, j * stride + i, zero);
-      R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
-      gather_two(field.heights, at, h00, h10);
-      gather_two(field.heights, at + stride, h01, h11);
+      const R i = kx - ahead_x, j = ky - ahead_y, at = j * stride + i;
+      corners(field.pairs, at, h00, h10, h01, h11);
       const R g_exit = at_wall(exit, tx < ty, ty < tx, i, j, select(right, h10, h00), select(right, h11, h01), select(up, h01, h00),
                                select(up, h11, h10), ahead_y);
       const R diagonal = (i + j + one - sum_o) * is;
@@ -149,12 +157,7 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
       const Mask above_then = (crosses & (g_diagonal > zero)) | without(above, crosses), above_at_exit = g_exit > zero;
       const Mask before = above ^ above_then, hit = waiting & (t < exit) & (before | (above_then ^ above_at_exit));
       const Mask upper = (before | (diagonal >= exit)) ^ to_upper;
-      hit_i = select(hit, i, hit_i);
-      hit_j = select(hit, j, hit_j);
-      hit_upper = select(hit & upper, one, hit_upper);
-      base = select(hit, select(upper, h11, h00), base);
-      slope_x = select(hit, select(upper, h11 - h01, h10 - h00), slope_x);
-      slope_y = select(hit, select(upper, h11 - h10, h01 - h00), slope_y);
+      found_upper = found_upper | (hit & upper);
       found = found | hit;
       const Mask steps = without(waiting, hit) & (exit < end);
       t = select(steps, exit, t);
@@ -167,10 +170,10 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   }
   if (!R::any(found)) return found;
 
-  const R x = r.ox - hit_i - hit_upper, y = r.oy - hit_j - hit_upper;
-  const R gap = r.oh - (base + (x * slope_x + y * slope_y));
-  const R closing = r.dh - (r.dx * slope_x + r.dy * slope_y);
-  const R on_plane = (zero - gap) / without_zero(closing);
+  // A ray that hit stays in its cell, whose heights were fetched with those of the rays that went on.
+  const R hit_i = kx - ahead_x, hit_j = ky - ahead_y, hit_upper = select(found_upper, one, zero);
+  R closing = zero;
+  const R on_plane = meet_plane(r, hit_i, hit_j, hit_upper, found_upper, h00, h10, h01, h11, closing);
   const R low_x = (hit_i - r.ox) * ix, high_x = (hit_i + one - r.ox) * ix, low_y = (hit_j - r.oy) * iy, high_y = (hit_j + one - r.oy) * iy;
   const R entry = maximum(maximum(select(right, low_x, high_x), select(up, low_y, high_y)), r.nearest);
   hit_t = minimum(maximum(on_plane, entry), minimum(select(right, high_x, low_x), select(up, high_y, low_y))) + zero;

@@ -28,7 +28,7 @@ std::uint32_t MeetBox(const Vec& low, const Vec& high, std::uint32_t self, std::
     const LaneMask hit = mask_of_bits(here) & (from <= to) & (from > zero) & (from >= load_slots(packet.nearest + slot)) &
                          (from <= load_slots(packet.farthest + slot));
     if (!R::any(hit)) continue;
-    changed |= take_hits(hit, distances(packet.first + slot), from, R(part), zero, zero, self, slot, packet);
+    changed |= take_hits(hit, from, R(part), zero, zero, self, slot, packet);
   }
   return changed;
 }
@@ -55,7 +55,7 @@ std::uint32_t MeetPlate(const FlatPlate& plate, std::uint32_t self, std::uint32_
     const R u = along(plate.to_u, x, y, z), v = along(plate.to_v, x, y, z);
     const LaneMask hit = in_time & (plate.is_ellipse ? u * u + v * v <= one : (u >= zero) & (u <= one) & (v >= zero) & (v <= one));
     if (!R::any(hit)) continue;
-    changed |= take_hits(hit, distances(packet.first + slot), t, R(part), u, v, self, slot, packet);
+    changed |= take_hits(hit, t, R(part), u, v, self, slot, packet);
   }
   return changed;
 }

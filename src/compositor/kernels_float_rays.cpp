@@ -67,6 +67,7 @@ std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket
     hn::StoreU(part, d, reinterpret_cast<double*>(reinterpret_cast<char*>(packet.first) + i));
   }
   for (int slot = 0; slot < Packet::slots; slot += n) {
+    hn::StoreU(R(std::numeric_limits<double>::infinity()).v, d, packet.distance + slot);
     const auto at = [&](const double* p) HWY_ATTR { return R(hn::LoadU(d, p + slot)); };
     const auto put = [&](R x, float* p) HWY_ATTR { hn::StoreU(hn::DemoteTo(NarrowTag(), x.v), NarrowTag(), p + slot); };
     R reach = zero, length = zero, sum = zero;  // sums keep a NaN
@@ -115,7 +116,7 @@ std::uint32_t SlotsOf(const EmbreeLanes& lanes) {
 /// What Embree may take for the ends of the rays in `slot` and the next ones.
 HWY_INLINE HWY_ATTR hn::Vec<NarrowTag> ends(const Packet& packet, const FloatPacket& floats, double slack, int slot) {
   const R largest(largest_float);
-  R t = distances(packet.first + slot);
+  R t = load_slots(packet.distance + slot);
   if (floats.moved) t = (t - load_slots(floats.start + slot)) * load_slots(floats.scale + slot);
   const R far = t * R(1.0001) + R(slack);
   return hn::DemoteTo(NarrowTag(), select(largest < far, largest, far).v);

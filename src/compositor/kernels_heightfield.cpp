@@ -15,21 +15,6 @@ HWY_INLINE Real64Lanes gather(const float* p, Real64Lanes index) {
   const hn::Rebind<std::int32_t, Real64Lanes::D> di;
   return widen(hn::GatherIndex(NarrowTag(), p, hn::DemoteTo(di, index.v)));
 }
-/// p[i] and p[i + 1].
-HWY_INLINE void gather_two(const float* p, Real64Lanes index, Real64Lanes& a, Real64Lanes& b) {
-#if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
-  const hn::RebindToSigned<Real64Lanes::D> di;
-  const Real64Lanes::DU du;
-  const hn::Rebind<std::uint32_t, Real64Lanes::D> narrow;
-  const auto offset = hn::PromoteTo(di, hn::DemoteTo(hn::Rebind<std::int32_t, Real64Lanes::D>(), (index * Real64Lanes(4.0)).v));
-  const auto both = hn::BitCast(du, hn::GatherOffset(Real64Lanes::D(), reinterpret_cast<const double*>(p), offset));
-  a = widen(hn::BitCast(NarrowTag(), hn::TruncateTo(narrow, both)));
-  b = widen(hn::BitCast(NarrowTag(), hn::TruncateTo(narrow, hn::ShiftRight<32>(both))));
-#else
-  a = gather(p, index);
-  b = gather(p + 1, index);
-#endif
-}
 
 // Two vectors side by side: a step of the walk is one chain of dependent operations, and two of them keep the processor
 // busy where one would not.
@@ -42,10 +27,50 @@ HWY_INLINE Pair minimum(const Pair& a, const Pair& b) { return {minimum(a.lower,
 HWY_INLINE Pair maximum(const Pair& a, const Pair& b) { return {maximum(a.lower, b.lower), maximum(a.upper, b.upper)}; }
 HWY_INLINE Pair whole(const Pair& a) { return {whole(a.lower), whole(a.upper)}; }
 HWY_INLINE Pair gather(const float* p, const Pair& index) { return {gather(p, index.lower), gather(p, index.upper)}; }
-HWY_INLINE void gather_two(const float* p, const Pair& index, Pair& a, Pair& b) {
-  gather_two(p, index.lower, a.lower, b.lower);
-  gather_two(p, index.upper, a.upper, b.upper);
+
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE HWY_ATTR void corners(const float* pairs, const Pair& index, Pair& h00, Pair& h10, Pair& h01, Pair& h11) {
+  const Pair first = index * Pair(2.0);
+  h00 = gather(pairs, first), h01 = gather(pairs + 1, first), h10 = gather(pairs + 2, first), h11 = gather(pairs + 3, first);
 }
+#else
+using FloatLanes = hn::Vec<FloatTag>;
+
+/// Four floats from 2 at[0], four from 2 at[4] and so on.
+template <class D>
+HWY_INLINE HWY_ATTR hn::Vec<D> every_fourth(D d, const float* p, const std::int32_t* at) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
+    return hn::LoadU(d, p + 2 * static_cast<std::ptrdiff_t>(at[0]));
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, every_fourth(half, p, at + hn::MaxLanes(half)), every_fourth(half, p, at));
+  }
+}
+/// The corners of cells, which lie four in a row: as many loads as lanes, and blocks of vectors transposed.
+HWY_INLINE HWY_ATTR void corners(const float* pairs, hn::Vec<hn::RebindToSigned<FloatTag> > index, FloatLanes& h00, FloatLanes& h10,
+                                 FloatLanes& h01, FloatLanes& h11) {
+  const FloatTag d;
+  const hn::RebindToSigned<FloatTag> di;
+  HWY_ALIGN std::int32_t at[hn::MaxLanes(d)];
+  hn::Store(index, di, at);
+  const auto r0 = every_fourth(d, pairs, at), r1 = every_fourth(d, pairs, at + 1), r2 = every_fourth(d, pairs, at + 2),
+             r3 = every_fourth(d, pairs, at + 3);
+  const hn::RepartitionToWide<FloatTag> w;
+  const auto a01 = hn::BitCast(w, hn::InterleaveLower(d, r0, r1)), a23 = hn::BitCast(w, hn::InterleaveLower(d, r2, r3));
+  const auto b01 = hn::BitCast(w, hn::InterleaveUpper(d, r0, r1)), b23 = hn::BitCast(w, hn::InterleaveUpper(d, r2, r3));
+  h00 = hn::BitCast(d, hn::InterleaveLower(w, a01, a23));
+  h01 = hn::BitCast(d, hn::InterleaveUpper(w, a01, a23));
+  h10 = hn::BitCast(d, hn::InterleaveLower(w, b01, b23));
+  h11 = hn::BitCast(d, hn::InterleaveUpper(w, b01, b23));
+}
+HWY_INLINE HWY_ATTR void corners(const float* pairs, const Pair& index, Pair& h00, Pair& h10, Pair& h01, Pair& h11) {
+  const hn::Rebind<std::int32_t, Real64Lanes::D> half;
+  FloatLanes a, b, c, e;
+  corners(pairs, hn::Combine(hn::RebindToSigned<FloatTag>(), hn::DemoteTo(half, index.upper.v), hn::DemoteTo(half, index.lower.v)), a, b, c,
+          e);
+  h00 = to_double(a), h10 = to_double(b), h01 = to_double(c), h11 = to_double(e);
+}
+#endif
 
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR
@@ -55,56 +80,78 @@ HWY_INLINE void gather_two(const float* p, const Pair& index, Pair& a, Pair& b) 
 
 HWY_INLINE HWY_ATTR Pair load_pair(const double* p) { return {load_slots(p), load_slots(p + lane_width)}; }
 
-std::uint32_t MeetTile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet) {
+HWY_INLINE HWY_ATTR GridRay<Pair> load_ray(const HeightfieldView& field, const Packet& packet, int slot) {
+  const auto load = [slot](const double* p) HWY_ATTR { return load_pair(p + slot); };
+  const Pair origin[3] = {load(packet.origin[0]), load(packet.origin[1]), load(packet.origin[2])};
+  const Pair direction[3] = {load(packet.direction[0]), load(packet.direction[1]), load(packet.direction[2])};
+  return to_grid(field, origin, direction, load(packet.nearest), load(packet.farthest));
+}
+HWY_INLINE HWY_ATTR Pair known_distances(const Packet& packet, int slot) { return load_pair(packet.distance + slot); }
+HWY_INLINE HWY_ATTR Pair::Mask pair_mask(std::uint32_t bits) {
+  return {mask_of_bits(bits & ((1u << lane_width) - 1)), mask_of_bits(bits >> lane_width)};
+}
+HWY_INLINE HWY_ATTR std::uint32_t take_pair_hits(const Pair::Mask& hit, const Pair& t, const Pair& part, const Pair& u, const Pair& v,
+                                                 std::uint32_t self, int slot, Packet& packet) {
+  return take_hits(hit.lower, t.lower, part.lower, u.lower, v.lower, self, slot, packet) |
+         take_hits(hit.upper, t.upper, part.upper, u.upper, v.upper, self, slot + lane_width, packet);
+}
+
+/// Not inlined: where floats decide almost all rays, the registers are theirs.
+HWY_NOINLINE HWY_ATTR std::uint32_t walk_in_doubles(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, int slot,
+                                                    std::uint32_t lanes, Packet& packet) {
+  const GridRay<Pair> ray = load_ray(field, packet, slot);
+  const Pair known = known_distances(packet, slot);
+  Pair t(0.0), part(0.0), u(0.0), v(0.0);
+  const Pair::Mask hit = meet_cells(field, tile, ray, known, pair_mask(lanes), t, part, u, v);
+  return take_pair_hits(hit, t, part, u, v, self, slot, packet);
+}
+
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView&, const HeightfieldTile&, std::uint32_t, int, std::uint32_t&,
+                                                 Packet&) {
+  return 0;
+}
+#else
+#include "compositor/heightfield_float_walk-inl.h"
+
+/// Decides what floats can of `lanes`, and takes it out of them.
+HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, int slot,
+                                                 std::uint32_t& lanes, Packet& packet) {
   using R = Pair;
+  const GridRay<R> ray = load_ray(field, packet, slot);
+  const R known = known_distances(packet, slot);
+  float_walk::Outcome outcome;
+  float_walk::walk(field, tile, ray, known, lanes, outcome);
+  lanes &= ~outcome.missed;
+  if (outcome.guessed == 0) return 0;
+  const R one(1.0), zero(0.0), i = to_double(outcome.i) + R(tile.x0), j = to_double(outcome.j) + R(tile.y0);
+  const R::Mask is_upper = pair_mask(outcome.upper);
+  const R upper = select(is_upper, one, zero);
+  R closing(0.0);
+  const R t = zero + meet_plane(ray, i, j, upper, is_upper, to_double(outcome.h00), to_double(outcome.h10), to_double(outcome.h01),
+                                to_double(outcome.h11), closing);
+  const R u = within_unit(ray.ox + t * ray.dx - i), v = within_unit(ray.oy + t * ray.dy - j);
+  const R part = (j * R(field.columns) + i) * R(2.0) + upper;
+  // So far inside the triangle that at its edges the ray is farther from the plane than the roundings of the walk in doubles.
+  const R w = select(is_upper, one - u, u), z = select(is_upper, one - v, v), inner = minimum(minimum(w, z), one - (w + z));
+  const R::Mask inside = (inner > R(0x1p-24)) & (inner * abs(closing) > (abs(ray.dx) + abs(ray.dy)) * R(tile.roundings)) &
+                         (t > ray.nearest) & pair_mask(outcome.guessed);
+  lanes &= ~(bits_of(inside.lower) | bits_of(inside.upper) << lane_width);
+  return take_pair_hits(inside & (t <= minimum(ray.farthest, known)), t, part, u, v, self, slot, packet);
+}
+#endif
+
+std::uint32_t MeetTile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet) {
   constexpr int width = 2 * lane_width;
   static_assert(Packet::slots % width == 0);
   std::uint32_t changed = 0;
   for (int slot = 0; slot < Packet::slots; slot += width) {
-    const std::uint32_t here = lanes >> slot & ((1u << width) - 1);
+    std::uint32_t here = lanes >> slot & ((1u << width) - 1);
     if (here == 0) continue;
-    const R::Mask active{mask_of_bits(here & ((1u << lane_width) - 1)), mask_of_bits(here >> lane_width)};
-    const auto load = [slot](const double* p) HWY_ATTR { return load_pair(p + slot); };
-    const R origin[3] = {load(packet.origin[0]), load(packet.origin[1]), load(packet.origin[2])};
-    const R direction[3] = {load(packet.direction[0]), load(packet.direction[1]), load(packet.direction[2])};
-    const GridRay<R> ray = to_grid(field, origin, direction, load(packet.nearest), load(packet.farthest));
-    const R known(distances(packet.first + slot), distances(packet.first + slot + lane_width));
-    R t(0.0), part(0.0), u(0.0), v(0.0);
-    const R::Mask hit = meet_cells(field, tile, ray, known, active, t, part, u, v);
-    if (!R::any(hit)) continue;
-    changed |= take_hits(hit.lower, known.lower, t.lower, part.lower, u.lower, v.lower, self, slot, packet);
-    changed |= take_hits(hit.upper, known.upper, t.upper, part.upper, u.upper, v.upper, self, slot + lane_width, packet);
+    changed |= walk_in_floats(field, tile, self, slot, here, packet);
+    if (here != 0) changed |= walk_in_doubles(field, tile, self, slot, here, packet);
   }
   return changed;
-}
-
-void SummarizeTile(const float* heights, int columns, float* highest, HeightfieldTile& tile) {
-  const int x0 = static_cast<int>(tile.x0), x1 = static_cast<int>(tile.x1), n = Lanes::size();
-  const std::size_t stride = static_cast<std::size_t>(columns) + 1;
-  Lanes low(heights[static_cast<std::size_t>(tile.y0) * stride + x0]), high = low;
-  for (auto y = static_cast<std::size_t>(tile.y0); y < static_cast<std::size_t>(tile.y1); ++y) {
-    const float *a = heights + y * stride, *b = a + stride;
-    float* to = highest + y * static_cast<std::size_t>(columns);
-    int x = x0;
-    for (; x + n <= x1; x += n) {
-      const Lanes h00 = Lanes::load(a + x), h10 = Lanes::load(a + x + 1), h01 = Lanes::load(b + x), h11 = Lanes::load(b + x + 1);
-      const Lanes top = max(max(h00, h10), max(h01, h11));
-      hn::StoreU(top.v, Lanes::D(), to + x);
-      low = min(low, min(min(h00, h10), min(h01, h11)));
-      high = max(high, top);
-    }
-    for (; x < x1; ++x) {
-      const auto [least, most] = std::minmax({a[x], a[x + 1], b[x], b[x + 1]});
-      to[x] = most;
-      low = min(low, Lanes(least));
-      high = max(high, Lanes(most));
-    }
-  }
-  HWY_ALIGN float lanes[HWY_MAX_BYTES / sizeof(float)];
-  hn::Store(low.v, Lanes::D(), lanes);
-  tile.low = static_cast<double>(*std::min_element(lanes, lanes + n));
-  hn::Store(high.v, Lanes::D(), lanes);
-  tile.high = static_cast<double>(*std::max_element(lanes, lanes + n));
 }
 
 RAINREF_TARGET_END(compositor)
@@ -113,14 +160,10 @@ RAINREF_TARGET_END(compositor)
 namespace rainref::compositor {
 
 RAINREF_EXPORT(MeetTile);
-RAINREF_EXPORT(SummarizeTile);
 
 std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes,
                         Packet& packet) {
   return RAINREF_DISPATCH(MeetTile)(field, tile, self, lanes, packet);
-}
-void summarize_tile(const float* heights, int columns, float* highest, HeightfieldTile& tile) {
-  RAINREF_DISPATCH(SummarizeTile)(heights, columns, highest, tile);
 }
 
 }  // namespace rainref::compositor

@@ -14,7 +14,12 @@ struct Packet {
 
   const double *origin[3], *direction[3], *nearest, *farthest;
   Hit* first;
+  alignas(64) double distance[slots];  ///< of the first hits: their t again, side by side
 
+  void set_first(std::uint32_t slot, const Hit& hit) {
+    first[slot] = hit;
+    distance[slot] = hit.t;
+  }
   Ray ray(std::uint32_t slot) const {
     return {{origin[0][slot], origin[1][slot], origin[2][slot]},
             {direction[0][slot], direction[1][slot], direction[2][slot]},

@@ -43,22 +43,17 @@ HWY_INLINE HWY_ATTR std::uint32_t bits_of(LaneMask mask) {
   hn::StoreMaskBits(Real64Lanes::D(), mask.m, bytes);
   return bytes[0];
 }
-/// The distances of hits[0] and the next ones.
-HWY_INLINE HWY_ATTR Real64Lanes distances(const Hit* hits) {
-  static_assert(sizeof(Hit) == 4 * sizeof(double));
-  return hn::GatherIndex(Real64Lanes::D(), &hits[0].t, hn::ShiftLeft<2>(hn::Iota(hn::RebindToSigned<Real64Lanes::D>(), 0)));
-}
-
 /// Hits of the lanes in `hit`, for the slots from `slot` on: puts those first that precede what is there, and gives their
-/// slots. `known` are the distances of what is there; parts are whole numbers below 2^32.
-HWY_INLINE HWY_ATTR std::uint32_t take_hits(LaneMask hit, Real64Lanes known, Real64Lanes t, Real64Lanes part, Real64Lanes u, Real64Lanes v,
-                                            std::uint32_t self, int slot, Packet& packet) {
+/// slots. Parts are whole numbers below 2^32.
+HWY_INLINE HWY_ATTR std::uint32_t take_hits(LaneMask hit, Real64Lanes t, Real64Lanes part, Real64Lanes u, Real64Lanes v, std::uint32_t self,
+                                            int slot, Packet& packet) {
   if (!Real64Lanes::any(hit)) return 0;
   const Real64Lanes::D d;
   const Real64Lanes::DU du;
   // Surface and part, as they lie in a Hit: the sum's lowest bits are those of the whole number.
   static_assert(offsetof(Hit, surface) == 8 && offsetof(Hit, part) == 12 && offsetof(Hit, u) == 16 && sizeof(Hit) == 32);
   const auto ids = hn::BitCast(d, hn::Or(hn::ShiftLeft<32>(hn::BitCast(du, (part + Real64Lanes(0x1p52)).v)), hn::Set(du, self)));
+  const Real64Lanes known = load_slots(packet.distance + slot);
   const LaneMask is_nearer = hit & (t < known);
   std::uint32_t nearer = bits_of(is_nearer);
   HWY_ALIGN double rows[4 * lane_width];
@@ -69,6 +64,7 @@ HWY_INLINE HWY_ATTR std::uint32_t take_hits(LaneMask hit, Real64Lanes known, Rea
     std::memcpy(static_cast<void*>(&found), rows + 4 * k, sizeof found);
     if (precedes(found, packet.first[slot + static_cast<int>(k)])) nearer |= 1u << k;
   }
+  hn::StoreU(select(mask_of_bits(nearer), t, known).v, d, packet.distance + slot);
   Hit* const to = packet.first + slot;
   if (nearer == (1u << lane_width) - 1) {
     std::memcpy(static_cast<void*>(to), rows, sizeof rows);

@@ -8,11 +8,12 @@ namespace rainref::compositor {
 std::uint32_t Surface::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
   std::uint32_t changed = 0;
   for_each_lane(lanes, [&](std::uint32_t slot) {
-    Hit& first = packet.first[slot];
-    const double t = first.t;
-    const std::uint32_t surface = first.surface, part = first.part;
+    const Hit before = packet.first[slot];
+    Hit first = before;
     meet(self, primitive, packet.ray(slot), first);
-    if (first.t != t || first.surface != surface || first.part != part) changed |= 1u << slot;
+    if (first.t == before.t && first.surface == before.surface && first.part == before.part) return;
+    packet.set_first(slot, first);
+    changed |= 1u << slot;
   });
   return changed;
 }

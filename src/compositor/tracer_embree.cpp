@@ -111,8 +111,6 @@ void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, con
     packet.first = count == Packet::slots ? hits.data() + begin : spare;
     make_floats(count, extent, packet, query.floats);
     if (query.floats.enters != 0) {
-      const auto same = [&](const double* component) { return component[0] == component[count - 1]; };
-      query.set_coherent(same(packet.origin[0]) && same(packet.origin[1]) && same(packet.origin[2]));  // a pinhole's
       if constexpr (!is_whole) {
         for (std::size_t c = 0; c < to.size(); ++c) std::copy_n(room[c], width, to[c]);
       }

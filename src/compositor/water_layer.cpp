@@ -126,10 +126,10 @@ std::uint32_t DisplacedWater::meet_packet(std::uint32_t self, std::uint32_t prim
   for_each_lane(lanes, [&](std::uint32_t slot) { before[slot] = packet.first[slot]; });
   std::uint32_t changed = field_.meet_packet(self, primitive, lanes, packet);
   for_each_lane(changed, [&](std::uint32_t slot) {
-    Hit& first = packet.first[slot];
-    if (is_there(packet.ray(slot), first)) return;
-    first = before[slot];
+    if (is_there(packet.ray(slot), packet.first[slot])) return;
+    Hit first = before[slot];
     meet(self, primitive, packet.ray(slot), first);
+    packet.set_first(slot, first);
     if (first.t == before[slot].t && first.surface == before[slot].surface) changed &= ~(1u << slot);
   });
   return changed;

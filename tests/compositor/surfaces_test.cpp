@@ -96,7 +96,7 @@ TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainEvaluationsBits) {
         Hit own;
         surface.meet(4, primitive, ray, own);
         if (own.is_surface() && k % 4 != 0) plain[k] = {k % 4 == 3 ? 0.5 * own.t : own.t, k % 4 == 1 ? 3u : 5u, 0, 0.25, 0.5};
-        packet.first[k] = plain[k];
+        packet.set_first(k, plain[k]);
       }
       const std::uint32_t changed = surface.meet_packet(4, primitive, lanes, packet);
       for (std::uint32_t k = 0; k < 16; ++k) {
@@ -104,6 +104,7 @@ TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainEvaluationsBits) {
         if (lanes >> k & 1) surface.meet(4, primitive, rays[i + k], plain[k]);
         ASSERT_EQ((changed >> k & 1) != 0, before.surface != plain[k].surface) << i + k;
         ASSERT_EQ(packet.first[k].t, plain[k].t) << i + k;
+        ASSERT_EQ(packet.distance[k], plain[k].t) << i + k;
         ASSERT_EQ(packet.first[k].surface, plain[k].surface) << i + k;
         ASSERT_EQ(packet.first[k].part, plain[k].part) << i + k;
         ASSERT_EQ(packet.first[k].u, plain[k].u) << i + k;

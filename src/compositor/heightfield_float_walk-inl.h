@@ -1,0 +1,238 @@
+// A walk in floats, 16 rays to a vector of 64 bytes, that says of a ray: certainly missed, a guess of the triangle that it hits, or
+// nothing. A guess is then tried in doubles, and whoever is left walks in doubles (heightfield_walk-inl.h). The answer is always
+// the definition's; what floats say differs between targets, for they may fuse. Text only, for one target.
+//
+// Why a miss is a miss. Let A be the cells that the ray goes within the tile, along the axis along which it goes faster; positions
+// count from the cell in which it enters, so all of them are below A + 2. Seven roundings (of the first position, the direction, the
+// reciprocal, the wall's time, the place along the wall) move what floats call the ray at time t by less than 8 eps (A + 2) from
+// where it is, eps = 2^-24; delta = 16 eps (A + 2) is taken. Of the sheet, heights a distance delta apart differ by 2 steepest delta
+// at most, and where two triangles' planes go on beyond their edge by 4 steepest delta. Heights themselves are wrong by less than
+// 16 eps spread. So if at every edge that the ray crosses in floats it is farther from the sheet than
+//   doubt = 8 steepest delta + 16 eps spread + twice the tile's margin
+// and always on the same side, then it is on that side at every edge that it crosses by the definition, though these may be others
+// where it passes a corner or runs along an edge: between two edges the distance is linear, and the true ray is delta away.
+//
+// A ray that leaves the tile by a wall may do so later than floats say, and go on inside along the wall: by some delta over its
+// speed across the wall. What its height above the sheet may change in that time is added to `doubt`. So it is where a ray enters by a
+// wall, for floats begin before that.
+//
+// Why a guess that was tried is the hit. It is the first triangle that floats cannot rule out, entered at a point where they are
+// certain of the side (g > doubt, or the start). The true ray leaves that side on the triangle's plane at time h, and is within the
+// triangle then: that is tried. Before h it may cross other edges than floats saw, outside of the triangle, but at a share s of the
+// way from h back to the entry it is at most s delta outside (at h it is inside), where the sheet differs from the plane by less than
+// 8 steepest s delta, and g is at least s doubt there. So no edge before h sees another side. Inside means by so much that doubles
+// see the side too: rates of the distances to the edges are at most |dx| + |dy|.
+//
+// Where rays begin: through the slab's top they are above, through its bottom below. The slab is wider by `doubt` than the heights, so
+// this holds too where a ray comes through a corner of the slab: one that falls so much more steeply than the sheet that it does not
+// hold cannot come up through the sheet in that cell.
+namespace float_walk {
+
+using D = FloatTag;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using M = hn::Mask<D>;
+
+HWY_INLINE HWY_ATTR V all(float x) { return hn::Set(D(), x); }
+HWY_INLINE HWY_ATTR V narrow(const Pair& a) {
+  return hn::Combine(D(), hn::DemoteTo(NarrowTag(), a.upper.v), hn::DemoteTo(NarrowTag(), a.lower.v));
+}
+HWY_INLINE HWY_ATTR V within_unit(V x) { return hn::Min(hn::Max(x, hn::Zero(D())), all(1)); }
+HWY_INLINE HWY_ATTR V without_zero(V x) { return hn::IfThenElse(hn::Lt(hn::Abs(x), all(1e-30f)), all(1e-30f), x); }
+HWY_INLINE HWY_ATTR bool any(M mask) { return !hn::AllFalse(D(), mask); }
+HWY_INLINE HWY_ATTR M mask_of(std::uint32_t bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  return hn::LoadMaskBits(D(), bytes);
+}
+HWY_INLINE HWY_ATTR std::uint32_t bits_of(M mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(D(), mask, bytes);
+  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+}
+
+/// What floats say of the lanes asked, a bit for each; of lanes in neither set nothing.
+struct Outcome {
+  std::uint32_t missed = 0;
+  std::uint32_t guessed = 0, upper = 0;  ///< upper: of those guessed, the triangle with the fourth vertex
+  V i, j;                                ///< cells guessed, from the tile's first
+  V h00, h10, h01, h11;                  ///< the heights of their corners
+  HWY_INLINE HWY_ATTR Outcome() {}
+};
+
+HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTile& tile, const GridRay<Pair>& r, const Pair& limit,
+                              std::uint32_t lanes, Outcome& out) {
+  const D d;
+  const DI di;
+  const FloatTile& f = tile.floats;
+  const V zero = hn::Zero(d), one = all(1), columns = all(f.columns), rows = all(f.rows), middle = all(f.middle);
+  const V low = all(f.low), high = all(f.high);
+  const VI stride = hn::Set(di, static_cast<std::int32_t>(field.columns) + 1);
+
+  const Pair ox = r.ox - Pair(tile.x0), oy = r.oy - Pair(tile.y0), oh = r.oh - Pair(static_cast<double>(f.middle));
+  const V dx = narrow(r.dx), dy = narrow(r.dy), dh = narrow(r.dh), float_ox = narrow(ox), float_oy = narrow(oy), float_oh = narrow(oh);
+  const V ix = hn::Div(one, dx), iy = hn::Div(one, dy), ih = hn::Div(one, without_zero(dh));
+  const V abs_ix = hn::Abs(ix), abs_iy = hn::Abs(iy), fastest = hn::Max(hn::Abs(dx), hn::Abs(dy));
+  const M right = hn::Gt(dx, zero), up = hn::Gt(dy, zero), falls = hn::Lt(dh, zero);
+  const V ahead_x = hn::IfThenElseZero(right, one), ahead_y = hn::IfThenElseZero(up, one);
+  V far_x = hn::IfThenElseZero(right, columns), near_x = hn::Sub(columns, far_x);
+  V far_y = hn::IfThenElseZero(up, rows), near_y = hn::Sub(rows, far_y);
+
+  // Places and times count from one near where the ray enters, and from the cell there: small numbers.
+  const V side_by_origin = hn::Max(hn::Mul(hn::Sub(near_x, float_ox), ix), hn::Mul(hn::Sub(near_y, float_oy), iy));
+  const V slab_by_origin = hn::Mul(hn::Sub(hn::IfThenElse(falls, high, low), float_oh), ih);
+  const Pair start = to_double(hn::Min(hn::Max(hn::Max(side_by_origin, slab_by_origin), narrow(r.nearest)), all(1e30f)));
+  const Pair x = ox + start * r.dx, y = oy + start * r.dy;
+  const Pair cell_x = whole(maximum(Pair(0.0), minimum(Pair(tile.x1 - tile.x0 - 1), x)));
+  const Pair cell_y = whole(maximum(Pair(0.0), minimum(Pair(tile.y1 - tile.y0 - 1), y)));
+  const V fx = narrow(cell_x), fy = narrow(cell_y);
+  far_x = hn::Sub(far_x, fx), near_x = hn::Sub(near_x, fx), far_y = hn::Sub(far_y, fy), near_y = hn::Sub(near_y, fy);
+  const V px = narrow(x - cell_x), py = narrow(y - cell_y), ph = narrow(oh + start * r.dh);
+  const V nearest = narrow(r.nearest - start), farthest = narrow(minimum(minimum(r.farthest, limit) - start, Pair(1e30)));
+
+  // Of numbers that are too large, or none, floats say nothing; nor where the doubles' own roundings show.
+  const M active = mask_of(lanes), nowhere = hn::AndNot(active, active);
+  const M ordinary = hn::And(
+      hn::And(hn::Le(hn::Max(hn::Abs(float_ox), hn::Abs(float_oy)), all(f.far_beside)), hn::Le(hn::Abs(float_oh), all(f.far_above))),
+      hn::And(hn::And(hn::Le(hn::Add(hn::Abs(px), hn::Abs(py)), all(f.away)), hn::Le(hn::Abs(ph), all(f.tall))),
+              hn::Le(hn::Add(fastest, hn::Abs(dh)), all(1e18f))));
+
+  // A wall is at time (wall times inverse) + this.
+  const V qx = hn::Neg(hn::Mul(px, ix)), qy = hn::Neg(hn::Mul(py, iy));
+  const V out_x = hn::MulAdd(far_x, ix, qx), out_y = hn::MulAdd(far_y, iy, qy);
+  const V beside_x = hn::Mul(all(f.beside), abs_ix), beside_y = hn::Mul(all(f.beside), abs_iy);
+  const V slab_a = hn::Mul(hn::Sub(low, ph), ih), slab_b = hn::Mul(hn::Sub(high, ph), ih);
+  const V slab_in = hn::Min(slab_a, slab_b), slab_out = hn::Max(slab_a, slab_b);
+  const V in_x = hn::Sub(hn::MulAdd(near_x, ix, qx), beside_x), in_y = hn::Sub(hn::MulAdd(near_y, iy, qy), beside_y);
+  const V side_in = hn::Max(hn::Max(in_x, in_y), nearest);
+  const V begin = hn::Max(side_in, slab_in);
+  const V within = hn::Min(slab_out, hn::Add(farthest, hn::Min(beside_x, beside_y)));
+  const V leaves = hn::Min(within, hn::Min(hn::Add(out_x, beside_x), hn::Add(out_y, beside_y)));
+  const V end = hn::Min(within, hn::Min(out_x, out_y));
+  const M passes_by = hn::And(hn::And(active, ordinary), hn::Gt(begin, leaves));
+  const M walks = hn::And(hn::And(active, ordinary), hn::Le(begin, leaves));
+  out.missed = bits_of(passes_by);
+  if (!any(walks)) return;
+  const V across = hn::MulAdd(hn::Max(hn::Abs(begin), hn::Abs(end)), fastest, hn::Add(hn::Add(hn::Abs(px), hn::Abs(py)), all(2)));
+  const V cells = hn::Min(across, all(f.longest)), faster = hn::MulAdd(fastest, all(f.steepest_twice), hn::Abs(dh));
+  const V leaving = hn::Sub(leaves, end);
+  const V doubt = hn::MulAdd(leaving, faster, hn::MulAdd(cells, all(f.doubt_for_cell), all(f.doubt)));
+
+  // A ray that falls from high above the blocks around it goes on to where it comes down to their highest vertex, or leaves them.
+  V t = hn::IfThenElseZero(walks, begin);
+  const V block_time = hn::Mul(hn::Min(abs_ix, abs_iy), all(block_cells - 0.1f));
+  for (M leaps = hn::And(hn::And(walks, falls), hn::Gt(hn::Sub(end, t), block_time)); any(leaps);) {
+    const V center = hn::Add(t, block_time), beyond = hn::Add(center, block_time);
+    const V block_at_x = hn::Add(hn::Add(hn::MulAdd(center, dx, px), fx), all(f.into_block_x));
+    const V block_at_y = hn::Add(hn::Add(hn::MulAdd(center, dy, py), fy), all(f.into_block_y));
+    const V block_x = hn::Max(zero, hn::Min(hn::Mul(block_at_x, all(1.0f / block_cells)), all(f.last_block_x)));
+    const V block_y = hn::Max(zero, hn::Min(hn::Mul(block_at_y, all(1.0f / block_cells)), all(f.last_block_y)));
+    const VI block = hn::Add(hn::Mul(hn::ConvertTo(di, block_y), hn::Set(di, field.blocks_across)), hn::ConvertTo(di, block_x));
+    const V top = hn::GatherIndex(d, field.nearby + f.first_block, hn::IfThenElseZero(hn::RebindMask(di, leaps), block));
+    const V down = hn::Mul(hn::Sub(hn::Add(hn::Sub(top, middle), all(f.doubt)), ph), ih);
+    t = hn::IfThenElse(leaps, hn::Max(t, hn::Min(down, beyond)), t);
+    leaps = hn::And(leaps, hn::And(hn::Ge(t, beyond), hn::Lt(t, end)));
+  }
+
+  // The cell, from that of px and py; its walls ahead; the number of its first vertex.
+  const V first_x = hn::Neg(fx), first_y = hn::Neg(fy);
+  const V here_x = hn::IfThenElseZero(walks, hn::MulAdd(t, dx, px)), here_y = hn::IfThenElseZero(walks, hn::MulAdd(t, dy, py));
+  const V i0 = hn::Floor(hn::Max(first_x, hn::Min(here_x, hn::Add(first_x, hn::Sub(columns, one)))));
+  const V j0 = hn::Floor(hn::Max(first_y, hn::Min(here_y, hn::Add(first_y, hn::Sub(rows, one)))));
+  V kx = hn::Add(i0, ahead_x), ky = hn::Add(j0, ahead_y);
+  VI at = hn::Add(hn::Add(hn::Mul(hn::ConvertTo(di, hn::Add(j0, fy)), stride), hn::ConvertTo(di, hn::Add(i0, fx))), hn::Set(di, f.first));
+  const V step_x = hn::IfThenElse(right, one, all(-1)), step_y = hn::IfThenElse(up, one, all(-1));
+  const VI move_x = hn::ConvertTo(di, step_x), move_y = hn::Mul(hn::ConvertTo(di, step_y), stride);
+  const V is = hn::Div(one, without_zero(hn::Add(dx, dy))), qs = hn::Neg(hn::Mul(hn::Add(px, py), is));
+  const M to_upper = hn::Gt(is, zero);
+
+  // Gaps of rays that begin below the sheet are turned over by this sign.
+  const V below = all(-0.0f);
+  V side = hn::IfThenElse(falls, zero, below);
+  V h00 = zero, h10 = zero, h01 = zero, h11 = zero;
+  M unsure = nowhere, walking = walks, waiting = nowhere, guessed = nowhere, upper = nowhere;
+  const M asks = hn::And(walks, hn::And(hn::Le(slab_in, side_in), hn::Le(t, begin)));
+  if (any(asks)) {
+    corners(field.pairs, at, h00, h10, h01, h11);
+    const V u = within_unit(hn::Sub(here_x, i0)), v = within_unit(hn::Sub(here_y, j0)), u1 = hn::Sub(one, u), v1 = hn::Sub(one, v);
+    const V lower_height = hn::MulAdd(u, hn::Sub(h10, h00), hn::MulAdd(v, hn::Sub(h01, h00), hn::Sub(h00, middle)));
+    const V upper_height = hn::MulAdd(u1, hn::Sub(h01, h11), hn::MulAdd(v1, hn::Sub(h10, h11), hn::Sub(h11, middle)));
+    const V gap = hn::Sub(hn::MulAdd(t, dh, ph), hn::IfThenElse(hn::Lt(hn::Add(u, v), one), lower_height, upper_height));
+    const V latest = hn::Max(hn::MulAdd(all(2), beside_x, in_x), hn::MulAdd(all(2), beside_y, in_y));
+    const V entering = hn::Sub(hn::Max(latest, side_in), side_in);
+    waiting = hn::And(asks, hn::Gt(hn::Abs(gap), hn::MulAdd(entering, faster, doubt)));
+    unsure = hn::AndNot(waiting, asks);
+    walking = hn::AndNot(asks, walks);
+    side = hn::IfThenElse(asks, hn::IfThenElse(hn::Gt(gap, zero), zero, below), side);
+  }
+
+  const V lowered = hn::Sub(ph, doubt);
+  bool fetched = any(waiting);  // which are all in the cells whose corners were fetched above
+  for (;;) {
+    // Of a ray that passes a cell that it might have hit, the next one is asked too.
+    for (int cell = 0; cell < 2 && any(waiting); ++cell) {
+      if (!fetched) corners(field.pairs, at, h00, h10, h01, h11);
+      fetched = false;
+      const V tx = hn::MulAdd(kx, ix, qx), ty = hn::MulAdd(ky, iy, qy), exit = hn::Min(tx, ty);
+      const V i = hn::Sub(kx, ahead_x), j = hn::Sub(ky, ahead_y);
+      const V g00 = hn::Sub(h00, middle), g10 = hn::Sub(h10, middle), g01 = hn::Sub(h01, middle), g11 = hn::Sub(h11, middle);
+      const M on_x = hn::Lt(tx, ty);
+      const V along =
+          within_unit(hn::Sub(hn::MulAdd(exit, hn::IfThenElse(on_x, dy, dx), hn::IfThenElse(on_x, py, px)), hn::IfThenElse(on_x, j, i)));
+      const V a = hn::IfThenElse(on_x, hn::IfThenElse(right, g10, g00), hn::IfThenElse(up, g01, g00));
+      const V b = hn::IfThenElse(on_x, hn::IfThenElse(right, g11, g01), hn::IfThenElse(up, g11, g10));
+      const V exit_gap = hn::Xor(side, hn::Sub(hn::MulAdd(exit, dh, ph), hn::MulAdd(along, hn::Sub(b, a), a)));
+      const V diagonal = hn::MulAdd(hn::Add(hn::Add(i, j), one), is, qs);
+      const V along_diagonal = within_unit(hn::Sub(hn::MulAdd(diagonal, dx, px), i));
+      const V diagonal_gap = hn::Xor(side, hn::Sub(hn::MulAdd(diagonal, dh, ph), hn::MulAdd(along_diagonal, hn::Sub(g10, g01), g01)));
+      const M crosses = hn::And(hn::Lt(t, diagonal), hn::Lt(diagonal, exit)), is_clear_there = hn::Gt(diagonal_gap, doubt);
+      const M passes = hn::And(waiting, hn::AndNot(hn::AndNot(is_clear_there, crosses), hn::Gt(exit_gap, doubt)));
+      const M stops = hn::AndNot(passes, waiting), in_second = hn::Or(hn::And(crosses, is_clear_there), hn::Le(diagonal, t));
+      guessed = hn::Or(guessed, stops);
+      upper = hn::Or(upper, hn::AndNot(hn::Xor(in_second, to_upper), stops));
+      waiting = hn::And(passes, hn::Lt(exit, end));
+      const M moves_x = hn::And(waiting, hn::Le(tx, ty)), moves_y = hn::And(waiting, hn::Le(ty, tx));
+      kx = hn::IfThenElse(moves_x, hn::Add(kx, step_x), kx);
+      ky = hn::IfThenElse(moves_y, hn::Add(ky, step_y), ky);
+      at = hn::IfThenElse(hn::RebindMask(di, moves_x), hn::Add(at, move_x), at);
+      at = hn::IfThenElse(hn::RebindMask(di, moves_y), hn::Add(at, move_y), at);
+      t = hn::IfThenElse(waiting, exit, t);
+    }
+    walking = hn::Or(walking, waiting);
+    waiting = nowhere;
+    if (!any(walking)) break;
+    // Every ray walks to a cell that it may hit; there it waits for the others. A ray runs a few cells ahead of the answer
+    // whether it may go there, so that the fetches of several cells overlap.
+    do {
+      V ahead_kx = kx, ahead_ky = ky, ahead_t = t;
+      VI ahead_at = at;
+      _Pragma("GCC unroll 4") for (int cell = 0; cell < cells_ahead; ++cell) {
+        const V tx = hn::MulAdd(ahead_kx, ix, qx), ty = hn::MulAdd(ahead_ky, iy, qy), exit = hn::Min(tx, ty);
+        const V top = hn::GatherIndex(d, field.highest, ahead_at);
+        const M is_clear = hn::Gt(hn::MulAdd(hn::IfThenElse(falls, exit, ahead_t), dh, lowered), hn::Sub(top, middle));
+        waiting = hn::Or(waiting, hn::AndNot(is_clear, walking));
+        walking = hn::And(walking, hn::And(is_clear, hn::Lt(exit, end)));
+        const M moves_x = hn::Le(tx, ty), moves_y = hn::Le(ty, tx);
+        ahead_kx = hn::IfThenElse(moves_x, hn::Add(ahead_kx, step_x), ahead_kx);
+        ahead_ky = hn::IfThenElse(moves_y, hn::Add(ahead_ky, step_y), ahead_ky);
+        ahead_at = hn::IfThenElse(hn::RebindMask(di, moves_x), hn::Add(ahead_at, move_x), ahead_at);
+        ahead_at = hn::IfThenElse(hn::RebindMask(di, moves_y), hn::Add(ahead_at, move_y), ahead_at);
+        ahead_t = exit;
+        kx = hn::IfThenElse(walking, ahead_kx, kx);
+        ky = hn::IfThenElse(walking, ahead_ky, ky);
+        at = hn::IfThenElse(hn::RebindMask(di, walking), ahead_at, at);
+        t = hn::IfThenElse(walking, exit, t);
+      }
+    } while (any(walking));
+    if (!any(waiting)) break;
+  }
+  // A ray that was stopped stays in its cell, whose corners were fetched with those of the rays that went on.
+  out.missed |= bits_of(hn::AndNot(hn::Or(guessed, unsure), walks));
+  out.guessed = bits_of(guessed);
+  out.upper = bits_of(upper);
+  out.i = hn::Add(hn::Sub(kx, ahead_x), fx);
+  out.j = hn::Add(hn::Sub(ky, ahead_y), fy);
+  out.h00 = h00, out.h10 = h10, out.h01 = h01, out.h11 = h11;
+}
+
+}  // namespace float_walk
