@@ -15,7 +15,8 @@ import subprocess
 import tempfile
 
 STEPS, SIMULATED = 150_000, 60_000  # instructions that are enough: of a row whose rounds are alike; for the model of the pipeline
-# Row of the bench, kernel (demangled, after the namespace of the target), the calls that are stepped through, spread over the picture, whose parts
+FIRST_HITS = r"^rainref::compositor::Tracer::first_hits\(rainref::compositor::RayArrays"  # with Embree and all kernels that it calls
+# Row of the bench, kernel (demangled, in the namespace of the target but where it begins with another), the calls that are stepped through, spread over the picture, whose parts
 # cost unlike amounts, and how many elements each makes; 0: a vector of floats for each round of its loop, so that the call need not end.
 ROWS = (
     ("edge_splash.splash/as-published/1920x1080", r"rows_of<.*PublishedSplashPass,", (67, 200), 0),
@@ -30,6 +31,9 @@ ROWS = (
     ("rain_on_glass/corrected/pane/1080p", r"rainy_glass::\w+::RainOnGlassPassRows\(", (67, 200), 7680),
     ("screen_drops.drops/as-published/1080p", r"rows_of<.*PublishedDropsPass,", (50, 100, 150, 200), 0),
     ("screen_drops.drops/corrected/still/1080p", r"screen_drops::\w+::DropsPassRows\(", (33, 101, 169, 237), 7680),
+    ("rays/camera/1920x1080", FIRST_HITS, (1700, 4500, 7300), 256),
+    ("rays/grazing/1920x1080", FIRST_HITS, (3600, 5300, 7000), 256),
+    ("rays/reflection/1920x1080", FIRST_HITS, (1000, 3000, 5000), 256),
 )
 TARGETS = (("avx512f", "AVX3", 16, "icelake-server"), ("avx2", "AVX2", 8, "haswell"))
 TRACEME, PEEKTEXT, PEEKUSER, POKETEXT, POKEUSER, CONT, SINGLESTEP = 0, 1, 3, 4, 6, 7, 9
@@ -87,8 +91,8 @@ def run_to(pid, place, stack):
 
 
 def stepped(program, row, entry, calls, most):
-    """The addresses of the program that these calls of the function at `entry` execute, at most so many of each, in their order: a list for each
-    call, counted from 0."""
+    """The addresses that these calls of the function at `entry` execute, at most so many of each, in their order, a list for each call, counted from
+    0; and of each address the file and its own address for it."""
     pid = start(program, row)
     try:
         with open(f"/proc/{pid}/maps", encoding="ascii") as maps:
@@ -111,14 +115,14 @@ def stepped(program, row, entry, calls, most):
             stack = ptrace(PEEKUSER, pid, RSP)
             back, at, executed = ptrace(PEEKTEXT, pid, stack), place, []
             while (at != back or ptrace(PEEKUSER, pid, RSP) <= stack) and len(executed) < most:
-                executed.append(at - base)
+                executed.append(at)
                 ptrace(SINGLESTEP, pid)
                 wait_for_trap(pid)
                 at = ptrace(PEEKUSER, pid, RIP)
             out.append(executed)
             if at != back and call != calls[-1]:
                 run_to(pid, back, stack)
-        return out
+        return out, located(pid, set(itertools.chain(*out)))
     finally:
         try:
             os.kill(pid, signal.SIGKILL)
@@ -127,26 +131,54 @@ def stepped(program, row, entry, calls, most):
             pass
 
 
+def located(pid, addresses):
+    """Of each address that lies in a file: (path, address as the file's symbols count)."""
+    with open(f"/proc/{pid}/maps", encoding="utf-8") as maps:
+        lines = [line.split(None, 5) for line in maps]
+    regions = [(*(int(x, 16) for x in fields[0].split("-")), int(fields[2], 16), fields[5].strip()) for fields in lines if len(fields) == 6]
+    segments, out = {}, {}
+    for address in addresses:
+        begin, _, offset, path = next((r for r in regions if r[0] <= address < r[1]), (0, 0, 0, ""))
+        if not path.startswith("/"):
+            continue
+        if path not in segments:
+            text = subprocess.run(["readelf", "-lW", path], capture_output=True, text=True, check=True).stdout
+            segments[path] = [tuple(int(x, 16) for x in m) for m in re.findall(r"LOAD\s+0x(\w+) 0x(\w+) 0x\w+ 0x(\w+)", text)]
+        at = address - begin + offset
+        out[address] = next((path, at - start + virtual) for start, virtual, size in segments[path] if start <= at < start + size)
+    return out
+
+
 def entries_of(program, namespace):
     """Where each row's kernel begins in the program; raises CannotStep where a row names none."""
     text = subprocess.run(["nm", "-C", program], capture_output=True, text=True, check=True).stdout
-    symbols = [(int(line[:16], 16), line[19:]) for line in text.splitlines() if f"N_{namespace}::" in line and line[17] in "tTwWu"]
+    symbols = [(int(line[:16], 16), line[19:]) for line in text.splitlines() if line[:16].strip() and line[17] in "tTwWu"]
     found = {}
     for row, kernel, *_ in ROWS:
-        found[row] = next((address for address, name in symbols if re.search(kernel, name) and ".cold" not in name), None)
+        found[row] = next((address for address, name in symbols if re.search(kernel, name) and ".cold" not in name and
+                           (f"N_{namespace}::" in name or kernel.startswith("^"))), None)
         if found[row] is None:
             raise CannotStep(f"{program} has no {kernel} of {namespace}")
     return found
 
 
-def disassembly(program, addresses):
-    """The text of each address, as llvm-mca reads it."""
-    text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", program], capture_output=True, text=True, check=True).stdout
+def disassembly(places):
+    """The text of each address, as llvm-mca reads it. places: what `located` gives."""
     out = {}
-    for line in text.splitlines():
-        match = re.match(r" *([0-9a-f]+):\s+(.*)", line)
-        if match and int(match[1], 16) in addresses:
-            out[int(match[1], 16)] = re.sub(r"\s*(<.*|#.*)", "", match[2]).strip()
+    for path in {file for file, _ in places.values()}:
+        there = sorted({at for file, at in places.values() if file == path})
+        texts, first = {}, 0
+        for k in range(len(there)):  # a library is large: what was executed, in pieces
+            if k + 1 < len(there) and there[k + 1] - there[k] < 4096:
+                continue
+            text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", f"--start-address={there[first]}", f"--stop-address={there[k] + 16}", path],
+                                  capture_output=True, text=True, check=True).stdout
+            for line in text.splitlines():
+                match = re.match(r" *([0-9a-f]+):\s+(.*)", line)
+                if match:
+                    texts[int(match[1], 16)] = re.sub(r"\s*(<.*|#.*)", "", match[2]).strip()
+            first = k + 1
+        out.update((address, texts[at]) for address, (file, at) in places.items() if file == path and at in texts)
     return out
 
 
@@ -225,7 +257,7 @@ def rate_of(given, row):
                           "--benchmark_min_time=0.0000001", "--benchmark_format=json"],
                          capture_output=True, text=True, check=True, env={**os.environ, "RAINREF_BENCH_SECONDS": str(given.row_seconds)})
     found = json.loads(run.stdout)["benchmarks"][0]
-    return next(found[key] for key in ("Mpix/s", "Mdrop/s") if key in found)
+    return next(found[key] for key in ("Mpix/s", "Mdrop/s", "Mray/s") if key in found)
 
 
 def clock_ghz():
@@ -257,8 +289,8 @@ def measure(given, clock, measured, say):
         if not re.search(given.only, row):
             continue
         say(row)
-        executed = stepped(program, row, entries[row], calls, math.inf if elements else STEPS // len(calls))
-        texts = disassembly(program, set(itertools.chain(*executed)))
+        executed, places = stepped(program, row, entries[row], calls, math.inf if elements else STEPS // len(calls))
+        texts = disassembly(places)
         if elements:
             vectors = len(calls) * elements / lanes
         else:  # Nearly every instruction of a loop runs once a round: the commonest count is that of the rounds.
@@ -268,7 +300,7 @@ def measure(given, clock, measured, say):
         for address, count in collections.Counter(itertools.chain(*executed)).items():
             text = texts.get(address)
             if text is None:
-                continue  # of a library
+                continue  # of the kernel
             kinds[kind_of(text)] += count / vectors
             weights[text] += count / vectors
         cycles, ports = port_bound(weights, eligible_ports(weights, cpu))

@@ -53,6 +53,8 @@ def peers_table(result):
     lines = []
     for c in rows.comparisons(result):
         verdict = "" if c["goal"] is None else f"{c['goal']:g} {'met' if c['ratio'] >= c['goal'] else '**not met**'}"
+        if verdict.endswith("**") and c["stream"] is not None:
+            verdict += f", {c['stream']:.0f} % of its stream"
         lines.append([f"`{c['row']}`", str(c["threads"]), c["peer"], rate_text(c["ours"], c["unit"]), rate_text(c["theirs"], c["unit"]),
                       f"{c['ratio']:.2f}", "" if c["ratio_best"] is None else f"{c['ratio_best']:.2f}", verdict])
     return table(["row", "threads", "peer", "ours", "peer's", "ratio", "of the fastest", "goal"], lines)

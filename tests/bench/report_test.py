@@ -180,6 +180,11 @@ class Documents(unittest.TestCase):
         result["peers"] = [dict(result["rows"][0], peer="lavapipe", rate=10.0, threads=n) for n in (1, 2)]
         text = document.peers_table(result)
         self.assertEqual((text.count("3.5 met"), text.count("3.5 **not met**")), (1, 1), text)
+        # A row that moves its bytes as fast as anything could says so where it misses a goal, and only there.
+        result["rows"] = [dict(row, stream_percent=98.6) for row in result["rows"]]
+        text = document.peers_table(result)
+        self.assertEqual(text.count("99 % of its stream"), 1, text)
+        self.assertIn("3.5 **not met**, 99 % of its stream", text)
 
     def test_a_busy_machine_and_a_skipped_peer_are_said(self):
         result = committed()
