@@ -91,6 +91,7 @@ Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, i
            double(columns),
            rows,
            {frame.origin.x, frame.origin.y, frame.origin.z},
+           to_x.y == 0 && to_x.z == 0 && to_y.x == 0 && to_y.y == 0 && to_h.x == 0 && to_h.z == 0,
            {{to_x.x, to_x.y, to_x.z}, {to_y.x, to_y.y, to_y.z}, {to_h.x, to_h.y, to_h.z}}};
   for (int y = 0; y < rows; y += tile_cells) {
     for (int x = 0; x < columns; x += tile_cells) {

@@ -31,7 +31,8 @@ void corners(const float* pairs, R index, R& h00, R& h10, R& h01, R& h11) {
 void meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, const Ray& ray, Hit& first) {
   const R origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z}, direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
   R t(0.0), part(0.0), u(0.0), v(0.0);
-  if (!meet_cells(field, tile, to_grid(field, origin, direction, R(ray.nearest), R(ray.farthest)), R(first.t), true, t, part, u, v)) return;
+  if (!meet_cells(field, tile, to_grid<false>(field, origin, direction, R(ray.nearest), R(ray.farthest)), R(first.t), true, t, part, u, v))
+    return;
   const Hit found{t.v, self, static_cast<std::uint32_t>(part.v), u.v, v.v};
   if (precedes(found, first)) first = found;
 }

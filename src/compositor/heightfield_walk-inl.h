@@ -29,18 +29,30 @@ RAINREF_FN R within_unit(R x) {
   return maximum(R(0.0), minimum(R(1.0), x));
 }
 
-template <class R>
+/// is_level: HeightfieldView::is_level, known while compiling.
+template <bool is_level, class R>
 RAINREF_FN GridRay<R> to_grid(const HeightfieldView& field, const R (&origin)[3], const R (&direction)[3], R nearest, R farthest) {
   const R x = origin[0] - R(field.origin[0]), y = origin[1] - R(field.origin[1]), z = origin[2] - R(field.origin[2]);
   const auto& m = field.to_grid;
-  return {R(m[0][0]) * x + R(m[0][1]) * y + R(m[0][2]) * z,
-          R(m[1][0]) * x + R(m[1][1]) * y + R(m[1][2]) * z,
-          R(m[2][0]) * x + R(m[2][1]) * y + R(m[2][2]) * z,
-          without_zero(R(m[0][0]) * direction[0] + R(m[0][1]) * direction[1] + R(m[0][2]) * direction[2]),
-          without_zero(R(m[1][0]) * direction[0] + R(m[1][1]) * direction[1] + R(m[1][2]) * direction[2]),
-          R(m[2][0]) * direction[0] + R(m[2][1]) * direction[1] + R(m[2][2]) * direction[2],
-          nearest,
-          farthest};
+  if constexpr (is_level) {
+    return {R(m[0][0]) * x,
+            R(m[1][2]) * z,
+            R(m[2][1]) * y,
+            without_zero(R(m[0][0]) * direction[0]),
+            without_zero(R(m[1][2]) * direction[2]),
+            R(m[2][1]) * direction[1],
+            nearest,
+            farthest};
+  } else {
+    return {R(m[0][0]) * x + R(m[0][1]) * y + R(m[0][2]) * z,
+            R(m[1][0]) * x + R(m[1][1]) * y + R(m[1][2]) * z,
+            R(m[2][0]) * x + R(m[2][1]) * y + R(m[2][2]) * z,
+            without_zero(R(m[0][0]) * direction[0] + R(m[0][1]) * direction[1] + R(m[0][2]) * direction[2]),
+            without_zero(R(m[1][0]) * direction[0] + R(m[1][1]) * direction[1] + R(m[1][2]) * direction[2]),
+            R(m[2][0]) * direction[0] + R(m[2][1]) * direction[1] + R(m[2][2]) * direction[2],
+            nearest,
+            farthest};
+  }
 }
 
 /// The wall of the cell that holds time t, on the side where the ray leaves it: walls are at times (k - o) inverse.

@@ -80,11 +80,12 @@ HWY_INLINE HWY_ATTR void corners(const float* pairs, const Pair& index, Pair& h0
 
 HWY_INLINE HWY_ATTR Pair load_pair(const double* p) { return {load_slots(p), load_slots(p + lane_width)}; }
 
+template <bool is_level>
 HWY_INLINE HWY_ATTR GridRay<Pair> load_ray(const HeightfieldView& field, const Packet& packet, int slot) {
   const auto load = [slot](const double* p) HWY_ATTR { return load_pair(p + slot); };
   const Pair origin[3] = {load(packet.origin[0]), load(packet.origin[1]), load(packet.origin[2])};
   const Pair direction[3] = {load(packet.direction[0]), load(packet.direction[1]), load(packet.direction[2])};
-  return to_grid(field, origin, direction, load(packet.nearest), load(packet.farthest));
+  return to_grid<is_level>(field, origin, direction, load(packet.nearest), load(packet.farthest));
 }
 HWY_INLINE HWY_ATTR Pair known_distances(const Packet& packet, int slot) { return load_pair(packet.distance + slot); }
 HWY_INLINE HWY_ATTR Pair::Mask pair_mask(std::uint32_t bits) {
@@ -99,7 +100,7 @@ HWY_INLINE HWY_ATTR std::uint32_t take_pair_hits(const Pair::Mask& hit, const Pa
 /// Not inlined: where floats decide almost all rays, the registers are theirs.
 HWY_NOINLINE HWY_ATTR std::uint32_t walk_in_doubles(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, int slot,
                                                     std::uint32_t lanes, Packet& packet) {
-  const GridRay<Pair> ray = load_ray(field, packet, slot);
+  const GridRay<Pair> ray = load_ray<false>(field, packet, slot);
   const Pair known = known_distances(packet, slot);
   Pair t(0.0), part(0.0), u(0.0), v(0.0);
   const Pair::Mask hit = meet_cells(field, tile, ray, known, pair_mask(lanes), t, part, u, v);
@@ -107,6 +108,7 @@ HWY_NOINLINE HWY_ATTR std::uint32_t walk_in_doubles(const HeightfieldView& field
 }
 
 #if HWY_TARGET == HWY_SCALAR
+template <bool is_level>
 HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView&, const HeightfieldTile&, std::uint32_t, int, std::uint32_t&,
                                                  Packet&) {
   return 0;
@@ -115,10 +117,11 @@ HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView&, const H
 #include "compositor/heightfield_float_walk-inl.h"
 
 /// Decides what floats can of `lanes`, and takes it out of them.
+template <bool is_level>
 HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, int slot,
                                                  std::uint32_t& lanes, Packet& packet) {
   using R = Pair;
-  const GridRay<R> ray = load_ray(field, packet, slot);
+  const GridRay<R> ray = load_ray<is_level>(field, packet, slot);
   const R known = known_distances(packet, slot);
   float_walk::Outcome outcome;
   float_walk::walk(field, tile, ray, known, lanes, outcome);
@@ -141,17 +144,23 @@ HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView& field, c
 }
 #endif
 
-std::uint32_t MeetTile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet) {
+template <bool is_level>
+HWY_INLINE HWY_ATTR std::uint32_t meet_slots(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self,
+                                             std::uint32_t lanes, Packet& packet) {
   constexpr int width = 2 * lane_width;
   static_assert(Packet::slots % width == 0);
   std::uint32_t changed = 0;
   for (int slot = 0; slot < Packet::slots; slot += width) {
     std::uint32_t here = lanes >> slot & ((1u << width) - 1);
     if (here == 0) continue;
-    changed |= walk_in_floats(field, tile, self, slot, here, packet);
+    changed |= walk_in_floats<is_level>(field, tile, self, slot, here, packet);
     if (here != 0) changed |= walk_in_doubles(field, tile, self, slot, here, packet);
   }
   return changed;
+}
+
+std::uint32_t MeetTile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet) {
+  return field.is_level ? meet_slots<true>(field, tile, self, lanes, packet) : meet_slots<false>(field, tile, self, lanes, packet);
 }
 
 RAINREF_TARGET_END(compositor)
