@@ -1,13 +1,13 @@
 // A walk in floats, 16 rays to a vector of 64 bytes, that says of a ray: certainly missed, a guess of the triangle that it hits, or
 // nothing. A guess is then tried in doubles, and whoever is left walks in doubles (heightfield_walk-inl.h). The answer is always
-// the definition's; what floats say differs between targets, for they may fuse. Text only, for one target.
+// the definition's. Text only, for one target.
 //
 // Why a miss is a miss. Let A be the cells that the ray goes within the tile, along the axis along which it goes faster; positions
-// count from the cell in which it enters, so all of them are below A + 2. Seven roundings (of the first position, the direction, the
-// reciprocal, the wall's time, the place along the wall) move what floats call the ray at time t by less than 8 eps (A + 2) from
-// where it is, eps = 2^-24; delta = 16 eps (A + 2) is taken. Of the sheet, heights a distance delta apart differ by 2 steepest delta
-// at most, and where two triangles' planes go on beyond their edge by 4 steepest delta. Heights themselves are wrong by less than
-// 16 eps spread. So if at every edge that the ray crosses in floats it is farther from the sheet than
+// count from the cell in which it enters, so all of them are below A + 2. Nine roundings (of the first position, the direction, the
+// reciprocal, three of the wall's time, three of the place along the wall) move what floats call the ray at time t by less than
+// 10 eps (A + 2) from where it is, eps = 2^-24; delta = 16 eps (A + 2) is taken. Of the sheet, heights a distance delta apart differ by 2
+// steepest delta at most, and where two triangles' planes go on beyond their edge by 4 steepest delta. Heights themselves are wrong by less
+// than 16 eps spread. So if at every edge that the ray crosses in floats it is farther from the sheet than
 //   doubt = 8 steepest delta + 16 eps spread + twice the tile's margin
 // and always on the same side, then it is on that side at every edge that it crosses by the definition, though these may be others
 // where it passes a corner or runs along an edge: between two edges the distance is linear, and the true ray is delta away.
@@ -35,6 +35,7 @@ using VI = hn::Vec<DI>;
 using M = hn::Mask<D>;
 
 HWY_INLINE HWY_ATTR V all(float x) { return hn::Set(D(), x); }
+HWY_INLINE HWY_ATTR V times_plus(V a, V b, V c) { return hn::Add(hn::Mul(a, b), c); }
 HWY_INLINE HWY_ATTR V narrow(const Pair& a) {
   return hn::Combine(D(), hn::DemoteTo(NarrowTag(), a.upper.v), hn::DemoteTo(NarrowTag(), a.lower.v));
 }
@@ -99,11 +100,11 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
 
   // A wall is at time (wall times inverse) + this.
   const V qx = hn::Neg(hn::Mul(px, ix)), qy = hn::Neg(hn::Mul(py, iy));
-  const V out_x = hn::MulAdd(far_x, ix, qx), out_y = hn::MulAdd(far_y, iy, qy);
+  const V out_x = times_plus(far_x, ix, qx), out_y = times_plus(far_y, iy, qy);
   const V beside_x = hn::Mul(all(f.beside), abs_ix), beside_y = hn::Mul(all(f.beside), abs_iy);
   const V slab_a = hn::Mul(hn::Sub(low, ph), ih), slab_b = hn::Mul(hn::Sub(high, ph), ih);
   const V slab_in = hn::Min(slab_a, slab_b), slab_out = hn::Max(slab_a, slab_b);
-  const V in_x = hn::Sub(hn::MulAdd(near_x, ix, qx), beside_x), in_y = hn::Sub(hn::MulAdd(near_y, iy, qy), beside_y);
+  const V in_x = hn::Sub(times_plus(near_x, ix, qx), beside_x), in_y = hn::Sub(times_plus(near_y, iy, qy), beside_y);
   const V side_in = hn::Max(hn::Max(in_x, in_y), nearest);
   const V begin = hn::Max(side_in, slab_in);
   const V within = hn::Min(slab_out, hn::Add(farthest, hn::Min(beside_x, beside_y)));
@@ -113,18 +114,18 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   const M walks = hn::And(hn::And(active, ordinary), hn::Le(begin, leaves));
   out.missed = bits_of(passes_by);
   if (!any(walks)) return;
-  const V across = hn::MulAdd(hn::Max(hn::Abs(begin), hn::Abs(end)), fastest, hn::Add(hn::Add(hn::Abs(px), hn::Abs(py)), all(2)));
-  const V cells = hn::Min(across, all(f.longest)), faster = hn::MulAdd(fastest, all(f.steepest_twice), hn::Abs(dh));
+  const V across = times_plus(hn::Max(hn::Abs(begin), hn::Abs(end)), fastest, hn::Add(hn::Add(hn::Abs(px), hn::Abs(py)), all(2)));
+  const V cells = hn::Min(across, all(f.longest)), faster = times_plus(fastest, all(f.steepest_twice), hn::Abs(dh));
   const V leaving = hn::Sub(leaves, end);
-  const V doubt = hn::MulAdd(leaving, faster, hn::MulAdd(cells, all(f.doubt_for_cell), all(f.doubt)));
+  const V doubt = times_plus(leaving, faster, times_plus(cells, all(f.doubt_for_cell), all(f.doubt)));
 
   // A ray that falls from high above the blocks around it goes on to where it comes down to their highest vertex, or leaves them.
   V t = hn::IfThenElseZero(walks, begin);
   const V block_time = hn::Mul(hn::Min(abs_ix, abs_iy), all(block_cells - 0.1f));
   for (M leaps = hn::And(hn::And(walks, falls), hn::Gt(hn::Sub(end, t), block_time)); any(leaps);) {
     const V center = hn::Add(t, block_time), beyond = hn::Add(center, block_time);
-    const V block_at_x = hn::Add(hn::Add(hn::MulAdd(center, dx, px), fx), all(f.into_block_x));
-    const V block_at_y = hn::Add(hn::Add(hn::MulAdd(center, dy, py), fy), all(f.into_block_y));
+    const V block_at_x = hn::Add(hn::Add(times_plus(center, dx, px), fx), all(f.into_block_x));
+    const V block_at_y = hn::Add(hn::Add(times_plus(center, dy, py), fy), all(f.into_block_y));
     const V block_x = hn::Max(zero, hn::Min(hn::Mul(block_at_x, all(1.0f / block_cells)), all(f.last_block_x)));
     const V block_y = hn::Max(zero, hn::Min(hn::Mul(block_at_y, all(1.0f / block_cells)), all(f.last_block_y)));
     const VI block = hn::Add(hn::Mul(hn::ConvertTo(di, block_y), hn::Set(di, field.blocks_across)), hn::ConvertTo(di, block_x));
@@ -136,7 +137,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
 
   // The cell, from that of px and py; its walls ahead; the number of its first vertex.
   const V first_x = hn::Neg(fx), first_y = hn::Neg(fy);
-  const V here_x = hn::IfThenElseZero(walks, hn::MulAdd(t, dx, px)), here_y = hn::IfThenElseZero(walks, hn::MulAdd(t, dy, py));
+  const V here_x = hn::IfThenElseZero(walks, times_plus(t, dx, px)), here_y = hn::IfThenElseZero(walks, times_plus(t, dy, py));
   const V i0 = hn::Floor(hn::Max(first_x, hn::Min(here_x, hn::Add(first_x, hn::Sub(columns, one)))));
   const V j0 = hn::Floor(hn::Max(first_y, hn::Min(here_y, hn::Add(first_y, hn::Sub(rows, one)))));
   V kx = hn::Add(i0, ahead_x), ky = hn::Add(j0, ahead_y);
@@ -155,12 +156,12 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   if (any(asks)) {
     corners(field.pairs, at, h00, h10, h01, h11);
     const V u = within_unit(hn::Sub(here_x, i0)), v = within_unit(hn::Sub(here_y, j0)), u1 = hn::Sub(one, u), v1 = hn::Sub(one, v);
-    const V lower_height = hn::MulAdd(u, hn::Sub(h10, h00), hn::MulAdd(v, hn::Sub(h01, h00), hn::Sub(h00, middle)));
-    const V upper_height = hn::MulAdd(u1, hn::Sub(h01, h11), hn::MulAdd(v1, hn::Sub(h10, h11), hn::Sub(h11, middle)));
-    const V gap = hn::Sub(hn::MulAdd(t, dh, ph), hn::IfThenElse(hn::Lt(hn::Add(u, v), one), lower_height, upper_height));
-    const V latest = hn::Max(hn::MulAdd(all(2), beside_x, in_x), hn::MulAdd(all(2), beside_y, in_y));
+    const V lower_height = times_plus(u, hn::Sub(h10, h00), times_plus(v, hn::Sub(h01, h00), hn::Sub(h00, middle)));
+    const V upper_height = times_plus(u1, hn::Sub(h01, h11), times_plus(v1, hn::Sub(h10, h11), hn::Sub(h11, middle)));
+    const V gap = hn::Sub(times_plus(t, dh, ph), hn::IfThenElse(hn::Lt(hn::Add(u, v), one), lower_height, upper_height));
+    const V latest = hn::Max(times_plus(all(2), beside_x, in_x), times_plus(all(2), beside_y, in_y));
     const V entering = hn::Sub(hn::Max(latest, side_in), side_in);
-    waiting = hn::And(asks, hn::Gt(hn::Abs(gap), hn::MulAdd(entering, faster, doubt)));
+    waiting = hn::And(asks, hn::Gt(hn::Abs(gap), times_plus(entering, faster, doubt)));
     unsure = hn::AndNot(waiting, asks);
     walking = hn::AndNot(asks, walks);
     side = hn::IfThenElse(asks, hn::IfThenElse(hn::Gt(gap, zero), zero, below), side);
@@ -173,18 +174,18 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
     for (int cell = 0; cell < 2 && any(waiting); ++cell) {
       if (!fetched) corners(field.pairs, at, h00, h10, h01, h11);
       fetched = false;
-      const V tx = hn::MulAdd(kx, ix, qx), ty = hn::MulAdd(ky, iy, qy), exit = hn::Min(tx, ty);
+      const V tx = times_plus(kx, ix, qx), ty = times_plus(ky, iy, qy), exit = hn::Min(tx, ty);
       const V i = hn::Sub(kx, ahead_x), j = hn::Sub(ky, ahead_y);
       const V g00 = hn::Sub(h00, middle), g10 = hn::Sub(h10, middle), g01 = hn::Sub(h01, middle), g11 = hn::Sub(h11, middle);
       const M on_x = hn::Lt(tx, ty);
       const V along =
-          within_unit(hn::Sub(hn::MulAdd(exit, hn::IfThenElse(on_x, dy, dx), hn::IfThenElse(on_x, py, px)), hn::IfThenElse(on_x, j, i)));
+          within_unit(hn::Sub(times_plus(exit, hn::IfThenElse(on_x, dy, dx), hn::IfThenElse(on_x, py, px)), hn::IfThenElse(on_x, j, i)));
       const V a = hn::IfThenElse(on_x, hn::IfThenElse(right, g10, g00), hn::IfThenElse(up, g01, g00));
       const V b = hn::IfThenElse(on_x, hn::IfThenElse(right, g11, g01), hn::IfThenElse(up, g11, g10));
-      const V exit_gap = hn::Xor(side, hn::Sub(hn::MulAdd(exit, dh, ph), hn::MulAdd(along, hn::Sub(b, a), a)));
-      const V diagonal = hn::MulAdd(hn::Add(hn::Add(i, j), one), is, qs);
-      const V along_diagonal = within_unit(hn::Sub(hn::MulAdd(diagonal, dx, px), i));
-      const V diagonal_gap = hn::Xor(side, hn::Sub(hn::MulAdd(diagonal, dh, ph), hn::MulAdd(along_diagonal, hn::Sub(g10, g01), g01)));
+      const V exit_gap = hn::Xor(side, hn::Sub(times_plus(exit, dh, ph), times_plus(along, hn::Sub(b, a), a)));
+      const V diagonal = times_plus(hn::Add(hn::Add(i, j), one), is, qs);
+      const V along_diagonal = within_unit(hn::Sub(times_plus(diagonal, dx, px), i));
+      const V diagonal_gap = hn::Xor(side, hn::Sub(times_plus(diagonal, dh, ph), times_plus(along_diagonal, hn::Sub(g10, g01), g01)));
       const M crosses = hn::And(hn::Lt(t, diagonal), hn::Lt(diagonal, exit)), is_clear_there = hn::Gt(diagonal_gap, doubt);
       const M passes = hn::And(waiting, hn::AndNot(hn::AndNot(is_clear_there, crosses), hn::Gt(exit_gap, doubt)));
       const M stops = hn::AndNot(passes, waiting), in_second = hn::Or(hn::And(crosses, is_clear_there), hn::Le(diagonal, t));
@@ -207,9 +208,9 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
       V ahead_kx = kx, ahead_ky = ky, ahead_t = t;
       VI ahead_at = at;
       _Pragma("GCC unroll 4") for (int cell = 0; cell < cells_ahead; ++cell) {
-        const V tx = hn::MulAdd(ahead_kx, ix, qx), ty = hn::MulAdd(ahead_ky, iy, qy), exit = hn::Min(tx, ty);
+        const V tx = times_plus(ahead_kx, ix, qx), ty = times_plus(ahead_ky, iy, qy), exit = hn::Min(tx, ty);
         const V top = hn::GatherIndex(d, field.highest, ahead_at);
-        const M is_clear = hn::Gt(hn::MulAdd(hn::IfThenElse(falls, exit, ahead_t), dh, lowered), hn::Sub(top, middle));
+        const M is_clear = hn::Gt(times_plus(hn::IfThenElse(falls, exit, ahead_t), dh, lowered), hn::Sub(top, middle));
         waiting = hn::Or(waiting, hn::AndNot(is_clear, walking));
         walking = hn::And(walking, hn::And(is_clear, hn::Lt(exit, end)));
         const M moves_x = hn::Le(tx, ty), moves_y = hn::Le(ty, tx);

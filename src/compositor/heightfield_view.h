@@ -21,7 +21,7 @@ struct HeightfieldView {
   double columns;
   int rows;
   double origin[3];
-  bool is_level;         ///< the rows below have only numbers 0 of x, 2 of z and 1 of y: those of water seen in the world's axes
+  bool is_level;         ///< of the rows below the first has a number for x alone, the second for z, the third for y
   double to_grid[3][3];  ///< rows: of a direction in the world, its cells along u, its cells along v, its height
 };
 

@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "compositor/packet.h"
+#include "compositor/packets.h"
 #include "compositor/plates.h"
 #include "compositor/solids.h"
 #include "compositor/world.h"
@@ -63,7 +63,6 @@ TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainEvaluationsBits) {
   const Solids boxes({box}, {});
   const Plates plates(
       {{Plate::parallelogram, {-1, 0.25, -1}, {2, 0, 0.5}, {0.25, 0.5, 2}}, {Plate::ellipse, {0, 0.5, 0}, {1, 0, 0}, {0, 0, 2}}});
-  const double inf = std::numeric_limits<double>::infinity();
   std::vector<Ray> rays;
   for (std::uint32_t k = 0; k < 16 * 1200; ++k) {
     const auto coordinate = [&](std::uint32_t c) {
@@ -75,53 +74,17 @@ TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainEvaluationsBits) {
     if (k % 7 == 1) ray.farthest = 2 * test::random_number(k, 7);
     rays.push_back(ray);
   }
-  int met = 0;
-  const auto compare = [&](const Surface& surface, std::uint32_t primitive) {
-    for (std::size_t i = 0; i < rays.size(); i += 16) {
-      const std::uint32_t lanes = i % 32 == 0 ? 0xffff : random::pcg4d({static_cast<std::uint32_t>(i), 3, 2, 1})[0] & 0xffff;
-      PacketRoom room;
-      Packet packet;
-      room.lend_to(packet);
-      Hit plain[16], first[16];
-      packet.first = first;
-      for (std::uint32_t k = 0; k < 16; ++k) {
-        const Ray& ray = rays[i + k];
-        for (int c = 0; c < 3; ++c) {
-          room.component[c][k] = ray.origin[c];
-          room.component[3 + c][k] = ray.direction[c];
-        }
-        room.component[6][k] = ray.nearest;
-        room.component[7][k] = ray.farthest;
-        // The same hit of a lower or a higher surface, or something nearer, or nothing.
-        Hit own;
-        surface.meet(4, primitive, ray, own);
-        if (own.is_surface() && k % 4 != 0) plain[k] = {k % 4 == 3 ? 0.5 * own.t : own.t, k % 4 == 1 ? 3u : 5u, 0, 0.25, 0.5};
-        packet.set_first(k, plain[k]);
-      }
-      const std::uint32_t changed = surface.meet_packet(4, primitive, lanes, packet);
-      for (std::uint32_t k = 0; k < 16; ++k) {
-        const Hit before = plain[k];
-        if (lanes >> k & 1) surface.meet(4, primitive, rays[i + k], plain[k]);
-        ASSERT_EQ((changed >> k & 1) != 0, before.surface != plain[k].surface) << i + k;
-        ASSERT_EQ(packet.first[k].t, plain[k].t) << i + k;
-        ASSERT_EQ(packet.distance[k], plain[k].t) << i + k;
-        ASSERT_EQ(packet.first[k].surface, plain[k].surface) << i + k;
-        ASSERT_EQ(packet.first[k].part, plain[k].part) << i + k;
-        ASSERT_EQ(packet.first[k].u, plain[k].u) << i + k;
-        ASSERT_EQ(packet.first[k].v, plain[k].v) << i + k;
-        met += plain[k].surface == 4 && plain[k].t < inf;
-      }
-    }
+  const auto met = [&](const Surface& surface, std::uint32_t primitive) {
+    return test::expect_packets_to_meet_as_rays(surface, 4, primitive, primitive + 1, rays, [&](std::size_t i) {
+      // The same hit of a lower or a higher surface, or something nearer, or nothing.
+      Hit own;
+      surface.meet(4, primitive, rays[i], own);
+      return own.is_surface() && i % 4 != 0 ? Hit{i % 4 == 3 ? 0.5 * own.t : own.t, i % 4 == 1 ? 3u : 5u, 0, 0.25, 0.5} : Hit();
+    });
   };
   test::for_every_target([&] {
-    met = 0;
-    compare(boxes, 0);
-    EXPECT_GT(met, 300);
-    for (const std::uint32_t plate : {0u, 1u}) {
-      met = 0;
-      compare(plates, plate);
-      EXPECT_GT(met, 300) << plate;
-    }
+    EXPECT_GT(met(boxes, 0), 300);
+    for (const std::uint32_t plate : {0u, 1u}) EXPECT_GT(met(plates, plate), 300) << plate;
   });
 }
 
