@@ -22,8 +22,10 @@ template <class Storage>
 void fill_margins(Storage* row, int width, Address address, Storage border) {
   constexpr int margin = Image::left_margin;
   if (address != Address::repeat) {
-    std::fill_n(row - margin, margin, address == Address::border ? border : row[0]);
-    std::fill_n(row + width, margin, address == Address::border ? border : row[width - 1]);
+    // Copies: what a loop stores might be the number that it reads.
+    const Storage before = address == Address::border ? border : row[0], after = address == Address::border ? border : row[width - 1];
+    std::fill_n(row - margin, margin, before);
+    std::fill_n(row + width, margin, after);
     return;
   }
   // Outwards, so that a row shorter than a margin repeats what was filled before.

@@ -27,6 +27,10 @@ struct WaveJob {
   std::span<const Drop> drops;
 };
 
+/// A drop adds exactly nothing beyond its radius, so that any choice of drops which holds those that reach into a place gives its bits.
+inline bool reaches_rows(const Drop& d, int y0, int y1) {
+  return d.y + d.radius >= static_cast<float>(y0) && d.y - d.radius <= static_cast<float>(y1);
+}
 /// What stands beyond the edge of the wave.
 constexpr Address address_of(Boundary boundary) {
   return boundary == Boundary::periodic ? Address::repeat : boundary == Boundary::fixed ? Address::border : Address::clamp;

@@ -18,11 +18,10 @@ RAINREF_TARGET_BEGIN(puddle)
 #undef RAINREF_FN
 
 // ---- the drops of a place ------------------------------------------------------------------------------------------
-// A drop adds exactly nothing beyond its radius, so that any choice which holds those that reach into a place gives its bits.
 void drops_in_rows(std::span<const Drop> drops, int y0, int y1, std::vector<Drop>& out) {
   out.clear();
   for (const Drop& d : drops)
-    if (d.y + d.radius >= static_cast<float>(y0) && d.y - d.radius <= static_cast<float>(y1)) out.push_back(d);
+    if (reaches_rows(d, y0, y1)) out.push_back(d);
 }
 void drops_in_columns(std::span<const Drop> drops, int x0, int x1, std::vector<Drop>& out) {
   out.clear();
@@ -176,9 +175,12 @@ HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile) {
   std::vector<Drop> in_tile, in_rows;
   drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
   for (int y = tile.y0; y < tile.y1;) {
-    const int count = y + most <= tile.y1 ? most : 1;
+    const int left = tile.y1 - y, count = left >= most ? most : left >= 2 ? 2 : 1;
     if (!in_tile.empty()) drops_in_rows(in_tile, y, y + count, in_rows);
-    count == most ? rows.template visit<most>(in_rows, y) : rows.template visit<1>(in_rows, y);
+    if (count == most)
+      rows.template visit<most>(in_rows, y);
+    else
+      count == 2 ? rows.template visit<2>(in_rows, y) : rows.template visit<1>(in_rows, y);
     y += count;
   }
   for (int y = tile.y0; y < tile.y1; ++y)

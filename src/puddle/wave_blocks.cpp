@@ -5,6 +5,8 @@
 #include "puddle/wave_blocks.h"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 namespace rainref::puddle {
 namespace {
@@ -30,11 +32,12 @@ class Blocks {
   void band(int k) const {
     const int begin = first_row(k), end = first_row(k + 1);
     const bool open_below = k > 0 || wraps_, open_above = k + 1 < bands_ || wraps_;
+    const Steps steps(jobs_, begin, end);
     // A front of visits moves up; each step follows `reach` rows behind the step before.
     for (int front = begin; front < end + steps_ * reach_ + visit_rows; front += visit_rows) {
       for (int step = 0; step < steps_; ++step) {
         const int narrower = step * reach_, y = front - narrower;
-        rows(step, std::max(y, open_below ? begin + narrower : begin), std::min(y + visit_rows, open_above ? end - narrower : end));
+        rows(steps, step, std::max(y, open_below ? begin + narrower : begin), std::min(y + visit_rows, open_above ? end - narrower : end));
       }
     }
   }
@@ -42,10 +45,30 @@ class Blocks {
   void triangle(int k) const {
     if (k == 0 && !wraps_) return;
     const int middle = first_row(k);
-    for (int step = 1; step < steps_; ++step) rows(step, middle - step * reach_, middle + step * reach_);
+    const Steps steps(jobs_, middle - steps_ * reach_, middle + steps_ * reach_);
+    for (int step = 1; step < steps_; ++step) rows(steps, step, middle - step * reach_, middle + step * reach_);
   }
 
  private:
+  /// The steps with no drops but those that reach into rows [y0, y1): visits look through all that they are given.
+  class Steps {
+   public:
+    Steps(std::span<const WaveJob> jobs, int y0, int y1) : jobs_(jobs.begin(), jobs.end()), drops_(jobs.size()) {
+      if (y0 < 0) return;  // rows of both ends
+      for (std::size_t k = 0; k < jobs.size(); ++k) {
+        std::copy_if(jobs[k].drops.begin(), jobs[k].drops.end(), std::back_inserter(drops_[k]),
+                     [&](const Drop& d) { return reaches_rows(d, y0, y1); });
+        jobs_[k].drops = drops_[k];
+      }
+    }
+    Steps(const Steps&) = delete;
+    Steps& operator=(const Steps&) = delete;
+    const WaveJob& operator[](int step) const { return jobs_[static_cast<std::size_t>(step)]; }
+
+   private:
+    std::vector<WaveJob> jobs_;
+    std::vector<std::vector<Drop>> drops_;
+  };
   /// A band that ends at a wall is not narrower there in later steps; it begins narrower by as much, so that each has as many rows to make.
   int first_row(int band) const {
     if (band == 0 || band == bands_) return band == 0 ? 0 : height_;
@@ -53,16 +76,16 @@ class Blocks {
     return static_cast<int>(static_cast<std::int64_t>(height_ + 2 * less) * band / bands_) - less;
   }
   /// Rows [y0, y1) of a step; negative ones stand at the upper end of a wave that wraps.
-  void rows(int step, int y0, int y1) const {
+  void rows(const Steps& steps, int step, int y0, int y1) const {
     if (y0 < 0) {
-      rows(step, y0 + height_, std::min(y1, 0) + height_);
+      rows(steps, step, y0 + height_, std::min(y1, 0) + height_);
       y0 = 0;
     }
     if (y0 >= y1) return;
     const parallel::Tile tile{0, y0, jobs_[0].newest->width(), y1};
     // All that read these rows of the level before without its drops have done so.
-    if (step > 0) add_drops(jobs_[static_cast<std::size_t>(step) - 1], tile);
-    wave_step_rows(jobs_[static_cast<std::size_t>(step)], tile);
+    if (step > 0) add_drops(steps[step - 1], tile);
+    wave_step_rows(steps[step], tile);
   }
   static void add_drops(const WaveJob& job, const parallel::Tile& tile) {
     if (job.corrected && !job.drops.empty()) wave_previous_rows(job, tile);
