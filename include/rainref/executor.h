@@ -12,14 +12,9 @@ struct Tile {
   int x0, y0, x1, y1;
 };
 
-/// Which thread takes a piece of work; no result depends on it.
-enum class Placement : std::uint8_t {
-  any_thread,   ///< the one whose share it lies in, or whoever is free by then: where pieces differ in cost
-  same_thread,  ///< the same as in other loops of as many pieces, while no other work disturbs: its caches hold what it wrote there
-};
-
 /// A pool of threads of its own. Results never depend on the number of threads: work is cut into tiles by the size
-/// of the data alone, and each tile runs with the floating-point state pinned.
+/// of the data alone, and each tile runs with the floating-point state pinned. A thread begins with its share of the pieces, the same in
+/// each loop of as many, whose data its caches hold, and then takes from the others'; without a loop for 0.2 ms it sleeps.
 class Executor {
  public:
   /// threads >= 1, or 0 for one per processor that this process may use. Throws Error(usage) when negative or above
@@ -35,11 +30,9 @@ class Executor {
 
   /// Runs body once for every tile of a width x height area, tiles of at most tile_width x tile_height from the top
   /// left. Rethrows the first exception of a body. body must write only what its tile owns.
-  void for_tiles(int width, int height, int tile_width, int tile_height, const std::function<void(const Tile&)>& body,
-                 Placement placement = Placement::any_thread) const;
+  void for_tiles(int width, int height, int tile_width, int tile_height, const std::function<void(const Tile&)>& body) const;
   /// Runs body(i) for i in [0, count), in chunks of `chunk` consecutive indices. Throws Error(internal) for more than 2^31 chunks.
-  void for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t begin, std::int64_t end)>& body,
-                 Placement placement = Placement::any_thread) const;
+  void for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t begin, std::int64_t end)>& body) const;
 
   /// Hands tiles to the pool in an order shuffled by this seed (0: natural order). For proofs of determinism.
   void shuffle_tiles(std::uint64_t seed) { shuffle_seed_ = seed; }

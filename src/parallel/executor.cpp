@@ -24,8 +24,7 @@ Executor::~Executor() = default;
 
 int Executor::threads() const { return pool_->threads(); }
 
-void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t, std::int64_t)>& body,
-                         Placement placement) const {
+void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t, std::int64_t)>& body) const {
   if (count <= 0) return;
   const FloatingPointGuard caller;
   const std::int64_t chunks = (count - 1) / chunk + 1;
@@ -45,11 +44,10 @@ void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::func
     const FloatingPointGuard guard;
     body(index * chunk, index * chunk + std::min(chunk, count - index * chunk));
   };
-  pool_->run(chunks, run_chunk, placement);
+  pool_->run(chunks, run_chunk);
 }
 
-void Executor::for_tiles(int width, int height, int tile_width, int tile_height, const std::function<void(const Tile&)>& body,
-                         Placement placement) const {
+void Executor::for_tiles(int width, int height, int tile_width, int tile_height, const std::function<void(const Tile&)>& body) const {
   const int columns = (width + tile_width - 1) / tile_width, rows = (height + tile_height - 1) / tile_height;
   const auto tiles = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
@@ -57,7 +55,7 @@ void Executor::for_tiles(int width, int height, int tile_width, int tile_height,
       body({x, y, std::min(width, x + tile_width), std::min(height, y + tile_height)});
     }
   };
-  for_range(static_cast<std::int64_t>(columns) * rows, 1, tiles, placement);
+  for_range(static_cast<std::int64_t>(columns) * rows, 1, tiles);
 }
 
 }  // namespace rainref::parallel

@@ -22,7 +22,7 @@ struct Executor::Pool {
   static constexpr std::int64_t most_pieces = std::int64_t{1} << 31;
   /// Calls body(i) for i in [0, count), count <= most_pieces, each on any thread. Rethrows the first exception of a body; pieces that have
   /// not begun by then may be left out.
-  void run(std::int64_t count, const std::function<void(std::int64_t)>& body, Placement placement) const;
+  void run(std::int64_t count, const std::function<void(std::int64_t)>& body) const;
 
  private:
   struct Threads;

@@ -10,7 +10,7 @@ Executor::Pool::~Pool() = default;
 
 int Executor::Pool::threads() const { return 1; }
 
-void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64_t)>& body, Placement) const {
+void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64_t)>& body) const {
   for (std::int64_t i = 0; i < count; ++i) body(i);
 }
 

@@ -21,7 +21,7 @@ Executor::Pool::~Pool() = default;
 
 int Executor::Pool::threads() const { return threads_->count; }
 
-void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64_t)>& body, Placement) const {
+void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64_t)>& body) const {
   // Neighbouring tiles always run on different threads, whatever the machine's load.
   const std::int64_t threads = std::min<std::int64_t>(threads_->count, count);
   std::atomic<bool> failed{false};

@@ -103,28 +103,23 @@ void step_wave(std::span<const WaveJob> jobs, const parallel::Executor& executor
   if (jobs.empty()) return;
   const auto add_drops = [&](const WaveJob& job) {
     if (!job.corrected || job.drops.empty()) return;
-    executor.for_tiles(
-        job.newest->width(), job.newest->height(), job.newest->width(), tile_rows,
-        [&](const parallel::Tile& tile) { wave_previous_rows(job, tile); }, parallel::Placement::same_thread);
+    executor.for_tiles(job.newest->width(), job.newest->height(), job.newest->width(), tile_rows,
+                       [&](const parallel::Tile& tile) { wave_previous_rows(job, tile); });
   };
   const Blocks blocks(jobs, executor.threads());
   if (jobs.size() > 1 && blocks.possible()) {
     const auto each = [&](const auto& body) {
-      executor.for_range(
-          blocks.bands(), 1,
-          [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t k = begin; k < end; ++k) body(static_cast<int>(k));
-          },
-          parallel::Placement::same_thread);
+      executor.for_range(blocks.bands(), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k) body(static_cast<int>(k));
+      });
     };
     each([&](int k) { blocks.band(k); });
     each([&](int k) { blocks.triangle(k); });
     return add_drops(jobs.back());
   }
   for (const WaveJob& job : jobs) {
-    executor.for_tiles(
-        job.newest->width(), job.newest->height(), job.newest->width(), tile_rows,
-        [&](const parallel::Tile& tile) { wave_step_rows(job, tile); }, parallel::Placement::same_thread);
+    executor.for_tiles(job.newest->width(), job.newest->height(), job.newest->width(), tile_rows,
+                       [&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
     add_drops(job);
   }
 }

@@ -23,24 +23,21 @@ constexpr int thread_counts[] = {1, 2, 3, 8};
 TEST(Executor, EveryIndexIsVisitedOnceInChunksOfTheSizeGiven) {
   for (const int threads : thread_counts) {
     const Executor executor(threads);
-    const auto check = [&](std::int64_t count, std::int64_t chunk, Placement placement) {
+    const auto check = [&](std::int64_t count, std::int64_t chunk) {
       std::vector<std::atomic<int>> visits(static_cast<std::size_t>(count));
       std::atomic<int> calls = 0, wrong = 0;
-      executor.for_range(
-          count, chunk,
-          [&](std::int64_t begin, std::int64_t end) {
-            ++calls;
-            wrong += begin % chunk != 0 || end != std::min(count, begin + chunk);
-            for (std::int64_t i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
-          },
-          placement);
+      executor.for_range(count, chunk, [&](std::int64_t begin, std::int64_t end) {
+        ++calls;
+        wrong += begin % chunk != 0 || end != std::min(count, begin + chunk);
+        for (std::int64_t i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
+      });
       ASSERT_EQ(calls, (count + chunk - 1) / chunk);
       ASSERT_EQ(wrong, 0);
       for (const auto& v : visits) ASSERT_EQ(v, 1) << threads << " threads, " << count << " by " << chunk;
     };
     for (const std::int64_t count : {0, 1, 2, 7, 16, 17, 1000}) {
       for (const std::int64_t chunk : {1, 2, 3, 16, 1000, 5000}) {
-        for (const Placement placement : {Placement::any_thread, Placement::same_thread}) check(count, chunk, placement);
+        check(count, chunk);
       }
     }
   }

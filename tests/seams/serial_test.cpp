@@ -23,17 +23,12 @@ TEST(SerialExecutor, RunsEveryPieceOnceInOrderInTheCallersThread) {
   const std::thread::id caller = std::this_thread::get_id();
   EXPECT_EQ(executor.threads(), 1);
   EXPECT_EQ(Executor().threads(), 1);
-  for (const Placement placement : {Placement::any_thread, Placement::same_thread}) {
-    std::vector<std::int64_t> seen;
-    executor.for_range(
-        10, 4,
-        [&](std::int64_t begin, std::int64_t end) {
-          EXPECT_EQ(std::this_thread::get_id(), caller);
-          for (std::int64_t i = begin; i < end; ++i) seen.push_back(i);
-        },
-        placement);
-    EXPECT_EQ(seen, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
-  }
+  std::vector<std::int64_t> seen;
+  executor.for_range(10, 4, [&](std::int64_t begin, std::int64_t end) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    for (std::int64_t i = begin; i < end; ++i) seen.push_back(i);
+  });
+  EXPECT_EQ(seen, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
 TEST(SerialExecutor, RunsLoopsInLoops) {

@@ -1,0 +1,59 @@
+// The threads that take part in loops one after another. A frame runs some dozens of loops of 10 to 100 microseconds: to wake
+// a thread for each, or to hand the pieces down a tree, takes as long as many of them. Here a thread that has done its part waits for the
+// next loop for a moment before it goes.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <vector>
+
+namespace rainref::parallel {
+
+/// Any thread may run loops; one at a time gets the team. Any other thread may help. Threads are the caller's.
+class Team {
+ public:
+  /// Up to `threads` take part in a loop: the one that runs it and helpers of places 1 to threads - 1.
+  explicit Team(int threads) : threads_(static_cast<std::size_t>(threads)) {}
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  /// Calls body(i) for i in [0, count), count < 2^32, here and wherever a thread helps; begun() once others may take pieces. Returns when
+  /// all are done. Rethrows the first exception of a body; pieces that have not begun by then may be left out. False, with nothing done,
+  /// while another loop is under way.
+  bool run(std::int64_t count, const std::function<void(std::int64_t)>& body, const std::function<void()>& begun);
+  /// Takes part in every loop until there has been none for `patience`, or stop(). place: 1 to threads - 1, of one thread at a time.
+  void help(int place, std::chrono::nanoseconds patience);
+  /// Helpers go as soon as they have no loop.
+  void stop() { stopped_.store(true, std::memory_order_relaxed); }
+
+ private:
+  /// Pieces [first, end) that are left of a thread's share, in one word: it takes the first, others the last. A cache line for each.
+  struct alignas(64) Share {
+    std::atomic<std::uint64_t> left{0};
+
+    void set(std::uint64_t first, std::uint64_t end) { left.store(first | (end << 32), std::memory_order_relaxed); }
+    /// A piece, or -1.
+    std::int64_t take(bool is_own);
+  };
+  struct Loop {
+    const std::function<void(std::int64_t)>& body;
+    std::vector<Share> shares;
+    std::atomic<bool> failed{false};
+    std::exception_ptr error;
+  };
+  static void work(Loop& loop, std::size_t place);
+
+  // The number of the loop, whether threads may begin to take part in it, and how many do.
+  static constexpr std::uint64_t one_loop = std::uint64_t{1} << 32, open = std::uint64_t{1} << 31, taking_part = open - 1;
+
+  const std::size_t threads_;
+  std::atomic<bool> taken_{false}, stopped_{false};
+  alignas(64) std::atomic<std::uint64_t> state_{0};
+  Loop* loop_ = nullptr;  // of whom `state_` counts
+};
+
+}  // namespace rainref::parallel
