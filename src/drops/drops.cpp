@@ -1,6 +1,7 @@
 #include "drops/drops.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 
@@ -79,11 +80,17 @@ std::int64_t DropArrays::live() const {
   return std::count_if(life().begin(), life().end(), [](float x) { return x > 0; });
 }
 
-std::int64_t DropArrays::water() const {
+std::int64_t DropArrays::water_in(std::int64_t begin, std::int64_t end) const {
+  const std::span<const float> lives = life(), masses = mass();
   std::int64_t sum = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(extent_); ++i) {
-    if (life()[i] > 0) sum += static_cast<std::int64_t>(mass()[i]);
-  }
+  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+    sum += lives[i] > 0 ? static_cast<std::int64_t>(masses[i]) : 0;
+  return sum;
+}
+std::int64_t DropArrays::water(const parallel::Executor& executor) const {
+  std::atomic<std::int64_t> sum{0};  // whole numbers: in any order
+  executor.for_range(extent_, chunk_of(extent_),
+                     [&](std::int64_t begin, std::int64_t end) { sum.fetch_add(water_in(begin, end), std::memory_order_relaxed); });
   return sum;
 }
 

@@ -76,7 +76,8 @@ class DropArrays {
   std::int64_t live() const;
   std::int64_t free_slots() const { return capacity_ - live(); }
   /// Mass units that the live drops hold.
-  std::int64_t water() const;
+  std::int64_t water() const { return water_in(0, extent_); }
+  std::int64_t water(const parallel::Executor& executor) const;
   /// The records of the live drops, in slot order.
   void gather(std::vector<Drop>& out, const parallel::Executor& executor) const;
   /// Makes these the only drops: record i in slot i, in the order given, dead ones too. Moves next_id() behind the
@@ -91,6 +92,7 @@ class DropArrays {
   struct Free {
     void operator()(std::byte* p) const;
   };
+  std::int64_t water_in(std::int64_t begin, std::int64_t end) const;
   /// So many slots, all of them free, and nothing beyond.
   void empty(std::int64_t extent);
   float* array(int field) const { return reinterpret_cast<float*>(memory_.get() + static_cast<std::size_t>(field) * stride_); }

@@ -136,12 +136,12 @@ void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
     plan_.uniforms.first_count = table.first();
     for (const std::uint32_t t : table.thresholds()) plan_.thresholds.push_back({t});
     // Class k stands for the drops around the quantile (k + 1/2) / classes.
-    double sum = 0;
+    const auto bound = [&] { return total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes); };
+    double sum = 0, next = bound();
     for (const SizeCell& c : sizes_) {
       const double arrivals = arrivals_of(c, e.normal_z, e.normal_wind);
       sum += arrivals;
-      const auto next = [&] { return total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes); };
-      while (arrivals > 0 && static_cast<int>(plan_.masses.size()) < classes && sum >= next())
+      for (; arrivals > 0 && static_cast<int>(plan_.masses.size()) < classes && sum >= next; next = bound())
         plan_.masses.push_back({mass_units_of(c.diameter)});
     }
     // Where no drop arrives, the table is still one.

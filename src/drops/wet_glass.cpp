@@ -28,7 +28,7 @@ RecordView WetGlass::list() {
 
 std::int64_t WetGlass::residual() const {
   return mass_balance.spawned - mass_balance.evaporated - mass_balance.removed -
-         (settings_.corrected ? film_water(film) + drops.water() : drops.live());
+         (settings_.corrected ? film_water(film) + drops.water(executor_) : drops.live());
 }
 
 void WetGlass::list_state(state::Items& items) {

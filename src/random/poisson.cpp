@@ -8,6 +8,21 @@
 #include "rainref/error.h"
 
 namespace rainref::random {
+namespace {
+
+// The end of a table of this mean: what lies beyond has no weight.
+int end_of(double mean) { return static_cast<int>(__builtin_ceil(mean + 12 * __builtin_sqrt(mean) + 40)); }
+// Of 1, 2, ...: a car that accelerates asks for another table in each step.
+const std::vector<double>& logarithms() {
+  static const std::vector<double> logs = [] {
+    std::vector<double> out{0};
+    for (int k = 1; k < end_of(PoissonTable::max_mean); ++k) out.push_back(log_real(Real64(k)).v);
+    return out;
+  }();
+  return logs;
+}
+
+}  // namespace
 
 PoissonTable::PoissonTable(double mean) {
   if (!(mean >= 0 && mean <= max_mean)) {
@@ -19,8 +34,8 @@ PoissonTable::PoissonTable(double mean) {
   const double log_mean = log_real(Real64(mean)).v;
   double log_weight = -mean;
   std::vector<double> weights;
-  for (int k = 0; k < mean + 12 * __builtin_sqrt(mean) + 40; ++k) {
-    if (k > 0) log_weight += log_mean - log_real(Real64(k)).v;
+  for (int k = 0, end = end_of(mean); k < end; ++k) {
+    if (k > 0) log_weight += log_mean - logarithms()[static_cast<std::size_t>(k)];
     weights.push_back(log_weight < -60 ? 0.0 : exp_real(Real64(log_weight)).v);
   }
   double total = 0;

@@ -136,13 +136,13 @@ void WetPane::wipe(const pass::Moment& now, std::int64_t n, double t) {
   }
   run<WipeDropsPass>(now, wipe, io, [&] {
     drops::DropArrays& d = water_.drops;
-    const std::int64_t drops_before = corrected_ ? d.water() : 0;
+    const std::int64_t drops_before = corrected_ ? d.water(executor_) : 0;
     const std::int64_t gone = static_cast<std::int64_t>(
         wipe_drops(wipe, corrected_, swept, {d.u(), d.v(), d.velocity_u(), d.velocity_v(), d.mass(), d.life(), d.id()},
                    corrected_ ? &water_.film : nullptr, executor_));
     // What the drops gained, or lost less than what is gone, came from the film.
     water_.mass_balance.removed += gone;
-    if (corrected_) water_.mass_balance.to_film -= d.water() - drops_before + gone;
+    if (corrected_) water_.mass_balance.to_film -= d.water(executor_) - drops_before + gone;
   });
 }
 
@@ -270,7 +270,7 @@ std::vector<DropView> WetPane::drops() const {
 
 MassBalance WetPane::mass_balance() const {
   return {water_.mass_balance.spawned, water_.mass_balance.evaporated, water_.mass_balance.removed,
-          corrected_ ? drops::film_water(water_.film) : 0, corrected_ ? water_.drops.water() : water_.drops.live()};
+          corrected_ ? drops::film_water(water_.film) : 0, corrected_ ? water_.drops.water(executor_) : water_.drops.live()};
 }
 
 }  // namespace rainref::windshield
