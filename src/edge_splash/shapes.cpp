@@ -164,9 +164,16 @@ std::vector<Solid> solids() {
   return all;
 }
 
-Vec radiance(const std::vector<const Solid*>& near, const Vec& from, const Vec& way, double* distance) {
+/// A solid and the ball around it, from the eye.
+struct Seen {
+  const Solid* solid;
+  Vec to;  // its centre
+  double bound;
+};
+
+Vec radiance(const std::vector<Seen>& near, const Vec& from, const Vec& way, double* distance) {
   Hit hit;
-  for (const Solid* s : near) s->meet(from, way, hit);
+  for (const Seen& s : near) s.solid->meet(from, way, hit);
   *distance = hit.t;
   const Vec behind = sky(way);
   if (hit.t >= 1e30) return behind;
@@ -179,9 +186,33 @@ Vec radiance(const std::vector<const Solid*>& near, const Vec& from, const Vec& 
   return behind + clear * (surface - behind);
 }
 
+/// The rays through a rectangle of the picture: a cone from the eye.
+struct Cone {
+  Vec axis;
+  double cosine = 1, sine;  ///< of its half angle
+
+  template <class Way>
+  Cone(const Way& way, double x0, double y0, double x1, double y1) : axis(way(0.5 * (x0 + x1), 0.5 * (y0 + y1))) {
+    for (const double x : {x0, x1}) {
+      for (const double y : {y0, y1}) cosine = std::min(cosine, glm::dot(axis, way(x, y)));
+    }
+    sine = root(1 - cosine * cosine) + 1e-6;
+  }
+  /// Those of `all` that reach into it, in their order; which are left out changes no ray.
+  void keep(const std::vector<Seen>& all, std::vector<Seen>& near) const {
+    near.clear();
+    for (const Seen& s : all) {
+      const double along = glm::dot(s.to, axis), apart = root(glm::dot(s.to, s.to) - along * along);
+      if (apart * cosine - along * sine <= 1.001 * s.bound + 1e-6 && along > -s.bound) near.push_back(s);
+    }
+  }
+};
+
 ShapesView rendered(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor) {
   constexpr int tile = 16, samples = 4;  // a grid of samples x samples rays to a pixel
-  const std::vector<Solid> all = solids();
+  const std::vector<Solid> made = solids();
+  std::vector<Seen> all;
+  for (const Solid& s : made) all.push_back({&s, s.centre() - camera.position, s.bound()});
   const scene::Camera::Basis basis = camera.basis();
   const double half_height = camera.half_height(), half_width = half_height * width / height;
   const auto way = [&](double x, double y) {
@@ -190,21 +221,11 @@ ShapesView rendered(const scene::Camera& camera, int width, int height, double f
   };
   ShapesView view{Image(Format::rgba32f, width, height), Image(Format::r32f, width, height)};
   executor.for_tiles(width, height, tile, tile, [&](const parallel::Tile& t) {
-    // The solids that reach into the tile's cone; which are left out changes no ray.
-    const Vec axis = way(0.5 * (t.x0 + t.x1), 0.5 * (t.y0 + t.y1));
-    double cosine = 1;
-    for (const int x : {t.x0, t.x1}) {
-      for (const int y : {t.y0, t.y1}) cosine = std::min(cosine, glm::dot(axis, way(x, y)));
-    }
-    const double sine = root(1 - cosine * cosine) + 1e-6;
-    std::vector<const Solid*> near;
-    for (const Solid& s : all) {
-      const Vec to = s.centre() - camera.position;
-      const double along = glm::dot(to, axis), apart = root(glm::dot(to, to) - along * along);
-      if (apart * cosine - along * sine <= 1.001 * s.bound() + 1e-6 && along > -s.bound()) near.push_back(&s);
-    }
+    std::vector<Seen> of_tile, near;
+    Cone(way, t.x0, t.y0, t.x1, t.y1).keep(all, of_tile);
     for (int y = t.y0; y < t.y1; ++y) {
       for (int x = t.x0; x < t.x1; ++x) {
+        Cone(way, x, y, x + 1, y + 1).keep(of_tile, near);
         Vec sum(0, 0, 0);
         double distance;
         for (int k = 0; k < samples * samples; ++k) {

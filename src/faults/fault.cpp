@@ -283,6 +283,10 @@ void FaultyPass::store(Texel at, std::vector<Array>& out) const {
     }
     return;
   }
+  store(values(at), at, mode_, out);
+}
+
+std::vector<perturbed::Perturbed> FaultyPass::values(Texel at) const {
   perturbed::Behaviour behaviour = fault_.behaviour;
   std::vector<float> loads;
   perturbed::Trace trace;
@@ -297,10 +301,15 @@ void FaultyPass::store(Texel at, std::vector<Array>& out) const {
   const auto evaluate = [&] { (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data()); };
   substitutions.look_ahead(evaluate);
   evaluate();
+  return values;
+}
+
+void FaultyPass::store(const std::vector<perturbed::Perturbed>& values, Texel at, HalfMode mode, std::vector<Array>& out) const {
   for (std::size_t v = 0; v < slots_.size(); ++v) {
     const Slot& s = slots_[v];
     const float value = fault_.alter_value ? fault_.alter_value(values[v].v, s) : values[v].v;
-    store_value(s, value, rounding_of(s, mode_), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
+    store_value(s, value, rounding_of(s, fault_.stores.value_or(mode)),
+                out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
   }
 }
 

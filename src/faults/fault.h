@@ -68,6 +68,9 @@ class FaultyPass {
   bool applies() const { return applies_; }
   /// Writes the texel's stored bytes into `out`, arrays like c.outputs.
   void store(Texel at, std::vector<capture::Array>& out) const;
+  /// What it gives at a texel, and the bytes of that with halves stored by `mode`, unless the fault says how. Of evaluated faults only.
+  std::vector<perturbed::Perturbed> values(Texel at) const;
+  void store(const std::vector<perturbed::Perturbed>& values, Texel at, judge::HalfMode mode, std::vector<capture::Array>& out) const;
 
  private:
   const Fault& fault_;

@@ -56,52 +56,76 @@ bool differs(const std::vector<Slot>& slots, const std::vector<Array>& stored, c
   return false;
 }
 
-/// A rounding of half stores that a profile allows, and what the reference gives under it.
+/// A rounding of half stores that a profile allows, what the reference gives under it, and who judges by it.
 struct Stores {
   HalfMode mode;
   std::vector<Array> finished;
+  InvocationJudge judge;
 };
-std::vector<Stores> stores_under(const enclosed::Profile& profile, const PassCase& c, const capture::PassModel& model,
-                                 const parallel::Executor& executor) {
+std::vector<std::unique_ptr<const Stores>> stores_under(const enclosed::Profile& profile, const PassCase& c,
+                                                        const capture::PassModel& model, const parallel::Executor& executor) {
   using enclosed::StoreRounding;
-  std::vector<Stores> out;
-  if (profile.reference) return {{HalfMode::either, reference_outputs(c, model, executor)}};  // as the pack has them
-  if (profile.half_store != StoreRounding::rtz) out.push_back({HalfMode::rne, reference_outputs(c, model, executor, HalfMode::rne)});
-  if (profile.half_store != StoreRounding::rne) out.push_back({HalfMode::rtz, reference_outputs(c, model, executor, HalfMode::rtz)});
+  std::vector<std::unique_ptr<const Stores>> out;
+  const auto add = [&](HalfMode mode) {
+    out.emplace_back(new Stores{mode, reference_outputs(c, model, executor, mode), InvocationJudge(c, model, profile, mode, true)});
+  };
+  if (profile.reference) {
+    add(HalfMode::either);  // as the pack has them
+    return out;
+  }
+  const std::vector<Slot> slots = slots_of(c);
+  const bool has_halves =
+      model.rounds_inside() || std::any_of(slots.begin(), slots.end(), [](const Slot& s) { return s.kind == FormatInfo::float16; });
+  if (profile.half_store != StoreRounding::rtz) add(HalfMode::rne);
+  if (profile.half_store != StoreRounding::rne && (has_halves || out.empty())) add(HalfMode::rtz);
   return out;
 }
 
 /// One fault on one case. A port would be judged by the rounding that suits it best, so an element counts as outside
 /// only where it is so under every rounding that the profile leaves open.
 void judge_mutant(const Fault& d, const PassCase& c, Bind bind, const capture::PassModel& model, const std::vector<Texel>& texels,
-                  const enclosed::Profile& profile, const std::vector<Stores>& all_stores, MutantJudgement& out) {
+                  const std::vector<std::unique_ptr<const Stores>>& all_stores, MutantJudgement& out) {
   const std::vector<Slot> slots = slots_of(c);
   if (slots.empty() || d.alter_list) return;
-  std::int64_t fewest = -1, fewest_rearranged = 0, first_differing = 0;
-  for (const Stores& stores : all_stores) {
-    const FaultyPass faulty(d, c, bind, model, stores.mode, stores.finished);
-    if (!faulty.applies()) return;
-    std::vector<Array> stored = stores.finished;
-    // A device that rounds the other way is judged as such, where a profile leaves it open.
-    const InvocationJudge judge(c, model, profile, d.stores && all_stores.size() > 1 ? *d.stores : stores.mode);
+  struct Under {
+    const Stores& stores;
+    const FaultyPass& faulty;
+    const InvocationJudge& judge;
+    std::vector<Array> stored;
     std::int64_t outside = 0, rearranged = 0, differing = 0;
-    for (const Texel t : texels) {
-      faulty.store(t, stored);
-      if (!differs(slots, stored, stores.finished, t)) continue;
-      ++differing;
-      const Accepted accepted = judge.accepts(t.x, t.y, stored);
-      outside += accepted == Accepted::no;
-      rearranged += accepted == Accepted::rearranged;
-    }
-    if (fewest < 0) first_differing = differing;
-    if (fewest >= 0 && outside + rearranged >= fewest + fewest_rearranged) continue;
-    fewest = outside;
-    fewest_rearranged = rearranged;
+  };
+  std::vector<std::unique_ptr<const FaultyPass>> faulty;
+  std::vector<Under> all;
+  for (const std::unique_ptr<const Stores>& stores : all_stores) {
+    // What is evaluated is the same under each.
+    if (faulty.empty() || d.alter_outputs)
+      faulty.push_back(std::make_unique<const FaultyPass>(d, c, bind, model, stores->mode, stores->finished));
+    if (!faulty.back()->applies()) return;
+    // A device that rounds the other way is judged as such, where a profile leaves it open.
+    const auto judges = [&](const auto& other) { return other->mode == d.stores.value_or(stores->mode); };
+    const auto judge = all_stores.size() > 1 ? std::find_if(all_stores.begin(), all_stores.end(), judges) : all_stores.begin();
+    all.push_back({*stores, *faulty.back(), (*judge)->judge, stores->finished});
   }
+  for (const Texel t : texels) {
+    const std::vector<perturbed::Perturbed> values = d.alter_outputs ? std::vector<perturbed::Perturbed>() : faulty.front()->values(t);
+    for (Under& u : all) {
+      if (d.alter_outputs)
+        u.faulty.store(t, u.stored);
+      else
+        u.faulty.store(values, t, u.stores.mode, u.stored);
+      if (!differs(slots, u.stored, u.stores.finished, t)) continue;
+      ++u.differing;
+      const Accepted accepted = u.judge.accepts(t.x, t.y, u.stored);
+      u.outside += accepted == Accepted::no;
+      u.rearranged += accepted == Accepted::rearranged;
+    }
+  }
+  const Under& best = *std::min_element(all.begin(), all.end(),
+                                        [](const Under& a, const Under& b) { return a.outside + a.rearranged < b.outside + b.rearranged; });
   out.compared += static_cast<std::int64_t>(texels.size());
-  out.differing += first_differing;
-  out.outside += fewest;
-  out.rearranged += fewest_rearranged;
+  out.differing += all.front().differing;
+  out.outside += best.outside;
+  out.rearranged += best.rearranged;
 }
 
 /// The same on a case's keyed lists: ids that have other records than the reference's, and those that no alternative accepts.
@@ -154,7 +178,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
       const std::vector<Texel> texels = spread(*model, invocations);
       std::vector<Fault> all = faults_of(pass, c, *model, before ? &*before : nullptr);
       std::erase_if(all, [](const Fault& d) { return d.for_diagnosis; });
-      const std::vector<Stores> stores = stores_under(chosen, c, *model, *options.executor);
+      const std::vector<std::unique_ptr<const Stores>> stores = stores_under(chosen, c, *model, *options.executor);
       for (const Fault& d : all) {
         if (places.contains(d.name)) continue;
         places[d.name] = report.mutants.size();
@@ -165,7 +189,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
           const Fault& d = all[static_cast<std::size_t>(k)];
           try {
             judge_mutant_lists(d, c, *evaluations, model.get(), chosen, report.mutants[places[d.name]]);
-            judge_mutant(d, c, bind, *model, texels, chosen, stores, report.mutants[places[d.name]]);
+            judge_mutant(d, c, bind, *model, texels, stores, report.mutants[places[d.name]]);
           } catch (const Error&) {
             // the altered case is none that the pass can run: nothing to compare
           }

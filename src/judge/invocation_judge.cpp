@@ -14,8 +14,9 @@ using capture::PassCase;
 using capture::PassModel;
 using enclosed::CodeRange;
 
-InvocationJudge::InvocationJudge(const PassCase& c, const PassModel& model, const enclosed::Profile& profile, HalfMode mode)
-    : case_(c), model_(model), profile_(profile), mode_(mode) {}
+InvocationJudge::InvocationJudge(const PassCase& c, const PassModel& model, const enclosed::Profile& profile, HalfMode mode,
+                                 bool asks_again)
+    : case_(c), model_(model), profile_(profile), mode_(mode), keeps_(asks_again && !model.needs_port()) {}
 
 Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) const {
   const std::vector<Slot> slots = slots_of(case_, model_);
@@ -24,8 +25,12 @@ Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) 
   if (stored.any_impossible) return Accepted::no;
   if (profile_.reference)
     return std::all_of(stored.same.begin(), stored.same.end(), [](char same) { return same; }) ? Accepted::as_written : Accepted::no;
-  Alternatives alternatives;
-  alternatives.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
+  Known of_this_port;
+  Known& all = keeps_ ? known(x, y) : of_this_port;
+  std::call_once(all.is_written_known, [&] {
+    all.written.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
+  });
+  const Alternatives& alternatives = all.written;
   if (alternatives.gave_up) return Accepted::as_written;
   std::vector<CodeRange> ranges, nearest;
   std::uint64_t least = ~std::uint64_t{0};
@@ -40,7 +45,16 @@ Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) 
     nearest = ranges;
   }
   SecondTier second(slots, model_, profile_);
-  return second.exists() && second.accepts(profile_.rearrangement, x, y, stored, nearest, mode_) ? Accepted::rearranged : Accepted::no;
+  if (!second.exists()) return Accepted::no;
+  std::call_once(all.is_rearranged_known, [&] { second.run(profile_.rearrangement, x, y, stored, mode_, all.rearranged); });
+  return second.accepts(all.rearranged, stored, nearest, mode_) ? Accepted::rearranged : Accepted::no;
+}
+
+InvocationJudge::Known& InvocationJudge::known(int x, int y) const {
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<Known>& of = known_[{x, y}];
+  if (!of) of = std::make_unique<Known>();
+  return *of;
 }
 
 std::vector<char> InvocationJudge::outside(int x, int y, const std::vector<Array>& port) const {

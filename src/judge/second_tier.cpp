@@ -2,17 +2,21 @@
 
 namespace rainref::judge {
 
-void SecondTier::run(enclosed::Rearrangement how, int x, int y, const Stored& stored, HalfMode mode) {
+void SecondTier::run(enclosed::Rearrangement how, int x, int y, const Stored& stored, HalfMode mode, Alternatives& all) const {
   enclosed::Profile profile = model_.rounds_inside() ? narrowed(profile_, mode) : profile_;
   profile.rearrangement = how;
-  all_.rearrange(model_, x, y, stored.got_values.data(), profile);
+  all.rearrange(model_, x, y, stored.got_values.data(), profile);
 }
 
 bool SecondTier::accepts(enclosed::Rearrangement how, int x, int y, const Stored& stored, const std::vector<enclosed::CodeRange>& nearest,
                          HalfMode mode) {
-  run(how, x, y, stored, mode);
-  for (int a = 0; a < all_.count && !all_.gave_up; ++a) {
-    const std::vector<enclosed::Enclosure>& values = all_.values[static_cast<std::size_t>(a)];
+  run(how, x, y, stored, mode, all_);
+  return accepts(all_, stored, nearest, mode);
+}
+
+bool SecondTier::accepts(const Alternatives& all, const Stored& stored, const std::vector<enclosed::CodeRange>& nearest, HalfMode mode) {
+  for (int a = 0; a < all.count && !all.gave_up; ++a) {
+    const std::vector<enclosed::Enclosure>& values = all.values[static_cast<std::size_t>(a)];
     code_ranges(slots_, values, profile_, mode, ranges_);
     bool is_accepted = inside(profile_, ranges_, stored);
     for (std::size_t v = 0; v < slots_.size() && is_accepted; ++v)
@@ -23,7 +27,7 @@ bool SecondTier::accepts(enclosed::Rearrangement how, int x, int y, const Stored
 }
 
 const std::vector<enclosed::CodeRange>* SecondTier::codes(int x, int y, const Stored& stored, HalfMode mode) {
-  run(profile_.rearrangement, x, y, stored, mode);
+  run(profile_.rearrangement, x, y, stored, mode, all_);
   if (all_.gave_up) return nullptr;
   code_ranges(slots_, all_.values[0], profile_, mode, ranges_);
   return &ranges_;

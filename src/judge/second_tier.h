@@ -20,12 +20,14 @@ class SecondTier {
   /// codes of the formula as written, does not hold. False where the pass has no evaluation for them.
   bool accepts(enclosed::Rearrangement how, int x, int y, const Stored& stored, const std::vector<enclosed::CodeRange>& nearest,
                HalfMode mode);
+  /// The same of what run() gave.
+  bool accepts(const Alternatives& all, const Stored& stored, const std::vector<enclosed::CodeRange>& nearest, HalfMode mode);
+  /// Every alternative of these rearrangements, into `all`.
+  void run(enclosed::Rearrangement how, int x, int y, const Stored& stored, HalfMode mode, Alternatives& all) const;
   /// The codes of the first alternative; null where there is none.
   const std::vector<enclosed::CodeRange>* codes(int x, int y, const Stored& stored, HalfMode mode);
 
  private:
-  void run(enclosed::Rearrangement how, int x, int y, const Stored& stored, HalfMode mode);
-
   const std::vector<Slot>& slots_;
   const capture::PassModel& model_;
   const enclosed::Profile& profile_;

@@ -26,7 +26,7 @@ double least(double low, double high, const Accuracy& a, double x_magnitude) {
 struct Range {
   double low, high;
 };
-Range products(Enclosure a, Enclosure b) {
+Range products(const Enclosure& a, const Enclosure& b) {
   const double al = a.lo, ah = a.hi;
   const auto [low, high] = std::minmax({al * b.lo, al * b.hi, ah * b.lo, ah * b.hi});
   return {low, high};
@@ -77,13 +77,13 @@ Enclosure Enclosure::load_unorm(float x) {
   return profile().reference || a.is_zero() || x == 0 || x == 1 ? Enclosure(x) : widened(x, x, a, x);
 }
 
-Enclosure operator*(Enclosure a, Enclosure b) {
+Enclosure operator*(const Enclosure& a, const Enclosure& b) {
   if (a.is_vacuous() || b.is_vacuous()) return Enclosure::vacuous();
   if (profile().reference && a.is_point() && b.is_point()) return Enclosure::checked(a.lo * b.lo, a.lo * b.lo);
   return product(products(a, b));
 }
 
-Enclosure contracted_sum(Enclosure a, Enclosure b) {
+Enclosure contracted_sum(const Enclosure& a, const Enclosure& b) {
   if (a.is_vacuous() || b.is_vacuous()) return Enclosure::vacuous();
   // One product at most goes in unrounded.
   float low = a.lo + b.lo, high = a.hi + b.hi;
@@ -98,13 +98,13 @@ Enclosure contracted_sum(Enclosure a, Enclosure b) {
   return Enclosure::checked(low, high);
 }
 
-Enclosure square(Enclosure a) {
+Enclosure square(const Enclosure& a) {
   const Enclosure m = abs(a);
   if (m.is_vacuous()) return m;
   return product({static_cast<double>(m.lo) * m.lo, static_cast<double>(m.hi) * m.hi});
 }
 
-Enclosure operator/(Enclosure a, Enclosure b) {
+Enclosure operator/(const Enclosure& a, const Enclosure& b) {
   const Profile& p = profile();
   if (p.reference && a.is_point() && b.is_point()) return Enclosure::checked(a.lo / b.lo, a.lo / b.lo);
   if (a.is_vacuous() || b.is_vacuous() || (b.lo <= 0 && 0 <= b.hi)) return Enclosure::vacuous();
@@ -120,13 +120,13 @@ Enclosure operator/(Enclosure a, Enclosure b) {
   return widened(low, high, p.division, 0);
 }
 
-Enclosure inverse_sqrt(Enclosure a) {
+Enclosure inverse_sqrt(const Enclosure& a) {
   if (a.is_vacuous() || a.lo <= 0) return Enclosure::vacuous();
   const double low = 1 / __builtin_sqrt(static_cast<double>(a.hi)), high = 1 / __builtin_sqrt(static_cast<double>(a.lo));
   return widened(low, high, profile().inverse_sqrt, 0);
 }
 
-Enclosure sqrt(Enclosure a) {
+Enclosure sqrt(const Enclosure& a) {
   const Profile& p = profile();
   if (a.is_vacuous() || a.lo < 0) return Enclosure::vacuous();
   if (p.reference || (p.sqrt.is_zero() && !p.sqrt_is_inherited)) return Enclosure::checked(__builtin_sqrtf(a.lo), __builtin_sqrtf(a.hi));
@@ -143,7 +143,7 @@ Enclosure sqrt(Enclosure a) {
   return {a.lo > 0 ? std::max(root.lo, 0.0f) : 0.0f, root.hi};
 }
 
-Enclosure floor(Enclosure a) {
+Enclosure floor(const Enclosure& a) {
   if (a.is_vacuous()) return a;
   const scalar::Scalar<float> low = floor(scalar::Scalar<float>(a.lo)), high = floor(scalar::Scalar<float>(a.hi));
   const double count = static_cast<double>(high.v) - low.v + 1;
@@ -153,7 +153,7 @@ Enclosure floor(Enclosure a) {
   return {chosen, chosen};
 }
 
-Enclosure fract(Enclosure a) {
+Enclosure fract(const Enclosure& a) {
   const Enclosure cell = floor(a);
   if (profile().reference && a.is_point()) return a - cell;
   if (cell.is_vacuous()) return cell;
@@ -163,15 +163,14 @@ Enclosure fract(Enclosure a) {
   return rest.is_vacuous() ? rest : Enclosure(a.is_product ? rest.lo : std::max(rest.lo, 0.0f), std::min(rest.hi, 1.0f));
 }
 
-Enclosure mix(Enclosure a, Enclosure b, Enclosure t) {
+Enclosure mix(const Enclosure& from, const Enclosure& to, const Enclosure& t) {
   const Enclosure one(1.0f);
-  if (profile().reference || (a.is_point() && b.is_point() && t.is_point())) {
-    const Enclosure published = a * (one - t) + b * t;
-    return profile().reference ? published : hull(published, a + (b - a) * t);
+  if (profile().reference || (from.is_point() && to.is_point() && t.is_point())) {
+    const Enclosure published = from * (one - t) + to * t;
+    return profile().reference ? published : hull(published, from + (to - from) * t);
   }
-  if (a.is_vacuous() || b.is_vacuous() || t.is_vacuous()) return Enclosure::vacuous();
-  a = a.unrounded();
-  b = b.unrounded();
+  if (from.is_vacuous() || to.is_vacuous() || t.is_vacuous()) return Enclosure::vacuous();
+  const Enclosure a = from.unrounded(), b = to.unrounded();
   // The exact function is linear in each argument: its extrema lie at corners. Then the roundings of either formula,
   // (1 - t), two products and a sum, or (b - a), a product and a sum, each relative to what it rounds.
   double low = 0x1p1000, high = -0x1p1000;

@@ -30,7 +30,7 @@ class Enclosure {
 
   Enclosure() : lo(0), hi(0) {}
   /// A literal or a uniform. A subnormal may count as zero.
-  Enclosure(float x) : Enclosure(checked(x, x)) {}
+  Enclosure(float x) : lo(x), hi(x) { check(); }
   /// The interval as it is; the caller keeps lo <= hi.
   Enclosure(float low, float high) : lo(low), hi(high) {}
   static Enclosure vacuous() { return {-infinity, infinity}; }
@@ -53,66 +53,65 @@ class Enclosure {
   static Enclosure index(int first) { return {static_cast<float>(first), static_cast<float>(first)}; }
   static Int uniform_int(int value) { return {value}; }
 
-  friend Enclosure operator+(Enclosure a, Enclosure b) {
+  friend Enclosure operator+(const Enclosure& a, const Enclosure& b) {
     if (profile().basic != BasicRounding::nearest) return outward_sum(a, b);
     return a.is_product || b.is_product ? contracted_sum(a, b) : checked(a.lo + b.lo, a.hi + b.hi);
   }
-  friend Enclosure operator-(Enclosure a) {
+  friend Enclosure operator-(const Enclosure& a) {
     Enclosure out(-a.hi, -a.lo);
     out.is_product = a.is_product;
     out.product_lo = -a.product_hi;
     out.product_hi = -a.product_lo;
     return out;
   }
-  friend Enclosure operator-(Enclosure a, Enclosure b) { return a + -b; }
-  friend Enclosure operator*(Enclosure a, Enclosure b);
-  friend Enclosure operator/(Enclosure a, Enclosure b);
+  friend Enclosure operator-(const Enclosure& a, const Enclosure& b) { return a + -b; }
+  friend Enclosure operator*(const Enclosure& a, const Enclosure& b);
+  friend Enclosure operator/(const Enclosure& a, const Enclosure& b);
   /// The sum with every rounding and with none, whatever the profile's basic rounding.
-  friend Enclosure outward_sum(Enclosure a, Enclosure b) {
-    a = a.unrounded();
-    b = b.unrounded();
-    return checked(sum_below(a.lo, b.lo), sum_above(a.hi, b.hi));
+  friend Enclosure outward_sum(const Enclosure& a, const Enclosure& b) {
+    if (!a.is_product && !b.is_product) return checked(sum_below(a.lo, b.lo), sum_above(a.hi, b.hi));
+    const Enclosure x = a.unrounded(), y = b.unrounded();
+    return checked(sum_below(x.lo, y.lo), sum_above(x.hi, y.hi));
   }
   /// The number before and after its rounding.
   Enclosure unrounded() const { return is_product ? checked(float_below(product_lo), float_above(product_hi)) : *this; }
 
   // An exact tie of points is settled.
-  friend bool operator<(Enclosure a, Enclosure b) { return a.hi < b.lo || (a.lo < b.hi && choose(2) != 0); }
-  friend bool operator<=(Enclosure a, Enclosure b) { return a.hi <= b.lo || (a.lo <= b.hi && choose(2) != 0); }
-  friend bool operator>(Enclosure a, Enclosure b) { return b < a; }
-  friend bool operator>=(Enclosure a, Enclosure b) { return b <= a; }
-  friend Enclosure select(bool m, Enclosure a, Enclosure b) { return m ? a : b; }
-  friend Enclosure hull(Enclosure a, Enclosure b) {
-    a = a.unrounded();
-    b = b.unrounded();
-    return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? b.hi : a.hi};
+  friend bool operator<(const Enclosure& a, const Enclosure& b) { return a.hi < b.lo || (a.lo < b.hi && choose(2) != 0); }
+  friend bool operator<=(const Enclosure& a, const Enclosure& b) { return a.hi <= b.lo || (a.lo <= b.hi && choose(2) != 0); }
+  friend bool operator>(const Enclosure& a, const Enclosure& b) { return b < a; }
+  friend bool operator>=(const Enclosure& a, const Enclosure& b) { return b <= a; }
+  friend Enclosure select(bool m, const Enclosure& a, const Enclosure& b) { return m ? a : b; }
+  friend Enclosure hull(const Enclosure& a, const Enclosure& b) {
+    const Enclosure x = a.unrounded(), y = b.unrounded();
+    return {x.lo < y.lo ? x.lo : y.lo, x.hi < y.hi ? y.hi : x.hi};
   }
-  friend Enclosure min(Enclosure a, Enclosure b) {
+  friend Enclosure min(const Enclosure& a, const Enclosure& b) {
     if (a.is_vacuous() || b.is_vacuous()) return vacuous();
     return {b.lo < a.lo ? b.lo : a.lo, b.hi < a.hi ? b.hi : a.hi};
   }
-  friend Enclosure max(Enclosure a, Enclosure b) {
+  friend Enclosure max(const Enclosure& a, const Enclosure& b) {
     if (a.is_vacuous() || b.is_vacuous()) return vacuous();
     return {a.lo < b.lo ? b.lo : a.lo, a.hi < b.hi ? b.hi : a.hi};
   }
-  friend Enclosure abs(Enclosure a) {
+  friend Enclosure abs(const Enclosure& a) {
     if (a.is_vacuous()) return a;
     if (a.lo >= 0) return a;
     if (a.hi <= 0) return -a;
-    a = a.unrounded();
-    return {0.0f, -a.lo < a.hi ? a.hi : -a.lo};
+    const Enclosure whole = a.unrounded();
+    return {0.0f, -whole.lo < whole.hi ? whole.hi : -whole.lo};
   }
-  friend Enclosure square(Enclosure a);
-  friend Enclosure sqrt(Enclosure a);
+  friend Enclosure square(const Enclosure& a);
+  friend Enclosure sqrt(const Enclosure& a);
   /// 1 / sqrt(a) as a GPU has it in one instruction. Passes do not name it; normalize and an inherited sqrt do.
-  friend Enclosure inverse_sqrt(Enclosure a);
+  friend Enclosure inverse_sqrt(const Enclosure& a);
 
   /// Where the integer is open: one candidate of up to PathEnumeration::max_runs, else the interval of all of them.
-  friend Enclosure floor(Enclosure a);
+  friend Enclosure floor(const Enclosure& a);
   /// a - floor(a) in [0, 1] but for a fused product, of the candidate that floor takes; [0, 1] where there are too many.
-  friend Enclosure fract(Enclosure a);
+  friend Enclosure fract(const Enclosure& a);
   /// Gives the invocation up where a is not one integer.
-  friend Int to_int(Enclosure a) {
+  friend Int to_int(const Enclosure& a) {
     if (a.is_point() && a.lo > -0x1p30f && a.lo < 0x1p30f) return {static_cast<std::int32_t>(a.lo)};
     give_up();
     return {0};
@@ -120,36 +119,41 @@ class Enclosure {
   friend Enclosure to_number(Int a) { return index(a.i); }
 
   /// By a (1 - t) + b t or by a + (b - a) t: shading languages publish both.
-  friend Enclosure mix(Enclosure a, Enclosure b, Enclosure t);
+  friend Enclosure mix(const Enclosure& a, const Enclosure& b, const Enclosure& t);
 
-  friend Enclosure exp(Enclosure a);
-  friend Enclosure exp2(Enclosure a);
-  friend Enclosure log(Enclosure a);
-  friend Enclosure log2(Enclosure a);
+  friend Enclosure exp(const Enclosure& a);
+  friend Enclosure exp2(const Enclosure& a);
+  friend Enclosure log(const Enclosure& a);
+  friend Enclosure log2(const Enclosure& a);
   /// Vacuous where x may be negative; 0 to a positive power is 0.
-  friend Enclosure pow(Enclosure x, Enclosure y);
-  friend Enclosure sin(Enclosure a);
-  friend Enclosure cos(Enclosure a);
+  friend Enclosure pow(const Enclosure& x, const Enclosure& y);
+  friend Enclosure sin(const Enclosure& a);
+  friend Enclosure cos(const Enclosure& a);
   /// Where y may have either sign and x is negative, the sign is a decision: the function jumps there.
-  friend Enclosure atan2(Enclosure y, Enclosure x);
+  friend Enclosure atan2(const Enclosure& y, const Enclosure& x);
 
   friend Enclosure fetch(const float* texels, Int offset, Enclosure) { return Enclosure(texels[offset.i]); }
 
   /// The interval with its computed ends: vacuous when one is not finite, and with zero in it where a flush may put it.
   static Enclosure checked(float low, float high) {
-    const Profile& p = profile();
-    if (p.reference) return low == low && high == high ? Enclosure(low, high) : vacuous();
-    if (!(low >= -largest_finite && high <= largest_finite)) return vacuous();
-    if (p.flush != Flush::never) {
-      // The smallest normal itself too: an implementation may look before it rounds.
-      if (0 < low && low <= smallest_normal) low = 0;
-      if (-smallest_normal <= high && high < 0) high = 0;
-    }
-    return {low, high};
+    Enclosure computed(low, high);
+    computed.check();
+    return computed;
   }
 
  private:
-  friend Enclosure contracted_sum(Enclosure a, Enclosure b);
+  void check() {
+    const Profile& p = profile();
+    if (p.reference ? !(lo == lo && hi == hi) : !(lo >= -largest_finite && hi <= largest_finite)) {
+      lo = -infinity;
+      hi = infinity;
+    } else if (!p.reference && p.flush != Flush::never) {
+      // The smallest normal itself too: an implementation may look before it rounds.
+      if (0 < lo && lo <= smallest_normal) lo = 0;
+      if (-smallest_normal <= hi && hi < 0) hi = 0;
+    }
+  }
+  friend Enclosure contracted_sum(const Enclosure& a, const Enclosure& b);
   static Enclosure load_unorm(float x);
 };
 
@@ -157,14 +161,14 @@ class Enclosure {
 // here, before the templates.
 
 /// By every order of the additions.
-Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c);
-Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c, Enclosure d);
-Enclosure sum_any_order_in_pairs(Enclosure a, Enclosure b, Enclosure c, Enclosure d);
+Enclosure sum_any_order(const Enclosure& a, const Enclosure& b, const Enclosure& c);
+Enclosure sum_any_order(const Enclosure& a, const Enclosure& b, const Enclosure& c, const Enclosure& d);
+Enclosure sum_any_order_in_pairs(const Enclosure& a, const Enclosure& b, const Enclosure& c, const Enclosure& d);
 inline Enclosure uniform_quotient(float a, float b, Enclosure) { return Enclosure(a) / Enclosure(b); }
 /// By (t t) (3 - 2 t) or t (t (3 - 2 t)): the specifications name t t (3 - 2 t) and let it be regrouped.
-Enclosure smoothstep(float edge0, float edge1, Enclosure x);
+Enclosure smoothstep(float edge0, float edge1, const Enclosure& x);
 /// One decision, not one for each octave.
-Enclosure nearest_octave(Enclosure x);
+Enclosure nearest_octave(const Enclosure& x);
 /// By (1 / length(a)) a, a / length(a) or a inversesqrt(dot(a, a)).
 scalar::Vec3<Enclosure> normalize(const scalar::Vec3<Enclosure>& a);
 

@@ -14,13 +14,13 @@ using Single = scalar::Scalar<float>;
 
 Enclosure point(Single x) { return Enclosure::checked(x.v, x.v); }
 // Whether the reference itself answers.
-bool as_reference(Enclosure a) { return profile().reference && a.is_point(); }
+bool as_reference(const Enclosure& a) { return profile().reference && a.is_point(); }
 
 double floor_of(double x) { return floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v; }
 
-Enclosure not_negative(Enclosure a) { return a.is_vacuous() ? a : Enclosure(std::max(a.lo, 0.0f), a.hi); }
+Enclosure not_negative(const Enclosure& a) { return a.is_vacuous() ? a : Enclosure(std::max(a.lo, 0.0f), a.hi); }
 
-Enclosure logarithm(Enclosure a, double scale, const Accuracy& far, const Accuracy& near_one) {
+Enclosure logarithm(const Enclosure& a, double scale, const Accuracy& far, const Accuracy& near_one) {
   if (a.is_vacuous() || a.lo <= 0) return Enclosure::vacuous();
   const double low = scale * log_real(Real64(a.lo)).v, high = scale * log_real(Real64(a.hi)).v;
   const bool reaches_far = a.lo < 0.5f || a.hi > 2.0f, reaches_near = a.hi >= 0.5f && a.lo <= 2.0f;
@@ -30,7 +30,7 @@ Enclosure logarithm(Enclosure a, double scale, const Accuracy& far, const Accura
 }
 
 // x > 0.
-Enclosure positive_pow(Enclosure x, Enclosure y) {
+Enclosure positive_pow(const Enclosure& x, const Enclosure& y) {
   if (profile().pow_is_inherited) return exp2(y * log2(x));
   const auto at = [](float base, float exponent) { return pow_real(Real64(base), Real64(exponent)).v; };
   const auto [low, high] = std::minmax({at(x.lo, y.lo), at(x.lo, y.hi), at(x.hi, y.lo), at(x.hi, y.hi)});
@@ -38,7 +38,7 @@ Enclosure positive_pow(Enclosure x, Enclosure y) {
 }
 
 // sin over [low, high] for phase 0, cos for phase pi / 2: f takes its greatest value at pi / 2 - phase + 2 pi n.
-Enclosure wave(Enclosure a, double (*f)(double), double phase) {
+Enclosure wave(const Enclosure& a, double (*f)(double), double phase) {
   const Profile& p = profile();
   if (a.is_vacuous()) return a;
   const double size = a.magnitude();
@@ -67,23 +67,23 @@ double octave_of(float x) { return nearest_octave(Single(x)).v; }
 
 }  // namespace
 
-Enclosure exp(Enclosure a) {
+Enclosure exp(const Enclosure& a) {
   if (as_reference(a)) return point(exp(Single(a.lo)));
   if (a.is_vacuous()) return a;
   return not_negative(widened(exp_real(Real64(a.lo)).v, exp_real(Real64(a.hi)).v, profile().exp, a.magnitude()));
 }
-Enclosure exp2(Enclosure a) {
+Enclosure exp2(const Enclosure& a) {
   if (as_reference(a)) return point(exp2(Single(a.lo)));
   if (a.is_vacuous()) return a;
   return not_negative(widened(exp2_real(Real64(a.lo)).v, exp2_real(Real64(a.hi)).v, profile().exp2, a.magnitude()));
 }
-Enclosure log(Enclosure a) {
+Enclosure log(const Enclosure& a) {
   if (as_reference(a)) return point(log(Single(a.lo)));
   return logarithm(a, 1, profile().log, profile().log_near_one);
 }
-Enclosure log2(Enclosure a) { return logarithm(a, coefficients::log2_e, profile().log2, profile().log2_near_one); }
+Enclosure log2(const Enclosure& a) { return logarithm(a, coefficients::log2_e, profile().log2, profile().log2_near_one); }
 
-Enclosure pow(Enclosure x, Enclosure y) {
+Enclosure pow(const Enclosure& x, const Enclosure& y) {
   if (as_reference(x) && as_reference(y)) return point(pow(Single(x.lo), Single(y.lo)));
   if (x.is_vacuous() || y.is_vacuous() || x.lo < 0 || (x.lo == 0 && y.lo <= 0)) return Enclosure::vacuous();
   if (x.lo > 0) return positive_pow(x, y);
@@ -94,12 +94,12 @@ Enclosure pow(Enclosure x, Enclosure y) {
   return top.is_vacuous() ? top : Enclosure(0.0f, std::max(top.hi, 0x1p-139f));
 }
 
-Enclosure sin(Enclosure a) {
+Enclosure sin(const Enclosure& a) {
   if (as_reference(a)) return point(sin(Single(a.lo)));
   return wave(
       a, [](double x) { return sin_real(Real64(x)).v; }, 0);
 }
-Enclosure cos(Enclosure a) {
+Enclosure cos(const Enclosure& a) {
   if (as_reference(a)) return point(cos(Single(a.lo)));
   return wave(
       a, [](double x) { return cos_real(Real64(x)).v; }, pi / 2);
@@ -109,7 +109,7 @@ namespace {
 
 thread_local bool takes_other_angles = false;
 
-Enclosure angle_as_named(Enclosure y, Enclosure x) {
+Enclosure angle_as_named(const Enclosure& y, const Enclosure& x) {
   if (as_reference(y) && as_reference(x)) return point(atan2(Single(y.lo), Single(x.lo)));
   if (x.is_vacuous() || y.is_vacuous()) return Enclosure::vacuous();
   const Accuracy& accuracy = profile().atan2;
@@ -148,7 +148,7 @@ Enclosure arccosine(Enclosure s) {
 }
 
 /// The hull of `named` and what other formulas give.
-Enclosure with_other_angles(Enclosure named, Enclosure y, Enclosure x) {
+Enclosure with_other_angles(Enclosure named, const Enclosure& y, const Enclosure& x) {
   const auto held = [](Enclosure s) { return min(max(s.unrounded(), Enclosure(-1.0f)), Enclosure(1.0f)); };
   const Enclosure r = sqrt(square(x) + square(y)), cosine = held(x / r), sine = held(y / r);
   if (named.is_vacuous() || cosine.is_vacuous() || sine.is_vacuous()) return named;
@@ -169,12 +169,12 @@ Enclosure with_other_angles(Enclosure named, Enclosure y, Enclosure x) {
 OtherAngles::OtherAngles() : before_(takes_other_angles) { takes_other_angles = true; }
 OtherAngles::~OtherAngles() { takes_other_angles = before_; }
 
-Enclosure atan2(Enclosure y, Enclosure x) {
+Enclosure atan2(const Enclosure& y, const Enclosure& x) {
   const Enclosure named = angle_as_named(y, x);
   return takes_other_angles && !profile().reference ? with_other_angles(named, y, x) : named;
 }
 
-Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c) {
+Enclosure sum_any_order(const Enclosure& a, const Enclosure& b, const Enclosure& c) {
   if (profile().reference) return scalar::sum_any_order<Enclosure>(a, b, c);
   const auto add = [](Enclosure x, Enclosure y) { return outward_sum(x, y); };
   return hull(add(add(a, b), c), hull(add(add(a, c), b), add(add(b, c), a)));
@@ -182,7 +182,7 @@ Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c) {
 
 namespace {
 
-Enclosure sum_by_all_trees(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
+Enclosure sum_by_all_trees(const Enclosure& a, const Enclosure& b, const Enclosure& c, const Enclosure& d) {
   const auto add = [](Enclosure x, Enclosure y) { return outward_sum(x, y); };
   const Enclosure chains = hull(hull(add(sum_any_order(a, b, c), d), add(sum_any_order(a, b, d), c)),
                                 hull(add(sum_any_order(a, c, d), b), add(sum_any_order(b, c, d), a)));
@@ -191,14 +191,14 @@ Enclosure sum_by_all_trees(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
 
 }  // namespace
 
-Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
+Enclosure sum_any_order(const Enclosure& a, const Enclosure& b, const Enclosure& c, const Enclosure& d) {
   return profile().reference ? scalar::sum_any_order<Enclosure>(a, b, c, d) : sum_by_all_trees(a, b, c, d);
 }
-Enclosure sum_any_order_in_pairs(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
+Enclosure sum_any_order_in_pairs(const Enclosure& a, const Enclosure& b, const Enclosure& c, const Enclosure& d) {
   return profile().reference ? scalar::sum_any_order_in_pairs<Enclosure>(a, b, c, d) : sum_by_all_trees(a, b, c, d);
 }
 
-Enclosure smoothstep(float edge0, float edge1, Enclosure x) {
+Enclosure smoothstep(float edge0, float edge1, const Enclosure& x) {
   if (profile().reference) return scalar::smoothstep<Enclosure>(edge0, edge1, x);
   const Enclosure t = scalar::saturate((x - Enclosure(edge0)) / (Enclosure(edge1) - Enclosure(edge0)));
   if (t.is_vacuous()) return t;
@@ -212,7 +212,7 @@ Enclosure smoothstep(float edge0, float edge1, Enclosure x) {
   return {std::max(grown.lo, written.lo), std::min(grown.hi, written.hi)};
 }
 
-Enclosure nearest_octave(Enclosure x) {
+Enclosure nearest_octave(const Enclosure& x) {
   if (x.is_vacuous()) return {0.0f, 12.0f};
   const double low = octave_of(x.lo), high = octave_of(x.hi), count = high - low + 1;
   if (count > PathEnumeration::max_runs) return {static_cast<float>(low), static_cast<float>(high)};

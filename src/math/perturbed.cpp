@@ -15,6 +15,8 @@ using enclosed::Accuracy;
 using enclosed::Profile;
 
 thread_local Behaviour current;
+/// Whether sums, products, comparisons and extrema are the reference's and nobody looks at them: what most invocations are made of.
+thread_local bool is_plain = true;
 
 bool is(Fault fault) { return current.fault == fault; }
 /// Whether this operation takes a variation that is granted.
@@ -81,6 +83,15 @@ Reference reference(const Perturbed& a) { return Reference(a.v); }
 
 Behaviour& behaviour() { return current; }
 
+Scope::Scope(const Behaviour& b) : saved_(current) { set(b); }
+Scope::~Scope() { set(saved_); }
+void Scope::set(const Behaviour& b) {
+  current = b;
+  is_plain = !b.variations && !b.follows() && b.fault != Fault::fused && b.fault != Fault::flushed &&
+             b.fault != Fault::half_intermediates && b.fault != Fault::strict_for_weak && b.fault != Fault::weak_for_strict &&
+             b.fault != Fault::minimum_missing && b.fault != Fault::maximum_missing && b.fault != Fault::abs_missing;
+}
+
 Perturbed::Perturbed(float constant) : v(constant) {
   if (current.constants) current.constants->push_back(constant);
   if (current.follows()) {
@@ -96,7 +107,8 @@ Perturbed Perturbed::index(int first) {
   if (current.follows()) column.leaf(Op::index, 0);
   return column;
 }
-Perturbed Perturbed::loaded(Perturbed texel) {
+Perturbed Perturbed::loaded(const Perturbed& stored) {
+  Perturbed texel = stored;
   if (current.loads && current.loaded < current.loads->size())
     if (const float other = (*current.loads)[current.loaded]; other == other) texel.v = other;
   ++current.loaded;
@@ -114,25 +126,48 @@ Perturbed Perturbed::opposite() const {
   o.factor_ = -o.factor_;
   return o;
 }
-bool operator<(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::weak_for_strict) ? a.v <= b.v : a.v < b.v, a, b); }
-bool operator<=(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::strict_for_weak) ? a.v < b.v : a.v <= b.v, a, b); }
-Perturbed Perturbed::chosen(bool m, Perturbed a, Perturbed b) {
+bool operator<(const Perturbed& a, const Perturbed& b) {
+  if (is_plain) return a.v < b.v;
+  return Perturbed::met(is(Fault::weak_for_strict) ? a.v <= b.v : a.v < b.v, a, b);
+}
+bool operator<=(const Perturbed& a, const Perturbed& b) {
+  if (is_plain) return a.v <= b.v;
+  return Perturbed::met(is(Fault::strict_for_weak) ? a.v < b.v : a.v <= b.v, a, b);
+}
+Perturbed Perturbed::chosen(bool m, const Perturbed& a, const Perturbed& b) {
+  if (is_plain) return of(m ? a.v : b.v);
   return Perturbed::met(Op::choice, m ? a : b, a, b, Perturbed::of(m ? 1.0f : 0.0f));
 }
-Perturbed Perturbed::lesser(Perturbed a, Perturbed b) {
+Perturbed Perturbed::lesser(const Perturbed& a, const Perturbed& b) {
+  if (is_plain) return of(b.v < a.v ? b.v : a.v);
   return Perturbed::met(Op::minimum, Perturbed::of(is(Fault::minimum_missing) || !(b.v < a.v) ? a.v : b.v), a, b);
 }
-Perturbed Perturbed::greater(Perturbed a, Perturbed b) {
+Perturbed Perturbed::greater(const Perturbed& a, const Perturbed& b) {
+  if (is_plain) return of(a.v < b.v ? b.v : a.v);
   return Perturbed::met(Op::maximum, Perturbed::of(is(Fault::maximum_missing) || !(a.v < b.v) ? a.v : b.v), a, b);
 }
-Perturbed abs(Perturbed a) { return Perturbed::met(Op::magnitude, a.v < 0 && !is(Fault::abs_missing) ? a.opposite() : a, a); }
-Perturbed operator-(Perturbed a) { return Perturbed::met(Op::negation, a.opposite(), a); }
-Perturbed operator+(Perturbed a, Perturbed b) { return Perturbed::met(Op::sum, Perturbed::add(a, b), a, b); }
-Perturbed operator-(Perturbed a, Perturbed b) { return Perturbed::met(Op::difference, Perturbed::add(a, b.opposite()), a, b); }
+Perturbed abs(const Perturbed& a) {
+  if (is_plain) return Perturbed::of(a.v < 0 ? -a.v : a.v);
+  return Perturbed::met(Op::magnitude, a.v < 0 && !is(Fault::abs_missing) ? a.opposite() : a, a);
+}
+Perturbed operator-(const Perturbed& a) {
+  if (is_plain) return Perturbed::of(-a.v);
+  return Perturbed::met(Op::negation, a.opposite(), a);
+}
+Perturbed operator+(const Perturbed& a, const Perturbed& b) {
+  if (is_plain) return Perturbed::of(a.v + b.v);
+  return Perturbed::made(
+      Op::sum, [&] { return Perturbed::add(a, b); }, a, b);
+}
+Perturbed operator-(const Perturbed& a, const Perturbed& b) {
+  if (is_plain) return Perturbed::of(a.v - b.v);
+  return Perturbed::made(
+      Op::difference, [&] { return Perturbed::add(a, b.opposite()); }, a, b);
+}
 
 void Perturbed::count(const char* file, int line, DecisionKind kind, int side) { current.coverage->met(file, line, kind, side); }
 
-Perturbed Perturbed::add(Perturbed a, Perturbed b) {
+Perturbed Perturbed::add(const Perturbed& a, const Perturbed& b) {
   if (a.product_ || b.product_) {
     if (is(Fault::fused) || may_contract()) {
       const bool first = a.product_ && !(b.product_ && take(&Variations::reorder));
@@ -145,23 +180,27 @@ Perturbed Perturbed::add(Perturbed a, Perturbed b) {
   const float s = a.v + b.v, t = s - a.v;
   return finish(s, (a.v - (s - t)) + (b.v - t));
 }
-Perturbed operator*(Perturbed a, Perturbed b) {
-  const float p = a.v * b.v;
-  Perturbed r = finish(p, static_cast<double>(a.v) * b.v - p);
-  r.factor_ = a.v;
-  r.other_ = b.v;
-  r.product_ = true;
-  return Perturbed::met(Op::product, r, a, b);
+Perturbed operator*(const Perturbed& a, const Perturbed& b) {
+  if (is_plain) return Perturbed::of(a.v * b.v);
+  const auto product = [&] {
+    const float p = a.v * b.v;
+    Perturbed r = finish(p, static_cast<double>(a.v) * b.v - p);
+    r.factor_ = a.v;
+    r.other_ = b.v;
+    r.product_ = true;
+    return r;
+  };
+  return Perturbed::made(Op::product, product, a, b);
 }
-Perturbed square(Perturbed a) {
+Perturbed square(const Perturbed& a) {
   const auto squared = [&] {
     const Unseen parts;
     return is(Fault::square_missing) ? a : a * a;
   };
-  return Perturbed::met(Op::square, squared(), a);
+  return Perturbed::made(Op::square, squared, a);
 }
 namespace {
-Perturbed quotient(Perturbed a, Perturbed b) {
+Perturbed quotient(const Perturbed& a, const Perturbed& b) {
   if (is(Fault::reciprocal_division)) return finish(a.v * (1.0f / b.v), 0);
   if (is(Fault::division_by_estimate)) return finish(a.v * beside(1.0f / b.v, true), 0);
   const double exact_quotient = exact(a) / b.v;
@@ -172,17 +211,20 @@ Perturbed quotient(Perturbed a, Perturbed b) {
   return erring(a.v / b.v, exact_quotient, &Profile::division);
 }
 }  // namespace
-Perturbed operator/(Perturbed a, Perturbed b) { return Perturbed::met(Op::quotient, quotient(a, b), a, b); }
+Perturbed operator/(const Perturbed& a, const Perturbed& b) {
+  return Perturbed::made(
+      Op::quotient, [&] { return quotient(a, b); }, a, b);
+}
 Perturbed Perturbed::load_unorm(Unorm8 code) {
   // 0 and 1 are exact everywhere.
   if (code.code == 0 || code.code == 255) return of(scalar::to_float(code));
   return erring(scalar::to_float(code), code.code / 255.0, &Profile::unorm_load);
 }
-Perturbed inverse_sqrt(Perturbed a) {
+Perturbed inverse_sqrt(const Perturbed& a) {
   const double root = 1 / __builtin_sqrt(exact(a));
   return erring(static_cast<float>(root), root, &Profile::inverse_sqrt);
 }
-Perturbed sqrt(Perturbed a) {
+Perturbed sqrt(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::root_missing)) return a;
@@ -191,9 +233,9 @@ Perturbed sqrt(Perturbed a) {
     if (current.variations && current.variations->rules.sqrt_is_inherited) return Perturbed::of(1.0f) / inverse_sqrt(a);
     return erring(__builtin_sqrtf(a.v), __builtin_sqrt(exact(a)), &Profile::sqrt);
   };
-  return Perturbed::met(Op::root, result(), a);
+  return Perturbed::made(Op::root, result, a);
 }
-Perturbed floor(Perturbed a) {
+Perturbed floor(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     const Reference down = floor(reference(a));
@@ -201,47 +243,47 @@ Perturbed floor(Perturbed a) {
     if (is(Fault::rounded_floor)) return Perturbed::of(floor(Reference(a.v + 0.5f)).v);
     return Perturbed::of(down.v);
   };
-  return Perturbed::met(Op::floor, result(), a);
+  return Perturbed::made(Op::floor, result, a);
 }
-Perturbed fract(Perturbed a) {
+Perturbed fract(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     const Reference down = floor(reference(a));
     if (is(Fault::fract_by_truncation) && a.v < 0) return finish(a.v - (down.v == a.v ? down.v : down.v + 1), 0);
     return a - Perturbed::of(down.v);
   };
-  return Perturbed::met(Op::fract, result(), a);
+  return Perturbed::made(Op::fract, result, a);
 }
-Perturbed mix(Perturbed a, Perturbed b, Perturbed t) {
+Perturbed mix(const Perturbed& a, const Perturbed& b, const Perturbed& t) {
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::mix_swapped)) return b * (Perturbed::of(1.0f) - t) + a * t;
     if (is(Fault::mix_by_difference) || take(&Variations::mix_either)) return a + (b - a) * t;
     return a * (Perturbed::of(1.0f) - t) + b * t;
   };
-  return Perturbed::met(Op::mix, result(), a, b, t);
+  return Perturbed::made(Op::mix, result, a, b, t);
 }
 
-Perturbed exp(Perturbed a) {
+Perturbed exp(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::exp_base_two)) return finish(exp2(reference(a)).v, 0);
     return erring(exp(reference(a)).v, exp_real(Real64(exact(a))).v, &Profile::exp, exact(a));
   };
-  return Perturbed::met(Op::exponential, result(), a);
+  return Perturbed::made(Op::exponential, result, a);
 }
-Perturbed exp2(Perturbed a) {
+Perturbed exp2(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::exp2_base_e)) return finish(exp(reference(a)).v, 0);
     return erring(exp2(reference(a)).v, exp2_real(Real64(exact(a))).v, &Profile::exp2, exact(a));
   };
-  return Perturbed::met(Op::exponential2, result(), a);
+  return Perturbed::made(Op::exponential2, result, a);
 }
 namespace {
-bool near_one(Perturbed a) { return a.v >= 0.5f && a.v <= 2.0f; }
+bool near_one(const Perturbed& a) { return a.v >= 0.5f && a.v <= 2.0f; }
 /// Of variations only: a GPU's pow may be made of it.
-Perturbed log2(Perturbed a) {
+Perturbed log2(const Perturbed& a) {
   const double y = coefficients::log2_e * log_real(Real64(exact(a))).v;
   return erring(static_cast<float>(y), y, near_one(a) ? &Profile::log2_near_one : &Profile::log2);
 }
@@ -260,14 +302,14 @@ Perturbed wave(float nearest, double exact, double x) {
   return finish(within(r, exact, bound, a) ? r : nearest, 0);
 }
 }  // namespace
-Perturbed log(Perturbed a) {
+Perturbed log(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
   };
-  return Perturbed::met(Op::logarithm, result(), a);
+  return Perturbed::made(Op::logarithm, result, a);
 }
-Perturbed pow(Perturbed a, Perturbed b) {
+Perturbed pow(const Perturbed& a, const Perturbed& b) {
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::pow_squared)) return a * a;
@@ -275,25 +317,26 @@ Perturbed pow(Perturbed a, Perturbed b) {
     const float nearest = pow(reference(a), reference(b)).v;
     return a.v > 0 ? erring(nearest, pow_real(Real64(exact(a)), Real64(exact(b))).v, &Profile::pow) : finish(nearest, 0);
   };
-  return Perturbed::met(Op::power, result(), a, b);
+  return Perturbed::made(Op::power, result, a, b);
 }
-Perturbed sin(Perturbed a) {
+Perturbed sin(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
     return wave(sin(Reference(static_cast<float>(x))).v, sin_real(Real64(x)).v, x);
   };
-  return Perturbed::met(Op::sine, result(), a);
+  return Perturbed::made(Op::sine, result, a);
 }
-Perturbed cos(Perturbed a) {
+Perturbed cos(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
     return wave(cos(Reference(static_cast<float>(x))).v, cos_real(Real64(x)).v, x);
   };
-  return Perturbed::met(Op::cosine, result(), a);
+  return Perturbed::made(Op::cosine, result, a);
 }
-Perturbed atan2(Perturbed y, Perturbed x) {
+Perturbed atan2(const Perturbed& given_y, const Perturbed& x) {
+  Perturbed y = given_y;
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::atan2_swapped)) return finish(atan2(reference(x), reference(y)).v, 0);
@@ -303,7 +346,7 @@ Perturbed atan2(Perturbed y, Perturbed x) {
     if (current.variations && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
     return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
   };
-  return Perturbed::met(Op::angle, result(), y, x);
+  return Perturbed::made(Op::angle, result, y, x);
 }
 
 namespace {
@@ -317,19 +360,19 @@ Perturbed shuffled_sum(std::array<Perturbed, Count> terms) {
   return sum;
 }
 }  // namespace
-Perturbed sum_any_order(Perturbed a, Perturbed b, Perturbed c) {
+Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c) {
   if (is(Fault::sum_backwards)) return (c + b) + a;
   if (is(Fault::sum_otherwise_paired)) return a + (b + c);
   if (take(&Variations::reorder)) return shuffled_sum<3>({a, b, c});
   return (a + b) + c;
 }
-Perturbed sum_any_order(Perturbed a, Perturbed b, Perturbed c, Perturbed d) {
+Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d) {
   if (is(Fault::sum_backwards)) return ((d + c) + b) + a;
   if (is(Fault::sum_otherwise_paired)) return (a + b) + (c + d);
   if (take(&Variations::reorder)) return shuffled_sum<4>({a, b, c, d});
   return ((a + b) + c) + d;
 }
-Perturbed sum_any_order_in_pairs(Perturbed a, Perturbed b, Perturbed c, Perturbed d) {
+Perturbed sum_any_order_in_pairs(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d) {
   if (is(Fault::sum_backwards)) return ((d + c) + b) + a;
   if (is(Fault::sum_otherwise_paired)) return (a + c) + (b + d);
   if (take(&Variations::reorder)) return shuffled_sum<4>({a, b, c, d});
@@ -351,17 +394,17 @@ class Counted {
 
 }  // namespace
 
-Perturbed clamp(Perturbed x, Perturbed low, Perturbed high, const char* file, int line) {
+Perturbed clamp(const Perturbed& x, const Perturbed& low, const Perturbed& high, const char* file, int line) {
   Perturbed::decided(file, line, DecisionKind::clamp, x.v < low.v ? 0 : x.v > high.v ? 2 : 1);
   const Counted parts;
   return scalar::clamp<Perturbed>(x, low, high);
 }
-Perturbed saturate(Perturbed x, const char* file, int line) {
+Perturbed saturate(const Perturbed& x, const char* file, int line) {
   Perturbed::decided(file, line, DecisionKind::clamp, x.v < 0 ? 0 : x.v > 1 ? 2 : 1);
   const Counted parts;
   return scalar::saturate<Perturbed>(x);
 }
-Perturbed smoothstep(float edge0, float edge1, Perturbed x, const char* file, int line) {
+Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const char* file, int line) {
   const float ramp = (x.v - edge0) / (edge1 - edge0);
   Perturbed::decided(file, line, DecisionKind::clamp, ramp < 0 ? 0 : ramp > 1 ? 2 : 1);
   const Counted counted;
@@ -376,7 +419,7 @@ Perturbed smoothstep(float edge0, float edge1, Perturbed x, const char* file, in
   };
   if (!current.follows()) return result();
   const Perturbed from(edge0), to(edge1);
-  return Perturbed::met(Op::smoothstep, result(), x, from, to);
+  return Perturbed::made(Op::smoothstep, result, x, from, to);
 }
 Perturbed uniform_quotient(float a, float b, Perturbed) { return current.variations ? Perturbed(a) / Perturbed(b) : Perturbed(a / b); }
 scalar::Vec3<Perturbed> normalize(const scalar::Vec3<Perturbed>& a) {
@@ -411,7 +454,7 @@ scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& given_v, const sc
   const auto part = [](const Perturbed& after, const Perturbed& before) { return Perturbed::met(Op::bent, after, after, before); };
   return {part(bent.x, v.x), part(bent.y, v.y), part(bent.z, v.z)};
 }
-Perturbed nearest_octave(Perturbed x) {
+Perturbed nearest_octave(const Perturbed& x) {
   const Perturbed level = scalar::nearest_octave<Perturbed>(x);
   if (is(Fault::level_above)) return level + Perturbed(1.0f);
   if (is(Fault::level_below)) return scalar::nearest_octave<Perturbed>(x * Perturbed(0.5f));

@@ -118,12 +118,14 @@ Behaviour& behaviour();
 /// Sets the behaviour for a scope.
 class Scope {
  public:
-  explicit Scope(const Behaviour& b) : saved_(behaviour()) { behaviour() = b; }
-  ~Scope() { behaviour() = saved_; }
+  explicit Scope(const Behaviour& b);
+  ~Scope();
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
  private:
+  static void set(const Behaviour& b);
+
   Behaviour saved_;
 };
 
@@ -174,57 +176,65 @@ class Perturbed {
   static Perturbed index(int first);
   static Int uniform_int(int value) { return {value}; }
 
-  friend Perturbed operator+(Perturbed a, Perturbed b);
-  friend Perturbed operator-(Perturbed a, Perturbed b);
-  friend Perturbed operator*(Perturbed a, Perturbed b);
-  friend Perturbed operator/(Perturbed a, Perturbed b);
-  friend Perturbed operator-(Perturbed a);
-  friend bool operator<(Perturbed a, Perturbed b);
-  friend bool operator<=(Perturbed a, Perturbed b);
-  friend bool operator>(Perturbed a, Perturbed b) { return b < a; }
-  friend bool operator>=(Perturbed a, Perturbed b) { return b <= a; }
+  friend Perturbed operator+(const Perturbed& a, const Perturbed& b);
+  friend Perturbed operator-(const Perturbed& a, const Perturbed& b);
+  friend Perturbed operator*(const Perturbed& a, const Perturbed& b);
+  friend Perturbed operator/(const Perturbed& a, const Perturbed& b);
+  friend Perturbed operator-(const Perturbed& a);
+  friend bool operator<(const Perturbed& a, const Perturbed& b);
+  friend bool operator<=(const Perturbed& a, const Perturbed& b);
+  friend bool operator>(const Perturbed& a, const Perturbed& b) { return b < a; }
+  friend bool operator>=(const Perturbed& a, const Perturbed& b) { return b <= a; }
   // The place of the call is that of a decision in the pass text.
-  friend Perturbed select(bool m, Perturbed a, Perturbed b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  friend Perturbed select(bool m, const Perturbed& a, const Perturbed& b, const char* file = __builtin_FILE(),
+                          int line = __builtin_LINE()) {
     decided(file, line, DecisionKind::choice, !m);
     return chosen(m, a, b);
   }
-  friend Perturbed min(Perturbed a, Perturbed b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  friend Perturbed min(const Perturbed& a, const Perturbed& b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
     decided(file, line, DecisionKind::minimum, b.v < a.v);
     return lesser(a, b);
   }
-  friend Perturbed max(Perturbed a, Perturbed b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  friend Perturbed max(const Perturbed& a, const Perturbed& b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
     decided(file, line, DecisionKind::maximum, a.v < b.v);
     return greater(a, b);
   }
-  friend Perturbed abs(Perturbed a);
-  friend Perturbed sqrt(Perturbed a);
-  friend Perturbed square(Perturbed a);
-  friend Perturbed floor(Perturbed a);
-  friend Perturbed fract(Perturbed a);
-  friend Perturbed mix(Perturbed a, Perturbed b, Perturbed t);
+  friend Perturbed abs(const Perturbed& a);
+  friend Perturbed sqrt(const Perturbed& a);
+  friend Perturbed square(const Perturbed& a);
+  friend Perturbed floor(const Perturbed& a);
+  friend Perturbed fract(const Perturbed& a);
+  friend Perturbed mix(const Perturbed& a, const Perturbed& b, const Perturbed& t);
   /// A number that a fault has made too large for an integer is cut.
-  friend Int to_int(Perturbed a) { return {a.v > -0x1p30f && a.v < 0x1p30f ? static_cast<std::int32_t>(a.v) : 0}; }
+  friend Int to_int(const Perturbed& a) { return {a.v > -0x1p30f && a.v < 0x1p30f ? static_cast<std::int32_t>(a.v) : 0}; }
   friend Perturbed to_number(Int a) { return of(static_cast<float>(a.i)); }
   friend Perturbed fetch(const float* texels, Int offset, Perturbed) {
     if (behaviour().coverage) behaviour().coverage->fetched(texels);
     return fetched(texels[offset.i]);
   }
 
-  friend Perturbed exp(Perturbed a);
-  friend Perturbed exp2(Perturbed a);
-  friend Perturbed log(Perturbed a);
-  friend Perturbed pow(Perturbed a, Perturbed b);
-  friend Perturbed sin(Perturbed a);
-  friend Perturbed cos(Perturbed a);
-  friend Perturbed atan2(Perturbed y, Perturbed x);
+  friend Perturbed exp(const Perturbed& a);
+  friend Perturbed exp2(const Perturbed& a);
+  friend Perturbed log(const Perturbed& a);
+  friend Perturbed pow(const Perturbed& a, const Perturbed& b);
+  friend Perturbed sin(const Perturbed& a);
+  friend Perturbed cos(const Perturbed& a);
+  friend Perturbed atan2(const Perturbed& y, const Perturbed& x);
 
   /// 1 / sqrt(a) in one instruction: passes do not name it, variations do.
-  friend Perturbed inverse_sqrt(Perturbed a);
+  friend Perturbed inverse_sqrt(const Perturbed& a);
 
   /// The result of an operation of the pass text: as it is, or as the mistake at this place has it.
   template <class... Operands>
   static Perturbed met(Op op, const Perturbed& result, const Operands&... of) {
     return behaviour().follows() ? follow(op, result, {&of...}) : result;
+  }
+  /// The same of what `result` makes: made where it is returned to, for a copy waits until all of it is written.
+  template <class Result, class... Operands>
+  static Perturbed made(Op op, const Result& result, const Operands&... of) {
+    Perturbed r = result();
+    if (behaviour().follows()) r = follow(op, r, {&of...});
+    return r;
   }
   static bool met(bool result, const Perturbed& a, const Perturbed& b) { return behaviour().follows() ? follow(result, a, b) : result; }
 
@@ -242,12 +252,12 @@ class Perturbed {
 
  private:
   static void count(const char* file, int line, DecisionKind kind, int side);
-  static Perturbed chosen(bool m, Perturbed a, Perturbed b);
-  static Perturbed lesser(Perturbed a, Perturbed b);
-  static Perturbed greater(Perturbed a, Perturbed b);
-  static Perturbed add(Perturbed a, Perturbed b);
+  static Perturbed chosen(bool m, const Perturbed& a, const Perturbed& b);
+  static Perturbed lesser(const Perturbed& a, const Perturbed& b);
+  static Perturbed greater(const Perturbed& a, const Perturbed& b);
+  static Perturbed add(const Perturbed& a, const Perturbed& b);
   static Perturbed load_unorm(Unorm8 code);
-  static Perturbed loaded(Perturbed texel);
+  static Perturbed loaded(const Perturbed& texel);
   static Perturbed fetched(float texel);
   void leaf(Op op, std::uint32_t shape);
   static Perturbed follow(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of);
@@ -264,12 +274,13 @@ class Perturbed {
 };
 
 // Found by argument before the vocabulary's templates.
-Perturbed sum_any_order(Perturbed a, Perturbed b, Perturbed c);
-Perturbed sum_any_order(Perturbed a, Perturbed b, Perturbed c, Perturbed d);
-Perturbed sum_any_order_in_pairs(Perturbed a, Perturbed b, Perturbed c, Perturbed d);
-Perturbed clamp(Perturbed x, Perturbed low, Perturbed high, const char* file = __builtin_FILE(), int line = __builtin_LINE());
-Perturbed saturate(Perturbed x, const char* file = __builtin_FILE(), int line = __builtin_LINE());
-Perturbed smoothstep(float edge0, float edge1, Perturbed x, const char* file = __builtin_FILE(), int line = __builtin_LINE());
+Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c);
+Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d);
+Perturbed sum_any_order_in_pairs(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d);
+Perturbed clamp(const Perturbed& x, const Perturbed& low, const Perturbed& high, const char* file = __builtin_FILE(),
+                int line = __builtin_LINE());
+Perturbed saturate(const Perturbed& x, const char* file = __builtin_FILE(), int line = __builtin_LINE());
+Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const char* file = __builtin_FILE(), int line = __builtin_LINE());
 inline scalar::Vec3<Perturbed> select(bool m, const scalar::Vec3<Perturbed>& a, const scalar::Vec3<Perturbed>& b,
                                       const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
   return {select(m, a.x, b.x, file, line), select(m, a.y, b.y, file, line), select(m, a.z, b.z, file, line)};
@@ -278,12 +289,12 @@ scalar::Vec3<Perturbed> normalize(const scalar::Vec3<Perturbed>& a);
 scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n);
 scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n, float eta,
                                 const char* file = __builtin_FILE(), int line = __builtin_LINE());
-Perturbed nearest_octave(Perturbed x);
+Perturbed nearest_octave(const Perturbed& x);
 template <class Again>
 Perturbed once(Perturbed, const Again& again) {
   return again();
 }
-inline Perturbed whole_place(Perturbed x) { return Perturbed::met(Op::coordinate, x, x); }
+inline Perturbed whole_place(const Perturbed& x) { return Perturbed::met(Op::coordinate, x, x); }
 Perturbed uniform_quotient(float a, float b, Perturbed);
 
 /// While a lookup between two levels is made whose weights are rounded together: the share of the level at hand.

@@ -16,12 +16,18 @@ thread_local int unseen = 0;
 thread_local Rewrites rewrites;
 
 /// Murmur3's finalizer (Appleby) over a running sum.
-std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
+constexpr std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
   h = (h * 31 + x) ^ 0x9e3779b9u;
   h = (h ^ h >> 16) * 0x85ebca6bu;
   h = (h ^ h >> 13) * 0xc2b2ae35u;
   return h ^ h >> 16;
 }
+/// What the hash of each operation begins with.
+constexpr auto beginnings = [] {
+  std::array<std::uint32_t, static_cast<std::size_t>(Op::stored) + 1> all{};
+  for (std::uint32_t op = 0; op < all.size(); ++op) all[op] = hashed(0, op + 1);
+  return all;
+}();
 
 }  // namespace
 
@@ -316,13 +322,15 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   Behaviour& b = behaviour();
   if (b.trace && b.trace->nodes.empty()) b.recent = 0;
   b.recent = b.recent << 6 | (static_cast<std::uint64_t>(op) + 1);
-  // depth[k] sees k operations below this one; the last of them the operations before it.
+  // depth[k] sees k operations below this one; the last of them the operations before it, where somebody looks at those.
   std::array<std::uint32_t, 5> depth;
-  depth.fill(hashed(0, static_cast<std::uint32_t>(op) + 1));
+  depth.fill(beginnings[static_cast<std::size_t>(op)]);
   for (const Perturbed* operand : of)
     for (std::size_t k = 1; k <= whole_depth; ++k) depth[k] = hashed(depth[k], operand->shape_[k - 1]);
   const std::uint32_t shape = depth[whole_depth];
-  depth[by_sequence] = hashed(static_cast<std::uint32_t>(b.recent), static_cast<std::uint32_t>(b.recent >> 32));
+  const auto looks_back = [](const Place& place) { return place.depth == by_sequence; };
+  if (b.trace || std::any_of(b.places.begin(), b.places.end(), looks_back))
+    depth[by_sequence] = hashed(static_cast<std::uint32_t>(b.recent), static_cast<std::uint32_t>(b.recent >> 32));
   for (Place& place : b.places) {
     if (place.fault == PlaceFault::none || place.shape != depth[static_cast<std::size_t>(place.depth)]) continue;
     const std::int32_t occurrence = place.seen++;

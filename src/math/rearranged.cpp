@@ -20,19 +20,22 @@ double gamma(double k, double u) { return k * u / (1 - k * u); }
 
 int lowest_bit(float x) {
   if (x == 0) return any_quantum;
-  int exponent;
-  const auto mantissa = static_cast<std::int32_t>(std::ldexp(std::frexp(x, &exponent), 24));
-  return exponent - 24 + std::countr_zero(static_cast<std::uint32_t>(mantissa));
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  const std::uint32_t exponent = bits >> 23 & 0xff, fraction = bits & 0x7fffff;
+  return exponent == 0 ? std::countr_zero(fraction) - 149 : static_cast<int>(exponent) - 150 + std::countr_zero(fraction | 0x800000);
 }
 
 /// The most that one operation errs by, relative to its result.
 double unit() { return profile().basic == BasicRounding::nearest ? 0x1p-24 : 0x1p-23; }
 
+/// 2^n, |n| at most 1022.
+double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52); }
+
 double largest(double a, double b) { return std::max(std::abs(a), std::abs(b)); }
 
 }  // namespace
 
-Rearranged::Rearranged(Enclosure leaf) {
+Rearranged::Rearranged(const Enclosure& leaf) {
   const Enclosure e = leaf.unrounded();
   if (e.is_vacuous()) {
     lo_ = -infinite;
@@ -48,7 +51,7 @@ Rearranged::Rearranged(Enclosure leaf) {
   quantum_ = e.is_point() ? lowest_bit(e.lo) : no_quantum;
 }
 
-bool Rearranged::is_on_grid() const { return quantum_ >= -126 && size_ <= std::ldexp(0x1p24, std::min(quantum_, 200)); }
+bool Rearranged::is_on_grid() const { return quantum_ >= -126 && size_ <= power_of_two(24 + std::min(quantum_, 200)); }
 
 double Rearranged::error() const {
   if (is_leaf_ || size_ == 0) return 0;
@@ -73,8 +76,8 @@ Enclosure Rearranged::not_below_zero() const {
 }
 
 bool Rearranged::is_power_of_two() const {
-  int exponent;
-  return is_leaf_ && lo_ == hi_ && std::abs(std::frexp(lo_, &exponent)) == 0.5;
+  // A leaf's ends are floats, normal numbers as doubles.
+  return is_leaf_ && lo_ == hi_ && lo_ != 0 && (std::bit_cast<std::uint64_t>(lo_) << 12) == 0;
 }
 Rearranged Rearranged::scaled(double power) const {
   Rearranged out = *this;

@@ -29,7 +29,7 @@ class Rearranged {
   /// A literal or a uniform.
   Rearranged(float x) : Rearranged(Enclosure(x)) {}
   /// A leaf: the algebra does not reach what it was computed from.
-  explicit Rearranged(Enclosure leaf);
+  explicit Rearranged(const Enclosure& leaf);
   static Rearranged vacuous() { return Rearranged(Enclosure::vacuous()); }
 
   bool is_vacuous() const { return !(size_ < __builtin_inf()); }

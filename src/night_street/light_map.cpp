@@ -1,25 +1,64 @@
+// The sums over sources are compiled once for each SIMD target: points of a grid's row in lanes of doubles, each with the operations of
+// one point by itself.
 #include "night_street/light_map.h"
 
-#include "night_street/city.h"
+#include <algorithm>
 
+#include "night_street/city.h"
+#include "night_street/light_row.h"
+
+#define RAINREF_KERNELS "night_street/light_map.cpp"
+#include "math/foreach_target.h"
+#include "math/lanes-inl.h"
+
+RAINREF_TARGET_BEGIN(night_street)
+
+/// What sources give the points of a row, divided by pi.
+void Receive(const Source* const* sources, std::size_t count, const LightRow& row, Vec* out) {
+  constexpr double one_over_pi = 0.31830988618379067;
+  const hn::ScalableTag<double> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  for (std::size_t first = 0; first < row.count; first += lanes) {
+    const auto a = hn::Add(hn::Set(d, row.first), hn::Mul(hn::Iota(d, static_cast<double>(first)), hn::Set(d, row.step)));
+    auto red = zero, green = zero, blue = zero;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Source& s = *sources[k];
+      const auto x = hn::Sub(hn::Set(d, s.position.x), row.is_ground ? a : hn::Set(d, row.x));
+      const auto y = hn::Sub(hn::Set(d, s.position.y), row.is_ground ? zero : a);
+      const auto z = hn::Sub(hn::Set(d, s.position.z), hn::Set(d, row.z));
+      const auto sum = [&](auto px, auto py, auto pz) HWY_ATTR { return hn::Add(hn::Add(hn::Mul(x, px), hn::Mul(y, py)), hn::Mul(z, pz)); };
+      const auto squared = hn::Add(sum(x, y, z), hn::Set(d, 0.05));  // a source that touches the surface stays finite
+      const auto distance = hn::Sqrt(squared);
+      const auto facing = hn::Div(row.is_ground ? y : row.x < 0 ? x : hn::Neg(x), distance);
+      const auto axis = sum(hn::Set(d, s.axis.x), hn::Set(d, s.axis.y), hn::Set(d, s.axis.z));
+      auto along = hn::Min(hn::Max(hn::Div(hn::Neg(axis), distance), zero), one);
+      for (int i = 0; i < s.focus; ++i) along = hn::Mul(along, along);
+      const auto gain = hn::Add(one, hn::Mul(hn::Set(d, s.gain), along));
+      const auto light = hn::Div(hn::Mul(hn::Mul(hn::Set(d, one_over_pi), facing), gain), squared);
+      const auto weight = hn::IfThenElseZero(hn::Gt(facing, zero), light);
+      red = hn::Add(red, hn::Mul(weight, hn::Set(d, s.intensity.x)));
+      green = hn::Add(green, hn::Mul(weight, hn::Set(d, s.intensity.y)));
+      blue = hn::Add(blue, hn::Mul(weight, hn::Set(d, s.intensity.z)));
+    }
+    double r[hn::MaxLanes(d)], g[hn::MaxLanes(d)], b[hn::MaxLanes(d)];
+    hn::StoreU(red, d, r);
+    hn::StoreU(green, d, g);
+    hn::StoreU(blue, d, b);
+    for (std::size_t i = 0; i < std::min(lanes, row.count - first); ++i) out[first + i] = {r[i], g[i], b[i]};
+  }
+}
+
+RAINREF_TARGET_END(night_street)
+
+#if RAINREF_ONCE
 namespace rainref::night_street {
+
+RAINREF_EXPORT(Receive);
 
 namespace {
 
-constexpr double one_over_pi = 0.31830988618379067;
 constexpr double reach = 45;  // metres along the street beyond which a source adds nothing visible
-
-/// What `source` gives a surface point with this unit normal, divided by pi.
-Vec received(const Source& source, const Vec& point, const Vec& normal) {
-  const Vec towards = source.position - point;
-  const double squared = dot(towards, towards) + 0.05;  // a source that touches the surface stays finite
-  const double distance = std::sqrt(squared);
-  const double facing = dot(towards, normal) / distance;
-  if (facing <= 0) return {};
-  double along = clamp01(-dot(towards, source.axis) / distance);
-  for (int i = 0; i < source.focus; ++i) along *= along;
-  return (one_over_pi * facing * (1 + source.gain * along) / squared) * source.intensity;
-}
 
 }  // namespace
 
@@ -32,31 +71,29 @@ Vec LightMap::Grid::at(double a, double z) const {
 }
 
 LightMap::LightMap(const std::vector<Source>& sources, const Rows& rows) {
-  const auto fill = [&](Grid& grid, auto point_of, const Vec& normal) {
+  const auto fill = [&](Grid& grid, LightRow row) {
     grid.cells.assign(static_cast<std::size_t>(grid.count_a) * grid.count_z, Vec{});
+    row.first = grid.first_a;
+    row.step = grid.step_a;
+    row.count = static_cast<std::size_t>(grid.count_a);
     rows(grid.count_z, [&](int begin, int end) {
+      LightRow one = row;
       std::vector<const Source*> near;
       for (int j = begin; j < end; ++j) {
-        const double z = grid.first_z + j * grid.step_z;
+        one.z = grid.first_z + j * grid.step_z;
         near.clear();
         for (const Source& source : sources) {
-          if (magnitude(source.position.z - z) < reach) near.push_back(&source);
+          if (magnitude(source.position.z - one.z) < reach) near.push_back(&source);
         }
-        for (int i = 0; i < grid.count_a; ++i) {
-          const Vec point = point_of(grid.first_a + i * grid.step_a, z);
-          Vec sum;
-          for (const Source* source : near) sum = sum + received(*source, point, normal);
-          grid.cells[static_cast<std::size_t>(j) * grid.count_a + i] = sum;
-        }
+        RAINREF_DISPATCH(Receive)(near.data(), near.size(), one, grid.cells.data() + static_cast<std::size_t>(j) * row.count);
       }
     });
   };
   ground_ = {-8, 0.5, -300, 0.75, 33, 801, {}};
-  fill(ground_, [](double a, double z) { return Vec{a, 0, z}; }, {0, 1, 0});
+  fill(ground_, {.is_ground = true});
   for (int side = 0; side < 2; ++side) {
-    const double x = side == 0 ? -plan::facade : plan::facade;
     facade_[side] = {0, 1, -300, 1, 36, 601, {}};
-    fill(facade_[side], [x](double a, double z) { return Vec{x, a, z}; }, {side == 0 ? 1.0 : -1.0, 0, 0});
+    fill(facade_[side], {.is_ground = false, .x = side == 0 ? -plan::facade : plan::facade});
   }
 }
 
@@ -64,3 +101,4 @@ Vec LightMap::ground(double x, double z) const { return ground_.at(x, z); }
 Vec LightMap::facade(int side, double y, double z) const { return facade_[side].at(y, z); }
 
 }  // namespace rainref::night_street
+#endif

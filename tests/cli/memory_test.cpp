@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"puddle_water", "puddle/default.toml", {sky, ground, "puddle.grid=[2048, 2048]", "run.size=[64, 64]"}},
         Case{"puddle_picture", "puddle/default.toml", {sky, ground, "puddle.grid=[64, 64]", "run.size=[1280, 1280]"}},
         Case{"puddle_exr", "puddle/default.toml", {sky, ground, "puddle.grid=[64, 64]", "run.size=[640, 640]", "run.supersample=1"}, "exr"},
-        Case{"puddle_street", "puddle/default.toml", {}},
+        Case{"puddle_street", "puddle/default.toml", {"run.size=[640, 360]"}},
         Case{"puddle_as_published", "puddle/as_published.toml", {sky, ground, "run.size=[1280, 1280]"}},
         Case{"edge_splash", "edge_splash/default.toml", {"run.size=[704, 704]"}, "none", 0.2},
         Case{"edge_splash_png", "edge_splash/default.toml", {"run.size=[512, 512]"}, "png", 0.1},

@@ -1,6 +1,7 @@
 // Ways through a formula that the small packs do not take: the same functions on packs of other settings.
 #include "cli/support.h"
 #include "documents/judged_written.h"
+#include "image_io/read.h"
 
 namespace rainref::documents {
 namespace {
@@ -22,27 +23,6 @@ std::string faces() {
   for (int y = 0; y < 24; ++y)
     for (int i = 0; i < 12; ++i) rows[static_cast<std::size_t>(y)] += static_cast<char>(30 + (37 * y + 23 * i) % 200);
   return image_io::png(4, 24, 8, 2, rows);
-}
-
-class PrintedBranches : public testing::TestWithParam<Branch> {};
-
-TEST_P(PrintedBranches, AreJudgedRight) {
-  const Branch& b = GetParam();
-  const TemporaryFolder folder;
-  put(folder / "faces.png", faces());
-  // One frame: a formula takes the same way in each.
-  std::vector<std::string> arguments{"pack", (small_packs / (b.pack + ".toml")).string(), "--at", "12", "-o", "pack"};
-  for (const std::string& setting : b.settings) arguments.insert(arguments.end(), {"--set", setting});
-  Circumstances c;
-  c.is_copy = true;
-  const Outcome packed = run_rainref(folder.path(), arguments, c);
-  ASSERT_EQ(packed.code, 0) << packed.err;
-  const Pack pack(folder / "pack");
-  // Under ieee alone: the reference's own bits pass under every profile.
-  expect_pass(judged(pack, without_mistake, "ieee"), pack.effect + "-" + pack.variant);
-  const PortJudgement wrong = judged(
-      pack, [&](const Written&) { return b.mistake; }, "vulkan", b.pass);
-  EXPECT_EQ(pass_of(wrong, b.pass).status, Status::fail) << b.pass << ": " << b.mistake;
 }
 
 const std::string ground = rainref::test::source_folder() + "/tests/packs/ground.png";
@@ -99,6 +79,49 @@ const std::vector<Branch> branches{
     {"Trails", "windshield-as-published", {"windshield.height_tau=0.3"}, "persist", "wrong constant"},
     {"Panes", "windshield-corrected", {"windshield.panes=1.7 0.6 0.9, 1.7 0.1 0.9, 1.6 0.6 1.6"}, "join_panes", "wrong constant"},
 };
+
+class PrintedBranches : public testing::TestWithParam<Branch> {
+ protected:
+  /// The packs of all branches that are asked for, in folders of their names: copies of a process that has read a picture need not load
+  /// OpenImageIO, and copies are made before the judge starts threads.
+  static void SetUpTestSuite() {
+    static_cast<void>(image_io::read(ground));
+    made = std::make_unique<TemporaryFolder>();
+    put(*made / "faces.png", faces());
+    const testing::TestSuite& suite = *testing::UnitTest::GetInstance()->current_test_suite();
+    for (int i = 0; i < suite.total_test_count(); ++i) {
+      const testing::TestInfo& test = *suite.GetTestInfo(i);
+      const std::string name = test.name();
+      for (const Branch& b : branches)
+        if (test.should_run() && name.ends_with("/" + b.name)) packed[b.name] = pack(b);
+    }
+  }
+  static void TearDownTestSuite() { made.reset(); }
+
+  static Outcome pack(const Branch& b) {
+    // One frame: a formula takes the same way in each.
+    std::vector<std::string> arguments{"pack", (small_packs / (b.pack + ".toml")).string(), "--at", "12", "-o", b.name};
+    for (const std::string& setting : b.settings) arguments.insert(arguments.end(), {"--set", setting});
+    Circumstances c;
+    c.is_copy = true;
+    return run_rainref(made->path(), arguments, c);
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> made;
+  static inline std::map<std::string, Outcome> packed;
+};
+
+TEST_P(PrintedBranches, AreJudgedRight) {
+  const Branch& b = GetParam();
+  const Outcome& o = packed.at(b.name);
+  ASSERT_EQ(o.code, 0) << o.err;
+  const Pack pack(*made / b.name);
+  // Under ieee alone: the reference's own bits pass under every profile.
+  expect_pass(judged(pack, without_mistake, "ieee"), pack.effect + "-" + pack.variant);
+  const PortJudgement wrong = judged(
+      pack, [&](const Written&) { return b.mistake; }, "vulkan", b.pass);
+  EXPECT_EQ(pass_of(wrong, b.pass).status, Status::fail) << b.pass << ": " << b.mistake;
+}
 
 INSTANTIATE_TEST_SUITE_P(Settings, PrintedBranches, testing::ValuesIn(branches), [](const auto& tested) { return tested.param.name; });
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/floating_point.h"
+#include "math/simd_target.h"
 #include "night_street/city.h"
 #include "night_street/compact_lights.h"
 #include "night_street/facade.h"
@@ -78,6 +79,41 @@ TEST(StreetLight, LightsAdd) {
     const double highlight = first_lights.highlight(point, view, {0, 1, 0}, 0.2).y + second_lights.highlight(point, view, {0, 1, 0}, 0.2).y;
     EXPECT_NEAR(both_lights.highlight(point, view, {0, 1, 0}, 0.2).y, highlight, 1e-6 * highlight);
   }
+}
+
+/// What the sources within 45 m along the street give a point of the ground or of a building line, divided by pi, in the order of
+/// operations that the map has.
+Vec sum_at(const std::vector<Source>& sources, const Vec& point, const Vec& normal) {
+  Vec sum;
+  for (const Source& s : sources) {
+    if (std::abs(s.position.z - point.z) >= 45) continue;
+    const Vec towards = s.position - point;
+    const double squared = dot(towards, towards) + 0.05, distance = std::sqrt(squared), facing = dot(towards, normal) / distance;
+    if (facing <= 0) continue;
+    double along = clamp01(-dot(towards, s.axis) / distance);
+    for (int i = 0; i < s.focus; ++i) along *= along;
+    sum = sum + (0.31830988618379067 * facing * (1 + s.gain * along) / squared) * s.intensity;
+  }
+  return sum;
+}
+TEST(StreetLight, EachTargetGivesTheBitsOfOnePointByItself) {
+  const FloatingPointGuard guard;
+  const City street(7, false);
+  const std::string before = selected_simd_target();
+  for (const std::string& target : simd_targets()) {
+    select_simd_target(target);
+    const LightMap map(street.sources);
+    // Nodes of the grids, each point of some rows.
+    for (const double z : {-300.0, -123.0, 0.0, 3.0, 252.0}) {
+      for (int i = 0; i < 32; ++i) {
+        const double x = -8 + i * 0.5, y = i;
+        ASSERT_EQ(map.ground(x, z), sum_at(street.sources, {x, 0, z}, {0, 1, 0})) << target << ' ' << x << ' ' << z;
+        ASSERT_EQ(map.facade(0, y, z), sum_at(street.sources, {-plan::facade, y, z}, {1, 0, 0})) << target << ' ' << y << ' ' << z;
+        ASSERT_EQ(map.facade(1, y, z), sum_at(street.sources, {plan::facade, y, z}, {-1, 0, 0})) << target << ' ' << y << ' ' << z;
+      }
+    }
+  }
+  select_simd_target(before);
 }
 
 TEST(StreetLight, IsTheSameFromAnyThreads) {
