@@ -60,6 +60,17 @@ def peers_table(result):
     return table(["row", "threads", "peer", "ours", "peer's", "ratio", "of the fastest", "goal"], lines)
 
 
+def scaling_table(result):
+    """The wave on 16 threads beside one; "" for a run on fewer."""
+    lines = []
+    for c in rows.scaling(result):
+        verdict = f"{frames.GOAL_SCALING} {'met' if c['ratio'] >= frames.GOAL_SCALING else '**not met**'}"
+        if verdict.endswith("**") and c["stream"] is not None:
+            verdict += f", {c['stream']:.0f} % of its stream"
+        lines.append([f"`{c['row']}`", str(c["threads"]), rate_text(c["one"], c["unit"]), rate_text(c["all"], c["unit"]), f"{c['ratio']:.2f}", verdict])
+    return table(["row", "threads", "one thread", "all", "ratio", "goal"], lines) if lines else ""
+
+
 def rows_table(result):
     lines = [[f"`{r['row']}`", str(r["threads"]), rate_text(r["rate"], r["unit"]), f"{r['median_ms']:.3g}", spread_text(r),
               f"{r['stream_percent']:.0f}" if "stream_percent" in r else "", r["hash"].replace(" ", "<br>")] for r in result["rows"]]
@@ -82,6 +93,8 @@ def markdown(result, pictures):
     if not result["rows"]:
         return "\n".join(out)
     out += ["Beside peers, in the same run; the ratio is of medians (Embree: the median of pairs, the update of the water for a frame on both sides):", "", peers_table(result)]
+    if waves := scaling_table(result):
+        out += ["The wave on many threads over one, of medians:", "", waves]
     for name in plots.PLOTS:
         out += [f"![{name}]({pictures}{name}.svg)", ""]
     out += ["Medians; ± is half the distance of the quartiles, in percent of the median:", "", rows_table(result)]

@@ -111,6 +111,19 @@ def comparisons(result):
     return found
 
 
+def scaling(result):
+    """Of the waves of 2048 and 4096 columns, for each row and 16 threads: {"row", "threads", "one", "all", "ratio", "stream"}; medians."""
+    ours = {(r["row"], r["threads"]): r for r in result["rows"]}
+    found = []
+    for (name, threads), row in ours.items():
+        one = ours.get((name, 1))
+        if threads != 16 or one is None or not name.startswith("wave_step/") or not {"2048", "4096"} & set(name.split("/")):
+            continue
+        found.append({"row": name, "threads": threads, "unit": row["unit"], "one": one["rate"], "all": row["rate"], "ratio": significant(row["rate"] / one["rate"]),
+                      "stream": row.get("stream_percent")})
+    return found
+
+
 def goal(peer):
     """How many times as fast as the peer the row is to be, or None."""
     name = peer["row"]

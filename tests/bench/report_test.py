@@ -186,6 +186,17 @@ class Documents(unittest.TestCase):
         self.assertEqual(text.count("99 % of its stream"), 1, text)
         self.assertIn("3.5 **not met**, 99 % of its stream", text)
 
+    def test_the_wave_on_sixteen_threads_is_beside_one(self):
+        def row(name, threads, rate):
+            return dict(rows.of_benchmark(ENTRY), row=name, unit="cell", threads=threads, rate=rate, stream_percent=75.2)
+        result = {"rows": [row("wave_step/corrected/rg32f/" + side, n, rate)
+                           for side, rates in (("1024", (1, 1, 1)), ("2048/steps:5", (10, 20, 120)), ("4096", (10, 20, 119.9))) for n, rate in zip((1, 2, 16), rates)]}
+        text = document.scaling_table(result)
+        self.assertIn("| `wave_step/corrected/rg32f/2048/steps:5` | 16 | 0.01 Gcell/s | 0.12 Gcell/s | 12.00 | 12 met |", text)
+        self.assertIn("| `wave_step/corrected/rg32f/4096` | 16 | 0.01 Gcell/s | 0.12 Gcell/s | 11.99 | 12 **not met**, 75 % of its stream |", text)
+        self.assertEqual(text.count("wave_step"), 2)
+        self.assertEqual(document.scaling_table({"rows": [r for r in result["rows"] if r["threads"] < 16]}), "")
+
     def test_a_busy_machine_and_a_skipped_peer_are_said(self):
         result = committed()
         result["idle"] = {"waited_s": 60, "others_percent": 40.0, "idle": False, "others_during_percent": 33.0}
