@@ -2,12 +2,10 @@
 
 #include <thread>
 
-#include <hwy/cache_control.h>
-
 namespace rainref::parallel {
 namespace {
 
-constexpr int pauses = 64;  // between two looks at the clock
+constexpr unsigned looks = 256;  // before others may have the processor for a moment
 
 }  // namespace
 
@@ -47,9 +45,8 @@ bool Team::run(std::int64_t count, const std::function<void(std::int64_t)>& body
   work(loop, 0);
   // Nothing is left to take; what is taken must be done before the loop's memory goes.
   state_.fetch_and(~open, std::memory_order_relaxed);
-  for (int k = 0; (state_.load(std::memory_order_acquire) & taking_part) != 0; ++k) {
-    hwy::Pause();
-    if (k % pauses == pauses - 1) std::this_thread::yield();
+  for (unsigned k = 0; (state_.load(std::memory_order_acquire) & taking_part) != 0; ++k) {
+    if (k % looks == looks - 1) std::this_thread::yield();
   }
   const std::exception_ptr error = loop.error;
   taken_.store(false, std::memory_order_release);
@@ -61,7 +58,7 @@ void Team::help(int place, std::chrono::nanoseconds patience) {
   using Clock = std::chrono::steady_clock;
   std::uint64_t seen = 0;  // the loop of which this thread has had its part
   Clock::time_point idle_since = Clock::now();
-  for (int k = 0; !stopped_.load(std::memory_order_relaxed); ++k) {
+  for (unsigned k = 0; !stopped_.load(std::memory_order_relaxed); ++k) {
     std::uint64_t state = state_.load(std::memory_order_relaxed);
     if ((state & open) != 0 && state / one_loop != seen) {
       if (!state_.compare_exchange_strong(state, state + 1, std::memory_order_acquire)) continue;
@@ -72,11 +69,10 @@ void Team::help(int place, std::chrono::nanoseconds patience) {
       k = 0;
       continue;
     }
-    if (k % pauses == 0) {
+    if (k % looks == 0) {
       if (Clock::now() - idle_since >= patience) return;
       std::this_thread::yield();
     }
-    hwy::Pause();
   }
 }
 

@@ -11,8 +11,10 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr int tile_rows = 32;  // of a step by itself
-constexpr int band_rows = 64;  // of steps together, unless threads would have nothing to do
+constexpr int tile_rows = 16;        // of a step by itself
+constexpr int band_rows = 64;        // of steps together: many, for rows between bands are read twice
+constexpr int least_band_rows = 16;  // unless threads would have nothing to do or wait for long
+constexpr int bands_of_thread = 8;
 constexpr int visit_rows = 8;  // that a band takes from one step to the next
 
 class Blocks {
@@ -23,8 +25,7 @@ class Blocks {
         steps_(static_cast<int>(jobs.size())),
         height_(jobs[0].newest->height()),
         wraps_(jobs[0].boundary == Boundary::periodic),
-        bands_(
-            std::min(std::max(height_ / band_rows, std::min(threads, height_ / visit_rows)), height_ / std::max(2 * reach_ * steps_, 1))) {}
+        bands_(bands_for(threads)) {}
 
   int bands() const { return bands_; }
   /// Bands and triangles must not meet: there are none where the wave is lower than one band.
@@ -50,6 +51,11 @@ class Blocks {
   }
 
  private:
+  int bands_for(int threads) const {
+    const int slopes = std::max(2 * reach_ * steps_, 1);  // rows that a band is narrower by
+    const int for_threads = std::min({bands_of_thread * threads, height_ / least_band_rows, std::max(threads, height_ / (2 * slopes))});
+    return std::min(std::max(height_ / band_rows, for_threads), height_ / slopes);
+  }
   /// The steps with no drops but those that reach into rows [y0, y1): visits look through all that they are given.
   class Steps {
    public:
