@@ -5,7 +5,7 @@
 namespace rainref::parallel {
 namespace {
 
-constexpr unsigned looks = 256;  // before others may have the processor for a moment
+constexpr unsigned looks = 4096;  // some microseconds, before others may have the processor for a moment
 
 }  // namespace
 
