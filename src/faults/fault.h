@@ -74,7 +74,6 @@ class FaultyPass {
 
  private:
   const Fault& fault_;
-  const capture::PassCase& case_;
   const capture::PassModel& model_;
   judge::HalfMode mode_;
   capture::PassCase altered_;
