@@ -13,6 +13,7 @@ import xml.etree.ElementTree as xml
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "bench/report"))
 import bounds  # noqa: E402
+import branches  # noqa: E402
 import document  # noqa: E402
 import frames  # noqa: E402
 import growth  # noqa: E402
@@ -338,6 +339,35 @@ class Bounds(unittest.TestCase):
         pressure = {"a": {"Port0": 0.5, "Port1": 0.5}, "b": {"Port0": 1.0}, "c": {"Port2": 1.0}}
         self.assertEqual(bounds.port_bound({"a": 2, "b": 4, "c": 3}, pressure), (4.0, ("Port0",)))
         self.assertEqual(bounds.port_bound({"a": 8, "b": 4, "c": 3}, pressure), (6.0, ("Port0", "Port1")))
+
+    def test_an_instruction_that_repeats_itself_is_one(self):
+        texts = {1: "mov %rax,%rcx", 2: "rep movsb %ds:(%rsi),%es:(%rdi)", 3: "jne 1"}
+        self.assertEqual(bounds.once_a_string([1, 2, 2, 2, 3, 1, 2, 3, 3], texts), [1, 2, 3, 1, 2, 3, 3])
+
+
+class Branches(unittest.TestCase):
+    TEXTS = {10: "cmp %rax,%rcx", 20: "jne    28", 30: "inc %rax", 40: "jmp    a"}
+    PLACES = {at: ("program", at) for at in TEXTS}
+
+    def calls(self, taken):
+        """A loop whose branch at 20 leaves the instruction at 30 out where it is taken."""
+        return [[at for t in taken for at in ((10, 20, 40) if t else (10, 20, 30, 40))]]
+
+    def test_outcomes_are_those_of_the_trace(self):
+        self.assertEqual([(at, taken) for _, at, taken in branches.outcomes(self.calls((1, 0, 0, 1))[0], self.TEXTS, self.PLACES)],
+                         [(20, True), (20, False), (20, False), (20, True)])
+
+    def test_a_pattern_is_foreseen_and_chance_is_not(self):
+        def share(taken):
+            calls = self.calls(taken)
+            return branches.wrong_branches(calls, self.TEXTS, self.PLACES)[0] / (len(taken) / 2)
+        self.assertEqual(share([0] * 2000), 0)
+        self.assertEqual(share([k % 7 == 0 for k in range(2000)]), 0)
+        chance, state = [], 1
+        for _ in range(4000):  # 31 bits of Lehmer's generator
+            state = state * 48271 % 0x7fffffff
+            chance.append(state >> 20 & 1)
+        self.assertAlmostEqual(share(chance), 0.5, delta=0.045)  # four standard deviations of 2000 throws
 
 
 if __name__ == "__main__":
