@@ -262,7 +262,7 @@ std::vector<Fault> faults_of(const capture::PackPass& pass, const PassCase& c, c
 
 FaultyPass::FaultyPass(const Fault& fault, const PassCase& c, Bind bind, const capture::PassModel& model, HalfMode mode,
                        const std::vector<Array>& finished)
-    : fault_(fault), model_(model), mode_(fault.stores.value_or(mode)), slots_(slots_of(c)) {
+    : fault_(fault), model_(model), mode_(mode), slots_(slots_of(c)) {
   if (fault.alter_outputs) {
     finished_ = finished;
     applies_ = fault.alter_outputs(c, finished_);

@@ -1,6 +1,5 @@
-// The threads that take part in loops one after another. A frame runs some dozens of loops of 10 to 100 microseconds: to wake
-// a thread for each, or to hand the pieces down a tree, takes as long as many of them. Here a thread that has done its part waits for the
-// next loop for a moment before it goes.
+// The threads that take part in loops one after another. A frame runs dozens of short loops, and to wake a thread takes time as
+// well. Here a thread that has done its part waits for the next loop for a moment before it goes.
 #pragma once
 
 #include <atomic>

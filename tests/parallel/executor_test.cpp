@@ -181,6 +181,27 @@ TEST(Executor, AnExceptionComesBackAndThePoolGoesOn) {
   }
 }
 
+TEST(Executor, LoopsInLoopsAndOfSeveralCallersAreWhole) {
+  for (const int threads : thread_counts) {
+    const Executor executor(threads);
+    const auto rows_of_columns = [&] {
+      std::vector<std::atomic<int>> visits(std::size_t{20} * 30);
+      executor.for_range(20, 1, [&](std::int64_t row, std::int64_t) {
+        executor.for_range(30, 4, [&](std::int64_t begin, std::int64_t end) {
+          for (std::int64_t i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(30 * row + i)];
+        });
+      });
+      for (const auto& v : visits) ASSERT_EQ(v, 1) << threads;
+    };
+    std::vector<std::thread> callers;
+    for (int k = 0; k < 3; ++k)
+      callers.emplace_back([&] {
+        for (int round = 0; round < 20; ++round) rows_of_columns();
+      });
+    for (std::thread& caller : callers) caller.join();
+  }
+}
+
 TEST(Executor, SeveralPoolsLiveSideBySide) {
   const Executor one(1), two(2), eight(8);
   std::atomic<int> visits = 0;
