@@ -16,13 +16,14 @@
 #include "goes.h"
 #include "stream.h"
 #include "thread_counts.h"
+#include "widen.h"
 
 namespace rainref::compositor {
 namespace {
 
 constexpr int width = 1920, height = 1080;
 constexpr std::int64_t chunk_packets = 128;  // a task, of ours and of theirs
-constexpr std::int64_t block_packets = 16;   // what ours widens at a time, and then traces: it stays in the nearest cache
+constexpr std::int64_t block_packets = 4;    // what ours widens at a time, and then traces: it stays in the nearest cache
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
@@ -94,21 +95,14 @@ void compare(benchmark::State& state, const std::string& set, int threads, bool 
   };
   const auto trace = [&] {
     by_blocks([&](std::span<const test::NativePacket> from, std::span<Hit> hits) {
-      thread_local std::vector<double> origin[3], direction[3], nearest(block, 0.0),
-          farthest(block, std::numeric_limits<double>::infinity());
-      for (int k = 0; k < 3; ++k) origin[k].resize(block), direction[k].resize(block);
+      alignas(64) double rays[8][block];
+      std::fill_n(rays[6], block, 0.0);
+      std::fill_n(rays[7], block, std::numeric_limits<double>::infinity());
       for (std::size_t p = 0; p < from.size(); ++p) {
         from[p].ask_for_a_later_one();
-        for (int k = 0; k < 3; ++k) {
-          std::copy_n(from[p].origin[k], 16, &origin[k][p * 16]);
-          std::copy_n(from[p].direction[k], 16, &direction[k][p * 16]);
-        }
+        bench::widen_packet(from[p].origin, from[p].direction, &rays[0][p * 16], block);
       }
-      r.tracer.first_hits(RayArrays{{origin[0].data(), origin[1].data(), origin[2].data()},
-                                    {direction[0].data(), direction[1].data(), direction[2].data()},
-                                    nearest.data(),
-                                    farthest.data()},
-                          hits);
+      r.tracer.first_hits(RayArrays{{rays[0], rays[1], rays[2]}, {rays[3], rays[4], rays[5]}, rays[6], rays[7]}, hits);
     });
   };
   const auto trace_records = [&] {

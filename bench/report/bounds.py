@@ -34,9 +34,9 @@ ROWS = (
     ("rain_on_glass/corrected/pane/1080p", r"rainy_glass::\w+::RainOnGlassPassRows\(", (67, 200), 7680),
     ("screen_drops.drops/as-published/1080p", r"rows_of<.*PublishedDropsPass,", (135,), 7680),
     ("screen_drops.drops/corrected/still/1080p", r"screen_drops::\w+::DropsPassRows\(", (33, 101, 169, 237), 7680),
-    ("rays/camera/1920x1080", FIRST_HITS, (1700, 4500, 7300), 256),
-    ("rays/grazing/1920x1080", FIRST_HITS, (3600, 5300, 7000), 256),
-    ("rays/reflection/1920x1080", FIRST_HITS, (1000, 3000, 5000), 256),
+    ("rays/camera/1920x1080", FIRST_HITS, (6800, 18000, 29200), 64),
+    ("rays/grazing/1920x1080", FIRST_HITS, (14400, 21200, 28000), 64),
+    ("rays/reflection/1920x1080", FIRST_HITS, (4000, 12000, 20000), 64),
 )
 TARGETS = (("avx512f", "AVX3", 16, "icelake-server"), ("avx2", "AVX2", 8, "haswell"))
 TRACEME, PEEKTEXT, PEEKUSER, POKETEXT, POKEUSER, CONT, SINGLESTEP = 0, 1, 3, 4, 6, 7, 9

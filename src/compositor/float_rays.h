@@ -30,11 +30,6 @@ struct FloatPacket {
   std::uint32_t enters;  ///< slots whose rays do not pass the whole scene by; the others end before they begin
 };
 
-/// Component by component, what lies ray by ray; 1 <= count <= slots.
-void spread_rays(const Ray* rays, int count, PacketRoom& out);
-/// Makes the hits of the packet none, and gives its first `count` rays in floats.
-void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPacket& out);
-
 /// The lanes that Embree hands to a callback: all of a packet, or a piece of it.
 struct EmbreeLanes {
   const int* valid;  ///< -1 or 0
@@ -42,11 +37,24 @@ struct EmbreeLanes {
   float* end;  ///< Embree's farthest
   int count;   ///< 1, 4, 8 or 16
 };
-/// The slots of the valid lanes, a bit for each.
-std::uint32_t slots_of(const EmbreeLanes& lanes);
-/// For lanes whose slots' first hits `changed`: what Embree may take for their ends by now, see float_farthest; or that they
-/// have ended, where any hit will do.
-void put_ends(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any, const EmbreeLanes& lanes);
+
+/// Kernels of the SIMD target that is chosen, found once for many packets.
+struct FloatRayKernels {
+  /// Component by component, what lies ray by ray; 1 <= count <= slots.
+  void (*spread)(const Ray* rays, int count, PacketRoom& out);
+  /// Makes the hits of the packet none, and gives its rays in floats; and the slots of those that floats hold near enough.
+  std::uint32_t (*round)(Packet& packet, const SceneExtent& extent, FloatPacket& out);
+  /// The slots of the valid lanes, a bit for each.
+  std::uint32_t (*slots_of)(const EmbreeLanes& lanes);
+  /// For lanes whose slots' first hits `changed`: what Embree may take for their ends by now, see float_farthest; or that they
+  /// have ended, where any hit will do.
+  void (*put_ends)(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any,
+                   const EmbreeLanes& lanes);
+};
+FloatRayKernels float_ray_kernels();
+
+/// Makes the hits of the packet none, and gives its first `count` rays in floats, whatever they are.
+void make_floats(const FloatRayKernels& kernels, int count, const SceneExtent& extent, Packet& packet, FloatPacket& out);
 
 inline constexpr double largest_float = 0x1.fffffep127;
 /// What Embree may take for the end of a ray that has a hit at parameter t': nothing that precedes or equals it is culled.

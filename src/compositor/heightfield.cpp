@@ -74,11 +74,14 @@ Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, i
   if (!(magnitude(volume) > 1e-9 * largest))
     throw Error(ExitCode::usage, "the edges and the axis of a heightfield must not lie in one plane");
   const Vec to_x = cross(v, n) / volume, to_y = cross(n, u) / volume, to_h = cross(u, v) / volume;
-  heights_.assign(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1), 0.0f);
   first_cell_ = static_cast<std::size_t>(cells_ahead - 1) * static_cast<std::size_t>(columns + 2);
-  highest_.assign(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows) + 2 * first_cell_, 0.0f);
+  const auto across = static_cast<std::size_t>(columns + 1), down = static_cast<std::size_t>(rows);
+  const std::size_t vertices = across * (down + 1), pairs = 2 * across * down, cells = across * down + 2 * first_cell_;
+  memory_.resize(vertices + pairs + cells);
+  heights_ = std::span(memory_).first(vertices);
+  pairs_ = std::span(memory_).subspan(vertices, pairs);
+  highest_ = std::span(memory_).last(cells);
   cell_height_ = std::max(glm::length(u), glm::length(v)) / glm::length(n);
-  pairs_.assign(2 * static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows), 0.0f);
   blocks_across_ = pieces_of(columns, block_cells);
   blocks_down_ = pieces_of(rows, block_cells);
   blocks_.assign(static_cast<std::size_t>(blocks_across_) * static_cast<std::size_t>(blocks_down_), 0.0f);

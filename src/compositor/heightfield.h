@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/zeroed.h"
 #include "compositor/sheet_normals.h"
 #include "compositor/surface.h"
 #include "rainref/executor.h"
@@ -65,7 +66,9 @@ class Heightfield final : public Surface {
   double cell_height_;      ///< longer side of a cell, in units of the axis
   std::size_t first_cell_;  ///< of highest_, which has cells to spare on both sides
   int blocks_across_, blocks_down_;
-  std::vector<float> heights_, pairs_, highest_, blocks_, nearby_;  ///< as HeightfieldView has them; of each block alone its highest
+  zeroed::Array<float> memory_;  ///< of the next three: one block, so that a few large pages hold it, and not a small one each row
+  std::span<float> heights_, pairs_, highest_;  ///< as HeightfieldView has them
+  std::vector<float> blocks_, nearby_;          ///< of each block alone its highest; of the blocks around it
   std::vector<HeightfieldTile> tiles_;
   HeightfieldView view_;
   std::uint64_t revision_ = 0;

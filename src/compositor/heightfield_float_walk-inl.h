@@ -39,17 +39,28 @@ HWY_INLINE HWY_ATTR V times_plus(V a, V b, V c) { return hn::Add(hn::Mul(a, b), 
 HWY_INLINE HWY_ATTR V narrow(const Pair& a) {
   return hn::Combine(D(), hn::DemoteTo(NarrowTag(), a.upper.v), hn::DemoteTo(NarrowTag(), a.lower.v));
 }
+/// Of one that is not negative: -0 does not matter here.
+HWY_INLINE HWY_ATTR Pair floor_of(const Pair& a) { return {hn::Floor(a.lower.v), hn::Floor(a.upper.v)}; }
 HWY_INLINE HWY_ATTR V within_unit(V x) { return hn::Min(hn::Max(x, hn::Zero(D())), all(1)); }
 HWY_INLINE HWY_ATTR V without_zero(V x) { return hn::IfThenElse(hn::Lt(hn::Abs(x), all(1e-30f)), all(1e-30f), x); }
+/// Of a whole number of magnitude below 2^22.
+HWY_INLINE HWY_ATTR VI integer(V a) {
+  const V large = all(0x1.8p23f);  // after whose addition the last bit is worth 1
+  return hn::Sub(hn::BitCast(DI(), hn::Add(a, large)), hn::BitCast(DI(), large));
+}
 HWY_INLINE HWY_ATTR bool any(M mask) { return !hn::AllFalse(D(), mask); }
+static_assert(std::endian::native == std::endian::little);  // bits of masks
 HWY_INLINE HWY_ATTR M mask_of(std::uint32_t bits) {
-  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  std::uint8_t bytes[8] = {};
+  std::memcpy(bytes, &bits, sizeof bits);
   return hn::LoadMaskBits(D(), bytes);
 }
 HWY_INLINE HWY_ATTR std::uint32_t bits_of(M mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(D(), mask, bytes);
-  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+  std::uint16_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
 }
 
 /// What floats say of the lanes asked, a bit for each; of lanes in neither set nothing.
@@ -84,12 +95,12 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   const V slab_by_origin = hn::Mul(hn::Sub(hn::IfThenElse(falls, high, low), float_oh), ih);
   const Pair start = to_double(hn::Min(hn::Max(hn::Max(side_by_origin, slab_by_origin), narrow(r.nearest)), all(1e30f)));
   const Pair x = ox + start * r.dx, y = oy + start * r.dy;
-  const Pair cell_x = whole(maximum(Pair(0.0), minimum(Pair(tile.x1 - tile.x0 - 1), x)));
-  const Pair cell_y = whole(maximum(Pair(0.0), minimum(Pair(tile.y1 - tile.y0 - 1), y)));
+  const Pair cell_x = floor_of(maximum(Pair(0.0), minimum(Pair(tile.x1 - tile.x0 - 1), x)));
+  const Pair cell_y = floor_of(maximum(Pair(0.0), minimum(Pair(tile.y1 - tile.y0 - 1), y)));
   const V fx = narrow(cell_x), fy = narrow(cell_y);
   far_x = hn::Sub(far_x, fx), near_x = hn::Sub(near_x, fx), far_y = hn::Sub(far_y, fy), near_y = hn::Sub(near_y, fy);
   const V px = narrow(x - cell_x), py = narrow(y - cell_y), ph = narrow(oh + start * r.dh);
-  const V nearest = narrow(r.nearest - start), farthest = narrow(minimum(minimum(r.farthest, limit) - start, Pair(1e30)));
+  const V nearest = narrow(r.nearest - start), farthest = hn::Min(narrow(minimum(r.farthest, limit) - start), all(1e30f));
 
   // Of numbers that are too large, or none, floats say nothing; nor where the doubles' own roundings show.
   const M active = mask_of(lanes), nowhere = hn::AndNot(active, active);
@@ -128,7 +139,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
     const V block_at_y = hn::Add(hn::Add(times_plus(center, dy, py), fy), all(f.into_block_y));
     const V block_x = hn::Max(zero, hn::Min(hn::Mul(block_at_x, all(1.0f / block_cells)), all(f.last_block_x)));
     const V block_y = hn::Max(zero, hn::Min(hn::Mul(block_at_y, all(1.0f / block_cells)), all(f.last_block_y)));
-    const VI block = hn::Add(hn::Mul(hn::ConvertTo(di, block_y), hn::Set(di, field.blocks_across)), hn::ConvertTo(di, block_x));
+    const VI block = hn::Add(hn::Mul(integer(hn::Floor(block_y)), hn::Set(di, field.blocks_across)), integer(hn::Floor(block_x)));
     const V top = hn::GatherIndex(d, field.nearby + f.first_block, hn::IfThenElseZero(hn::RebindMask(di, leaps), block));
     const V down = hn::Mul(hn::Sub(hn::Add(hn::Sub(top, middle), all(f.doubt)), ph), ih);
     t = hn::IfThenElse(leaps, hn::Max(t, hn::Min(down, beyond)), t);
@@ -141,9 +152,10 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   const V i0 = hn::Floor(hn::Max(first_x, hn::Min(here_x, hn::Add(first_x, hn::Sub(columns, one)))));
   const V j0 = hn::Floor(hn::Max(first_y, hn::Min(here_y, hn::Add(first_y, hn::Sub(rows, one)))));
   V kx = hn::Add(i0, ahead_x), ky = hn::Add(j0, ahead_y);
-  VI at = hn::Add(hn::Add(hn::Mul(hn::ConvertTo(di, hn::Add(j0, fy)), stride), hn::ConvertTo(di, hn::Add(i0, fx))), hn::Set(di, f.first));
+  VI at = hn::Add(hn::Add(hn::Mul(integer(hn::Add(j0, fy)), stride), integer(hn::Add(i0, fx))), hn::Set(di, f.first));
   const V step_x = hn::IfThenElse(right, one, all(-1)), step_y = hn::IfThenElse(up, one, all(-1));
-  const VI move_x = hn::ConvertTo(di, step_x), move_y = hn::Mul(hn::ConvertTo(di, step_y), stride);
+  const VI move_x = hn::IfThenElse(hn::RebindMask(di, right), hn::Set(di, 1), hn::Set(di, -1));
+  const VI move_y = hn::IfThenElse(hn::RebindMask(di, up), stride, hn::Neg(stride));
   const V is = hn::Div(one, without_zero(hn::Add(dx, dy))), qs = hn::Neg(hn::Mul(hn::Add(px, py), is));
   const M to_upper = hn::Gt(is, zero);
 
@@ -151,7 +163,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   const V below = all(-0.0f);
   V side = hn::IfThenElse(falls, zero, below);
   V h00 = zero, h10 = zero, h01 = zero, h11 = zero;
-  M unsure = nowhere, walking = walks, waiting = nowhere, guessed = nowhere, upper = nowhere;
+  M unsure = nowhere, walking = walks, waiting = nowhere, guessed = nowhere, in_second = nowhere;
   const M asks = hn::And(walks, hn::And(hn::Le(slab_in, side_in), hn::Le(t, begin)));
   if (any(asks)) {
     corners(field.pairs, at, h00, h10, h01, h11);
@@ -187,16 +199,15 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
       const V along_diagonal = within_unit(hn::Sub(times_plus(diagonal, dx, px), i));
       const V diagonal_gap = hn::Xor(side, hn::Sub(times_plus(diagonal, dh, ph), times_plus(along_diagonal, hn::Sub(g10, g01), g01)));
       const M crosses = hn::And(hn::Lt(t, diagonal), hn::Lt(diagonal, exit)), is_clear_there = hn::Gt(diagonal_gap, doubt);
-      const M passes = hn::And(waiting, hn::AndNot(hn::AndNot(is_clear_there, crosses), hn::Gt(exit_gap, doubt)));
-      const M stops = hn::AndNot(passes, waiting), in_second = hn::Or(hn::And(crosses, is_clear_there), hn::Le(diagonal, t));
-      guessed = hn::Or(guessed, stops);
-      upper = hn::Or(upper, hn::AndNot(hn::Xor(in_second, to_upper), stops));
+      // Stays as it is when a ray has stopped, whose cell and time do, and whose corners are fetched again with those of the others.
+      in_second = hn::Or(hn::And(crosses, is_clear_there), hn::Le(diagonal, t));
+      const M passes = hn::AndNot(hn::AndNot(is_clear_there, crosses), hn::And(waiting, hn::Gt(exit_gap, doubt)));
+      guessed = hn::Or(guessed, hn::AndNot(passes, waiting));
       waiting = hn::And(passes, hn::Lt(exit, end));
-      const M moves_x = hn::And(waiting, hn::Le(tx, ty)), moves_y = hn::And(waiting, hn::Le(ty, tx));
-      kx = hn::IfThenElse(moves_x, hn::Add(kx, step_x), kx);
-      ky = hn::IfThenElse(moves_y, hn::Add(ky, step_y), ky);
-      at = hn::IfThenElse(hn::RebindMask(di, moves_x), hn::Add(at, move_x), at);
-      at = hn::IfThenElse(hn::RebindMask(di, moves_y), hn::Add(at, move_y), at);
+      kx = hn::IfThenElse(hn::And(waiting, on_x), hn::Add(kx, step_x), kx);
+      ky = hn::IfThenElse(hn::AndNot(on_x, waiting), hn::Add(ky, step_y), ky);
+      const VI move = hn::IfThenElse(hn::RebindMask(di, on_x), move_x, move_y);
+      at = hn::IfThenElse(hn::RebindMask(di, waiting), hn::Add(at, move), at);
       t = hn::IfThenElse(waiting, exit, t);
     }
     walking = hn::Or(walking, waiting);
@@ -205,20 +216,21 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
     // Every ray walks to a cell that it may hit; there it waits for the others. A ray runs a few cells ahead of the answer
     // whether it may go there, so that the fetches of several cells overlap.
     do {
-      V ahead_kx = kx, ahead_ky = ky, ahead_t = t;
+      V ahead_kx = kx, ahead_ky = ky, ahead_h = hn::Mul(t, dh);
       VI ahead_at = at;
       _Pragma("GCC unroll 4") for (int cell = 0; cell < cells_ahead; ++cell) {
         const V tx = times_plus(ahead_kx, ix, qx), ty = times_plus(ahead_ky, iy, qy), exit = hn::Min(tx, ty);
         const V top = hn::GatherIndex(d, field.highest, ahead_at);
-        const M is_clear = hn::Gt(times_plus(hn::IfThenElse(falls, exit, ahead_t), dh, lowered), hn::Sub(top, middle));
+        const V exit_h = hn::Mul(exit, dh);
+        const M is_clear = hn::Gt(hn::Add(hn::Min(ahead_h, exit_h), lowered), hn::Sub(top, middle));
         waiting = hn::Or(waiting, hn::AndNot(is_clear, walking));
         walking = hn::And(walking, hn::And(is_clear, hn::Lt(exit, end)));
-        const M moves_x = hn::Le(tx, ty), moves_y = hn::Le(ty, tx);
+        // Through a corner a ray goes by way of the cell beside it: one more to ask.
+        const M moves_x = hn::Lt(tx, ty);
         ahead_kx = hn::IfThenElse(moves_x, hn::Add(ahead_kx, step_x), ahead_kx);
-        ahead_ky = hn::IfThenElse(moves_y, hn::Add(ahead_ky, step_y), ahead_ky);
-        ahead_at = hn::IfThenElse(hn::RebindMask(di, moves_x), hn::Add(ahead_at, move_x), ahead_at);
-        ahead_at = hn::IfThenElse(hn::RebindMask(di, moves_y), hn::Add(ahead_at, move_y), ahead_at);
-        ahead_t = exit;
+        ahead_ky = hn::IfThenElse(moves_x, ahead_ky, hn::Add(ahead_ky, step_y));
+        ahead_at = hn::Add(ahead_at, hn::IfThenElse(hn::RebindMask(di, moves_x), move_x, move_y));
+        ahead_h = exit_h;
         kx = hn::IfThenElse(walking, ahead_kx, kx);
         ky = hn::IfThenElse(walking, ahead_ky, ky);
         at = hn::IfThenElse(hn::RebindMask(di, walking), ahead_at, at);
@@ -230,7 +242,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   // A ray that was stopped stays in its cell, whose corners were fetched with those of the rays that went on.
   out.missed |= bits_of(hn::AndNot(hn::Or(guessed, unsure), walks));
   out.guessed = bits_of(guessed);
-  out.upper = bits_of(upper);
+  out.upper = bits_of(hn::AndNot(hn::Xor(in_second, to_upper), guessed));
   out.i = hn::Add(hn::Sub(kx, ahead_x), fx);
   out.j = hn::Add(hn::Sub(ky, ahead_y), fy);
   out.h00 = h00, out.h10 = h10, out.h01 = h01, out.h11 = h11;

@@ -52,50 +52,52 @@ void SpreadRays(const Ray* rays, int count, PacketRoom& out) {
   }
 }
 
-/// Makes the hits none; gives the slots of rays that floats hold near enough.
 std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket& out) {
   const R::D d;
+  const NarrowTag narrow;
   const R zero(0.0), slack(extent.slack()), largest(largest_float);
-  const auto smaller = [](R a, R b) HWY_ATTR { return select(b < a, b, a); };
-  const auto larger = [](R a, R b) HWY_ATTR { return select(a < b, b, a); };
   std::uint32_t ordinary = 0;
   // Two hits to a vector of 64 bytes; a narrower one holds a part of the pattern.
   const Hit none[2];
   static_assert(sizeof none % sizeof(zero.v) == 0);
-  for (std::size_t i = 0; i < Packet::slots * sizeof(Hit); i += sizeof(zero.v)) {
+  _Pragma("GCC unroll 8") for (std::size_t i = 0; i < Packet::slots * sizeof(Hit); i += sizeof(zero.v)) {
     const auto part = hn::LoadU(d, reinterpret_cast<const double*>(reinterpret_cast<const char*>(none) + i % sizeof none));
     hn::StoreU(part, d, reinterpret_cast<double*>(reinterpret_cast<char*>(packet.first) + i));
   }
-  for (int slot = 0; slot < Packet::slots; slot += n) {
+  _Pragma("GCC unroll 2") for (int slot = 0; slot < Packet::slots; slot += n) {
     hn::StoreU(R(std::numeric_limits<double>::infinity()).v, d, packet.distance + slot);
-    const auto at = [&](const double* p) HWY_ATTR { return R(hn::LoadU(d, p + slot)); };
-    const auto put = [&](R x, float* p) HWY_ATTR { hn::StoreU(hn::DemoteTo(NarrowTag(), x.v), NarrowTag(), p + slot); };
-    R reach = zero, length = zero, sum = zero;  // sums keep a NaN
-    for (int k = 0; k < 3; ++k) {
-      const R o = at(packet.origin[k]), direction = at(packet.direction[k]);
-      reach = reach + abs(o);
-      length = larger(length, abs(direction));
-      sum = sum + abs(direction);
-      put(o, out.origin[k]);
-      put(direction, out.direction[k]);
+    const auto rounded = [&](const double* p) HWY_ATTR { return hn::DemoteTo(narrow, hn::LoadU(d, p + slot)); };
+    const auto put = [&](R x, float* p) HWY_ATTR { hn::StoreU(hn::DemoteTo(narrow, x.v), narrow, p + slot); };
+    // Of the rounded numbers, which may be wrong by a millionth: far less than what the margins have to spare. Sums keep a NaN.
+    auto reach = hn::Zero(narrow), length = reach, sum = reach;
+    _Pragma("GCC unroll 3") for (int k = 0; k < 3; ++k) {
+      const auto o = rounded(packet.origin[k]), direction = rounded(packet.direction[k]);
+      reach = hn::Add(reach, hn::Abs(o));
+      length = hn::Max(length, hn::Abs(direction));
+      sum = hn::Add(sum, hn::Abs(direction));
+      hn::StoreU(o, narrow, out.origin[k] + slot);
+      hn::StoreU(direction, narrow, out.direction[k] + slot);
     }
-    put(smaller(largest, larger(zero, at(packet.nearest) * R(0.9999) - slack)), out.nearest);
-    put(smaller(largest, at(packet.farthest) * R(1.0001) + slack), out.farthest);
-    const auto near = (reach <= R(extent.reach())).m, long_enough = (length >= R(0.5)).m, short_enough = (sum <= R(1024.0)).m;
+    put(minimum(largest, maximum(zero, load_slots(packet.nearest + slot) * R(0.9999) - slack)), out.nearest);
+    put(minimum(largest, load_slots(packet.farthest + slot) * R(1.0001) + slack), out.farthest);
+    const auto near = hn::Le(reach, hn::Set(narrow, static_cast<float>(extent.reach())));
+    const auto length_fits = hn::And(hn::Ge(length, hn::Set(narrow, 0.5f)), hn::Le(sum, hn::Set(narrow, 1024.0f)));
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::And(near, hn::And(long_enough, short_enough)), bits);
+    hn::StoreMaskBits(narrow, hn::And(near, length_fits), bits);
     ordinary |= static_cast<std::uint32_t>(bits[0]) << slot;
   }
   return ordinary;
 }
 
-using LaneSlots = hn::RebindToSigned<NarrowTag>;
+using LaneSlots = hn::RebindToSigned<FloatTag>;
+constexpr int lanes_at_once = static_cast<int>(hn::MaxLanes(LaneSlots()));
+static_assert(lanes_at_once <= Packet::slots);
 
-/// Whether the n lanes from i on are there and have neighbouring slots: Embree cuts packets up, and keeps the order.
+/// Whether that many lanes from i on are there and have neighbouring slots: Embree cuts packets up, and keeps the order.
 HWY_INLINE HWY_ATTR bool are_neighbours(const EmbreeLanes& lanes, int i) {
   const LaneSlots d;
-  return i + n <= lanes.count && hn::AllTrue(d, hn::Eq(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i)),
-                                                       hn::Iota(d, static_cast<std::int32_t>(lanes.slot[i]))));
+  return i + lanes_at_once <= lanes.count && hn::AllTrue(d, hn::Eq(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i)),
+                                                                   hn::Iota(d, static_cast<std::int32_t>(lanes.slot[i]))));
 }
 HWY_INLINE HWY_ATTR hn::Mask<LaneSlots> are_valid(const EmbreeLanes& lanes, int i) {
   return hn::Ne(hn::LoadU(LaneSlots(), lanes.valid + i), hn::Zero(LaneSlots()));
@@ -104,10 +106,10 @@ HWY_INLINE HWY_ATTR hn::Mask<LaneSlots> are_valid(const EmbreeLanes& lanes, int 
 std::uint32_t SlotsOf(const EmbreeLanes& lanes) {
   std::uint32_t slots = 0;
   int i = 0;
-  for (; are_neighbours(lanes, i); i += n) {
+  for (; are_neighbours(lanes, i); i += lanes_at_once) {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(LaneSlots(), are_valid(lanes, i), bits);
-    slots |= static_cast<std::uint32_t>(bits[0]) << lanes.slot[i];
+    slots |= (bits[0] | static_cast<std::uint32_t>(bits[1]) << 8) << lanes.slot[i];
   }
   for (; i < lanes.count; ++i) slots |= static_cast<std::uint32_t>(lanes.valid[i] & 1) << lanes.slot[i];
   return slots;
@@ -123,15 +125,17 @@ HWY_INLINE HWY_ATTR hn::Vec<NarrowTag> ends(const Packet& packet, const FloatPac
 }
 
 void PutEnds(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any, const EmbreeLanes& lanes) {
-  const NarrowTag d;
+  const FloatTag d;
+  const NarrowTag narrow;
   HWY_ALIGN float by_slot[Packet::slots];
-  for (int slot = 0; slot < Packet::slots; slot += n) {
-    hn::StoreU(any ? hn::Set(d, -std::numeric_limits<float>::infinity()) : ends(packet, floats, slack, slot), d, by_slot + slot);
+  _Pragma("GCC unroll 2") for (int slot = 0; slot < Packet::slots; slot += n) {
+    hn::StoreU(any ? hn::Set(narrow, -std::numeric_limits<float>::infinity()) : ends(packet, floats, slack, slot), narrow, by_slot + slot);
   }
   int i = 0;
-  for (; are_neighbours(lanes, i); i += n) {
+  for (; are_neighbours(lanes, i); i += lanes_at_once) {
     const unsigned slot = lanes.slot[i];
-    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(changed >> slot & ((1u << n) - 1))};
+    const std::uint32_t here = changed >> slot;
+    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(here), static_cast<std::uint8_t>(here >> 8)};
     const auto takes = hn::And(hn::LoadMaskBits(d, bits), hn::RebindMask(d, are_valid(lanes, i)));
     hn::StoreU(hn::IfThenElse(takes, hn::LoadU(d, by_slot + slot), hn::LoadU(d, lanes.end + i)), d, lanes.end + i);
   }
@@ -140,26 +144,21 @@ void PutEnds(const Packet& packet, const FloatPacket& floats, double slack, std:
   }
 }
 
+FloatRayKernels Kernels() { return {SpreadRays, RoundPacket, SlotsOf, PutEnds}; }
+
 RAINREF_TARGET_END(compositor)
 
 #if RAINREF_ONCE
 namespace rainref::compositor {
 
-RAINREF_EXPORT(SpreadRays);
-RAINREF_EXPORT(RoundPacket);
-RAINREF_EXPORT(SlotsOf);
-RAINREF_EXPORT(PutEnds);
+RAINREF_EXPORT(Kernels);
 
-void spread_rays(const Ray* rays, int count, PacketRoom& out) { RAINREF_DISPATCH(SpreadRays)(rays, count, out); }
-std::uint32_t slots_of(const EmbreeLanes& lanes) { return RAINREF_DISPATCH(SlotsOf)(lanes); }
-void put_ends(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any, const EmbreeLanes& lanes) {
-  RAINREF_DISPATCH(PutEnds)(packet, floats, slack, changed, any, lanes);
-}
+FloatRayKernels float_ray_kernels() { return RAINREF_DISPATCH(Kernels)(); }
 
-void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
+void make_floats(const FloatRayKernels& kernels, int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
   out.enters = (1u << count) - 1;
   out.moved = false;
-  for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out),
+  for_each_lane(out.enters & ~kernels.round(packet, extent, out),
                 [&](std::uint32_t slot) { put_extraordinary_ray(packet.ray(slot), extent, static_cast<int>(slot), out); });
   // Where Embree cuts a packet up, it takes no notice of which rays are valid, and leaves out those that end before they begin.
   for_each_lane(~out.enters & ((1u << Packet::slots) - 1),

@@ -1,5 +1,7 @@
 // The walk through a heightfield for several rays side by side; compiled once for each SIMD target.
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "compositor/heightfield_view.h"
 
@@ -38,9 +40,9 @@ using FloatLanes = hn::Vec<FloatTag>;
 
 /// Four floats from 2 at[0], four from 2 at[4] and so on.
 template <class D>
-HWY_INLINE HWY_ATTR hn::Vec<D> every_fourth(D d, const float* p, const std::int32_t* at) {
+HWY_INLINE HWY_ATTR hn::Vec<D> every_fourth(D d, const float* p, const std::uint32_t* at) {
   if constexpr (hn::MaxLanes(D()) == 4) {
-    return hn::LoadU(d, p + 2 * static_cast<std::ptrdiff_t>(at[0]));
+    return hn::LoadU(d, p + 2 * static_cast<std::size_t>(at[0]));
   } else {
     const hn::Half<D> half;
     return hn::Combine(d, every_fourth(half, p, at + hn::MaxLanes(half)), every_fourth(half, p, at));
@@ -50,9 +52,9 @@ HWY_INLINE HWY_ATTR hn::Vec<D> every_fourth(D d, const float* p, const std::int3
 HWY_INLINE HWY_ATTR void corners(const float* pairs, hn::Vec<hn::RebindToSigned<FloatTag> > index, FloatLanes& h00, FloatLanes& h10,
                                  FloatLanes& h01, FloatLanes& h11) {
   const FloatTag d;
-  const hn::RebindToSigned<FloatTag> di;
-  HWY_ALIGN std::int32_t at[hn::MaxLanes(d)];
-  hn::Store(index, di, at);
+  const hn::RebindToUnsigned<FloatTag> du;
+  HWY_ALIGN std::uint32_t at[hn::MaxLanes(d)];
+  hn::Store(hn::BitCast(du, index), du, at);
   const auto r0 = every_fourth(d, pairs, at), r1 = every_fourth(d, pairs, at + 1), r2 = every_fourth(d, pairs, at + 2),
              r3 = every_fourth(d, pairs, at + 3);
   const hn::RepartitionToWide<FloatTag> w;

@@ -31,6 +31,7 @@ struct Entry {
 };
 
 struct PacketQuery : embree::Query {
+  FloatRayKernels kernels = float_ray_kernels();
   Packet packet;
   FloatPacket floats;
   double slack = 0;
@@ -46,8 +47,9 @@ void ask_surface(const Arguments* a, RTCRayN* rays, bool any) {
   const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
   PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
   const EmbreeLanes lanes{a->valid, &RTCRayN_id(rays, a->N, 0), &RTCRayN_tfar(rays, a->N, 0), static_cast<int>(a->N)};
-  const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, slots_of(lanes) & query.floats.enters, query.packet);
-  if (changed != 0) put_ends(query.packet, query.floats, query.slack, changed, any, lanes);
+  const std::uint32_t changed =
+      entry.surface->meet_packet(entry.number, a->primID, query.kernels.slots_of(lanes) & query.floats.enters, query.packet);
+  if (changed != 0) query.kernels.put_ends(query.packet, query.floats, query.slack, changed, any, lanes);
 }
 void find_first(const RTCIntersectFunctionNArguments* a) { ask_surface(a, RTCRayHitN_RayN(a->rayhit, a->N), false); }
 void find_any(const RTCOccludedFunctionNArguments* a) { ask_surface(a, a->ray, true); }
@@ -69,15 +71,17 @@ void lend(const Arrays& arrays, FloatPacket& floats) {
   floats.farthest = arrays[7];
 }
 
-/// What is the same for all packets; Embree writes none of it, because the surfaces keep the hits.
+/// What is the same for all packets; Embree writes none of it, because the surfaces keep the hits, nor reads what is left.
 template <int width>
 void prepare(embree::RayHit<width>& rays) {
-  std::memset(&rays, 0, sizeof rays);
   if constexpr (width == 1) {
+    std::memset(&rays, 0, sizeof rays);
     rays.ray.mask = ~0u;
     rays.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   } else {
     for (unsigned i = 0; i < width; ++i) {
+      rays.ray.time[i] = 0;
+      rays.ray.flags[i] = 0;
       rays.ray.mask[i] = ~0u;
       rays.ray.id[i] = i;
       rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
@@ -100,44 +104,50 @@ void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, con
     lend(to, query.floats);
   else
     lend({room[0], room[1], room[2], room[3], room[4], room[5], room[6], room[7]}, query.floats);
-  Hit spare[Packet::slots];
   alignas(64) int valid[width];
-  std::uint32_t traced = 0;  // the slots that `valid` names
-  std::fill(valid, valid + width, 0);
-  for (std::size_t begin = 0; begin < hits.size(); begin += width) {
-    const int count = static_cast<int>(std::min<std::size_t>(width, hits.size() - begin));
+  std::uint32_t traced = (1u << width) - 1;  // the slots that `valid` names
+  std::fill(valid, valid + width, -1);
+  const auto trace_packet = [&](std::size_t begin, int count, Hit* first) {
     Packet& packet = query.packet;
     take(begin, count, packet);
-    packet.first = count == Packet::slots ? hits.data() + begin : spare;
-    make_floats(count, extent, packet, query.floats);
-    if (query.floats.enters != 0) {
-      if constexpr (!is_whole) {
-        for (std::size_t c = 0; c < to.size(); ++c) std::copy_n(room[c], width, to[c]);
-      }
-      if (query.floats.enters != traced) {
-        traced = query.floats.enters;
-        for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(traced >> slot & 1);
-      }
-      ask(valid, query, rays);
+    packet.first = first;
+    make_floats(query.kernels, count, extent, packet, query.floats);
+    if (query.floats.enters == 0) return;
+    if constexpr (!is_whole) {
+      for (std::size_t c = 0; c < to.size(); ++c) std::copy_n(room[c], width, to[c]);
     }
-    if (packet.first == spare) std::copy_n(spare, count, hits.data() + begin);
+    if (query.floats.enters != traced) {
+      traced = query.floats.enters;
+      for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(traced >> slot & 1);
+    }
+    ask(valid, query, rays);
+  };
+  std::size_t begin = 0;
+  if constexpr (is_whole) {
+    for (; begin + width <= hits.size(); begin += width) trace_packet(begin, width, hits.data() + begin);
+  }
+  for (; begin < hits.size(); begin += width) {
+    const int count = static_cast<int>(std::min<std::size_t>(width, hits.size() - begin));
+    Hit spare[Packet::slots];
+    trace_packet(begin, count, spare);
+    std::copy_n(spare, count, hits.data() + begin);
   }
 }
 
 /// Of rays one after the other.
 auto spreading(std::span<const Ray> rays, PacketRoom& room) {
-  return [rays, &room](std::size_t begin, int count, Packet& packet) {
-    spread_rays(rays.data() + begin, count, room);
+  return [rays, &room, spread = float_ray_kernels().spread](std::size_t begin, int count, Packet& packet) {
+    spread(rays.data() + begin, count, room);
     room.lend_to(packet);
   };
 }
 /// Of rays in arrays: they lie there already, but for the last packet, which is filled up with its last ray.
 auto lending(const RayArrays& rays, PacketRoom& room) {
-  return [&rays, &room](std::size_t begin, int count, Packet& packet) {
-    const double* const from[8] = {rays.origin[0],    rays.origin[1],    rays.origin[2], rays.direction[0],
-                                   rays.direction[1], rays.direction[2], rays.nearest,   rays.farthest};
+  const std::array<const double*, 8> from{rays.origin[0],    rays.origin[1],    rays.origin[2], rays.direction[0],
+                                          rays.direction[1], rays.direction[2], rays.nearest,   rays.farthest};
+  return [from, &room](std::size_t begin, int count, Packet& packet) {
     if (count == Packet::slots) {
-      for (int k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         packet.origin[k] = from[k] + begin;
         packet.direction[k] = from[3 + k] + begin;
       }
@@ -145,7 +155,7 @@ auto lending(const RayArrays& rays, PacketRoom& room) {
       packet.farthest = from[7] + begin;
       return;
     }
-    for (int c = 0; c < 8; ++c) {
+    for (std::size_t c = 0; c < from.size(); ++c) {
       for (int slot = 0; slot < Packet::slots; ++slot)
         room.component[c][slot] = from[c][begin + static_cast<std::size_t>(std::min(slot, count - 1))];
     }
