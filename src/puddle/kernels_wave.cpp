@@ -23,34 +23,47 @@ void drops_in_rows(std::span<const Drop> drops, int y0, int y1, std::vector<Drop
   for (const Drop& d : drops)
     if (reaches_rows(d, y0, y1)) out.push_back(d);
 }
-void drops_in_columns(std::span<const Drop> drops, int x0, int x1, std::vector<Drop>& out) {
-  out.clear();
-  for (const Drop& d : drops)
-    if (d.x + d.radius >= static_cast<float>(x0) && d.x - d.radius <= static_cast<float>(x1)) out.push_back(d);
-}
-// Columns [x0, x1) from left to right: without(begin, end) where no drop of the row reaches, with(x, drops) for a vector where some may.
-// x0 and every begin are multiples of a vector's length.
-template <class Without, class With>
-HWY_INLINE HWY_ATTR void for_drops(std::span<const Drop> in_row, int x0, int x1, const Without& without, const With& with) {
+/// Those that reach into columns [x0, x1], in their order. Not std::views::filter, with which GCC makes a slower loop of step_block.
+class DropsInColumns {
+ public:
+  DropsInColumns(std::span<const Drop> drops, int x0, int x1) : drops_(drops), x0_(static_cast<float>(x0)), x1_(static_cast<float>(x1)) {}
+  class Iterator {
+   public:
+    Iterator(const DropsInColumns& range, const Drop* at) : range_(range), at_(at) { skip(); }
+    const Drop& operator*() const { return *at_; }
+    bool operator!=(const Drop* end) const { return at_ != end; }
+    Iterator& operator++() {
+      ++at_;
+      skip();
+      return *this;
+    }
+
+   private:
+    void skip() {
+      while (at_ != range_.end() && !(at_->x + at_->radius >= range_.x0_ && at_->x - at_->radius <= range_.x1_)) ++at_;
+    }
+    const DropsInColumns& range_;
+    const Drop* at_;
+  };
+  Iterator begin() const { return Iterator(*this, drops_.data()); }
+  const Drop* end() const { return drops_.data() + drops_.size(); }
+  bool empty() const { return drops_.empty(); }
+
+ private:
+  std::span<const Drop> drops_;
+  float x0_, x1_;
+};
+/// The first vector from column x on that a drop of the row may reach into; end if none does. x is a multiple of a vector's length.
+HWY_INLINE HWY_ATTR int next_vector(std::span<const Drop> in_row, int x, int end) {
   const int n = Lanes::size();
-  std::vector<Drop> near;
-  int done = x0;
-  while (done < x1) {
-    // The next vector that a drop reaches into.
-    int next = x1;
-    for (const Drop& d : in_row) {
-      if (d.x + d.radius < static_cast<float>(done)) continue;
-      const float first = d.x - d.radius - 1.0f;
-      if (first >= static_cast<float>(next)) continue;
-      next = first <= static_cast<float>(done) ? done : static_cast<int>(first) / n * n;
-    }
-    if (next > done) without(done, next);
-    if (next < x1) {
-      drops_in_columns(in_row, next, next + n, near);
-      with(next, std::span<const Drop>(near));
-    }
-    done = next + n;
+  int next = end;
+  for (const Drop& d : in_row) {
+    if (d.x + d.radius < static_cast<float>(x)) continue;
+    const float first = d.x - d.radius - 1.0f;
+    if (first >= static_cast<float>(next)) continue;
+    next = first <= static_cast<float>(x) ? x : static_cast<int>(first) / n * n;
   }
+  return next;
 }
 
 // ---- rows at a time --------------------------------------------------------------------------------------------------
@@ -75,22 +88,21 @@ template <int... Rows, class F>
 HWY_INLINE HWY_ATTR void for_each_row(std::integer_sequence<int, Rows...>, const F& f) {
   (f(std::integral_constant<int, Rows>()), ...);
 }
-// Whole vectors of columns [begin, end) that no drop reaches, of R rows from y on: each vector of the newest level is loaded once.
+// Whole vectors of columns [0, end) of R rows from y on, into which `drops` reach: each vector of the newest level is loaded once.
 // Returns the first column that is left. Neighbours are one texel away.
 template <int R, bool corrected, Edges edges, Rounding rounding, class Storage>
 HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storage*, R + 2> newest, std::array<Storage*, R> out,
-                                     std::array<const float*, R> shore, int begin, int end, int y) {
+                                     std::array<const float*, R> shore, std::span<const Drop> drops, int end, int y) {
   constexpr int n = Lanes::size();
   constexpr std::integer_sequence each = std::make_integer_sequence<int, R>();
   constexpr std::span<const Drop> none;
   if (edges != Edges::rim) u.rim_damping = 0.0f;
   Lanes before[R], here[R], after[R], next[R];
   for_each_row(each, [&](auto k) RAINREF_INLINED {
-    before[k] = Lanes::load(newest[k + 1] + begin - n);
-    here[k] = Lanes::load(newest[k + 1] + begin);
+    before[k] = Lanes::load(newest[k + 1] - n);
+    here[k] = Lanes::load(newest[k + 1]);
   });
-  int x = begin;
-  for (; x + n <= end; x += n) {
+  const auto vector_of_rows = [&](const auto& near, int x) RAINREF_INLINED {
     const Lanes below = Lanes::load(newest[0] + x), above = Lanes::load(newest[R + 1] + x);
     for_each_row(each, [&](auto k) RAINREF_INLINED { after[k] = Lanes::load(newest[k + 1] + x + n); });
     for_each_row(each, [&](auto k) RAINREF_INLINED {
@@ -105,9 +117,9 @@ HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storag
                                               0.0f,
                                               edges == Edges::none ? nullptr : shore[k]};
       if constexpr (corrected)
-        next[k] = wave_step_corrected<Lanes>(u, rows, none, x, y + k);
+        next[k] = wave_step_corrected<Lanes>(u, rows, near, x, y + k);
       else
-        next[k] = wave_step_as_published<Lanes>(u, rows, none, x, y + k);
+        next[k] = wave_step_as_published<Lanes>(u, rows, near, x, y + k);
     });
     for_each_row(each, [&](auto k) RAINREF_INLINED {
       // Nothing stored is -0, so that neither is a sum that begins with what is stored, or with 1/2.
@@ -115,8 +127,15 @@ HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storag
       before[k] = here[k];
       here[k] = after[k];
     });
+  };
+  int x = 0;
+  for (;;) {
+    const int stop = std::min(next_vector(drops, x, end), end / n * n);
+    for (; x < stop; x += n) vector_of_rows(none, x);
+    if (x + n > end) return x;
+    vector_of_rows(DropsInColumns(drops, x, x + n), x);
+    x += n;
   }
-  return x;
 }
 
 // ---- steps -----------------------------------------------------------------------------------------------------------
@@ -124,45 +143,38 @@ template <bool corrected, Edges edges, Rounding rounding, class Storage>
 class Rows {
  public:
   explicit Rows(const WaveJob& job) : job_(job), u_(job.uniforms) {}
-  // Vectors from x on up to end, the last one in part: any drops, any offset of the neighbours.
-  HWY_ATTR void single(std::span<const Drop> drops, int x, int end, int y) const {
-    constexpr int n = Lanes::size();
-    Storage* out = job_.previous->row<Storage>(y);
-    const WaveRows<const Storage*, Storage> rows = rows_around<Storage>(
-        u_, corrected, [&](int dy) HWY_ATTR { return newest(y + dy); }, out, shore(y));
-    for (; x < end; x += n) {
-      if constexpr (corrected)
-        store(out + x, wave_step_corrected<Lanes>(u_, rows, drops, x, y), rounding, std::min(n, end - x));
-      else
-        store(out + x, wave_step_as_published<Lanes>(u_, rows, drops, x, y), rounding, std::min(n, end - x));
-    }
-  }
-  // Columns that no drop reaches, of R rows; begin is a multiple of a vector's length.
+  // R rows from y on; drops: all that reach into them.
   template <int R>
-  HWY_ATTR void block(int begin, int end, int y) const {
+  HWY_ATTR void visit(std::span<const Drop> drops, int y) const {
+    const int width = job_.newest->width();
+    int x = 0;
     if (corrected || u_.step == 1.0f) {
       std::array<const Storage*, R + 2> rows;
       std::array<Storage*, R> out;
       std::array<const float*, R> shores;
       for (int k = 0; k < R + 2; ++k) rows[k] = newest(y + k - 1);
       for (int k = 0; k < R; ++k) out[k] = job_.previous->row<Storage>(y + k), shores[k] = shore(y + k);
-      begin = step_block<R, corrected, edges, rounding, Storage>(u_, rows, out, shores, begin, end, y);
+      x = step_block<R, corrected, edges, rounding, Storage>(u_, rows, out, shores, drops, width, y);
     }
-    if (begin == end) return;
-    for (int k = 0; k < R; ++k) single({}, begin, end, y + k);
-  }
-  // R rows from y on; drops: all that reach into them.
-  template <int R>
-  HWY_ATTR void visit(std::span<const Drop> drops, int y) const {
-    const int n = Lanes::size(), width = job_.newest->width();
-    for_drops(
-        drops, 0, width, [&](int begin, int end) HWY_ATTR { block<R>(begin, end, y); },
-        [&](int x, std::span<const Drop> near) HWY_ATTR {
-          for (int k = 0; k < R; ++k) single(near, x, std::min(x + n, width), y + k);
-        });
+    if (x == width) return;
+    for (int k = 0; k < R; ++k) single(drops, x, y + k);
   }
 
  private:
+  // Vectors from x on, the last one in part, with any offset of the neighbours.
+  HWY_ATTR void single(std::span<const Drop> drops, int x, int y) const {
+    const int n = Lanes::size(), width = job_.newest->width();
+    Storage* out = job_.previous->row<Storage>(y);
+    const WaveRows<const Storage*, Storage> rows = rows_around<Storage>(
+        u_, corrected, [&](int dy) HWY_ATTR { return newest(y + dy); }, out, shore(y));
+    for (; x < width; x += n) {
+      const DropsInColumns near(drops, x, x + n);
+      if constexpr (corrected)
+        store(out + x, wave_step_corrected<Lanes>(u_, rows, near, x, y), rounding, std::min(n, width - x));
+      else
+        store(out + x, wave_step_as_published<Lanes>(u_, rows, near, x, y), rounding, std::min(n, width - x));
+    }
+  }
   const Storage* newest(int y) const { return pass::row_at<Storage>(*job_.newest, *job_.rest_row, address_of(job_.boundary), y); }
   const float* shore(int y) const { return job_.shore ? job_.shore->row<float>(y) : nullptr; }
   const WaveJob& job_;
@@ -213,7 +225,7 @@ void StepRows(const WaveJob& job, const parallel::Tile& tile) {
 
 template <class Storage>
 HWY_ATTR void previous_rows(const WaveJob& job, const parallel::Tile& tile) {
-  const int width = job.newest->width();
+  const int n = Lanes::size(), width = job.newest->width();
   std::vector<Drop> in_tile, in_row;
   drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -221,11 +233,9 @@ HWY_ATTR void previous_rows(const WaveJob& job, const parallel::Tile& tile) {
     if (in_row.empty()) continue;
     Storage* row = job.newest->row<Storage>(y);
     const float* shore = job.shore ? job.shore->row<float>(y) : nullptr;
-    for_drops(
-        in_row, 0, width, [](int, int) {},
-        [&](int x, std::span<const Drop> drops) HWY_ATTR {
-          store(row + x, wave_previous_corrected<Lanes>(row, shore, drops, x, y), job.rounding, std::min(Lanes::size(), width - x));
-        });
+    for (int x = 0; (x = next_vector(in_row, x, width)) < width; x += n)
+      store(row + x, wave_previous_corrected<Lanes>(row, shore, DropsInColumns(in_row, x, x + n), x, y), job.rounding,
+            std::min(n, width - x));
     pass::fill_margins(row, width, address_of(job.boundary), *job.rest_row->row<Storage>(0));
   }
 }

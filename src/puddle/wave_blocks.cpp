@@ -12,7 +12,7 @@ namespace rainref::puddle {
 namespace {
 
 constexpr int tile_rows = 16;        // of a step by itself
-constexpr int band_rows = 64;        // of steps together: many, for rows between bands are read twice
+constexpr int band_rows = 256;       // of steps together: many, for rows between bands are read twice
 constexpr int least_band_rows = 16;  // unless threads would have nothing to do or wait for long
 constexpr int bands_of_thread = 8;
 constexpr int visit_rows = 8;  // that a band takes from one step to the next
