@@ -71,17 +71,23 @@ def measure(rainref, bench, out, counts, only, say):
     return found, skipped
 
 
+def gains_of_registers(result):
+    """By the number of threads, what a loop in registers gains over one, as text; {} for a run without it."""
+    times = {row["threads"]: row["median_ms"] for row in result.get("registers", [])}
+    return {n: f"{times[1] / t:.2f}" for n, t in times.items() if 1 in times}
+
+
 def markdown(result):
     """The tables of a run; "" where it has none (older files)."""
     parts, lines = [], []
     one = {row["scene"]: row["median_ms"] for row in result.get("frames", []) if row["threads"] == 1}
-    bound = {row["threads"]: row["median_ms"] for row in result.get("registers", [])}
+    registers = gains_of_registers(result)
     for row in result.get("frames", []):
         ratio = one[row["scene"]] / row["median_ms"]
         goal = "" if row["threads"] != 16 else f"{GOAL_SCALING} {'met' if ratio >= GOAL_SCALING else '**not met**'}"
         spread = 50 * (row["q3_ms"] - row["q1_ms"]) / row["median_ms"]
         lines.append([f"`{row['scene']}`", str(row["threads"]), f"{row['median_ms']:.3g}", f"{spread:.0f} %", f"{ratio:.2f}",
-                      f"{bound[1] / bound[row['threads']]:.2f}" if bound else "", goal, row["hash"]])
+                      registers.get(row["threads"], ""), goal, row["hash"]])
     if lines:
         parts.append(f"Frames of scenes without pictures, a mean of {FRAMES} but for the first and the last; beside them, in turns, what a loop in registers gains by the threads:\n\n" +
                      rows.table(["scene", "threads", "ms a frame", "±", "over one thread", "registers", "goal", "hash"], lines))

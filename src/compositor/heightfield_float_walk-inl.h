@@ -182,8 +182,8 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   const V lowered = hn::Sub(ph, doubt);
   bool fetched = any(waiting);  // which are all in the cells whose corners were fetched above
   for (;;) {
-    // Of a ray that passes a cell that it might have hit, the next one is asked too.
-    for (int cell = 0; cell < 2 && any(waiting); ++cell) {
+    // Of a ray that passes a cell that it might have hit, the next two are asked too.
+    for (int cell = 0; cell < 3 && any(waiting); ++cell) {
       if (!fetched) corners(field.pairs, at, h00, h10, h01, h11);
       fetched = false;
       const V tx = times_plus(kx, ix, qx), ty = times_plus(ky, iy, qy), exit = hn::Min(tx, ty);
