@@ -33,6 +33,8 @@ ROWS = (
     ("edge_splash.splash/corrected/1920x1080", r"rows_of<.*::SplashPass,", (67, 200), 0),
     ("composite/as-published/1920x1080", r"rows_of<.*CompositePass,.*false>", (135, 270, 405), 0),
     ("composite/corrected/1920x1080", r"rows_of<.*CompositePass,.*true>", (135, 270, 405), 0),
+    ("wave_step/corrected/rg16f/1024/steps:5", r"puddle::\w+::StepRows\(", (700, 708, 712, 720, 740, 748), 8192),  # visits of eight rows
+    ("wave_step/corrected/rg32f/1024/steps:5", r"puddle::\w+::StepRows\(", (700, 708, 712, 720, 740, 748), 8192),
     ("integrate/corrected/100000", r"drops::\w+::IntegrateRange\(", (3,), 2048),
     ("surface_hit/as-published/1280x720", r"paired_hit_rows<false, \(rainref::Address\)0>", (400, 900, 1400), 512),
     ("shade/as-published/1280x720", r"rows_of<.*ShadePass,.*false>", (400, 900, 1400), 512),
@@ -272,7 +274,7 @@ def rate_of(given, row):
                           "--benchmark_min_time=0.0000001", "--benchmark_format=json"],
                          capture_output=True, text=True, check=True, env={**os.environ, "RAINREF_BENCH_SECONDS": str(given.row_seconds)})
     found = json.loads(run.stdout)["benchmarks"][0]
-    return next(found[key] for key in ("Mpix/s", "Mdrop/s", "Mray/s") if key in found)
+    return next(found[key] * factor for key, factor in (("Mpix/s", 1), ("Mdrop/s", 1), ("Mray/s", 1), ("Gcell/s", 1000)) if key in found)
 
 
 def clock_ghz():
