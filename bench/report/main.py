@@ -10,6 +10,7 @@ import time
 import bounds
 import document
 import frames
+import gathers
 import growth
 import machine
 import peers
@@ -173,7 +174,8 @@ def main():
         if given.bounds:
             os.makedirs(given.out, exist_ok=True)
             clock = bounds.clock_ghz()
-            text = bounds.markdown(bounds.measure(given, clock, lambda row: bounds.rate_of(given, row), say), clock)
+            found = bounds.measure(given, clock, lambda row: bounds.rate_of(given, row), say)
+            text = bounds.markdown(found, clock) + ("\n" + gathers.sentence(clock, found[0]["lanes"]) if found else "")
             write(os.path.join(given.out, "bounds.md"), text)
             print(text)
             return 0

@@ -2,6 +2,7 @@
 import copy
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -16,6 +17,7 @@ import bounds  # noqa: E402
 import branches  # noqa: E402
 import document  # noqa: E402
 import frames  # noqa: E402
+import gathers  # noqa: E402
 import growth  # noqa: E402
 import peers  # noqa: E402
 import plots  # noqa: E402
@@ -345,6 +347,14 @@ class Bounds(unittest.TestCase):
     def test_an_instruction_that_repeats_itself_is_one(self):
         texts = {1: "mov %rax,%rcx", 2: "rep movsb %ds:(%rsi),%es:(%rdi)", 3: "jne 1"}
         self.assertEqual(bounds.once_a_string([1, 2, 2, 2, 3, 1, 2, 3, 3], texts), [1, 2, 3, 1, 2, 3, 3])
+
+
+class Gathers(unittest.TestCase):
+    @unittest.skipUnless("avx2" in pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii"), "no instruction gathers here")
+    def test_of_each_size_it_says_how_long_one_takes(self):
+        cycles = [int(n) for n in re.findall(r"(\d+) cycles from", gathers.sentence(10.0, 8))]
+        self.assertEqual(len(cycles), len(gathers.KIB))
+        self.assertGreater(min(cycles), 0)
 
 
 class Branches(unittest.TestCase):
