@@ -23,7 +23,8 @@ namespace {
 
 constexpr int width = 1920, height = 1080;
 constexpr std::int64_t chunk_packets = 128;  // a task, of ours and of theirs
-constexpr std::int64_t block_packets = 4;    // what ours widens at a time, and then traces: it stays in the nearest cache
+// What ours widens at a time, and then traces: it stays in the nearest cache, and asks for as many later ones as a core can wait for.
+constexpr std::int64_t block_packets = 4;
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());

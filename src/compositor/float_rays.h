@@ -42,7 +42,7 @@ struct EmbreeLanes {
 struct FloatRayKernels {
   /// Component by component, what lies ray by ray; 1 <= count <= slots.
   void (*spread)(const Ray* rays, int count, PacketRoom& out);
-  /// Makes the hits of the packet none, and gives its rays in floats; and the slots of those that floats hold near enough.
+  /// Makes the hits of the packet none and its rays floats; returns the slots of those that floats hold near enough.
   std::uint32_t (*round)(Packet& packet, const SceneExtent& extent, FloatPacket& out);
   /// The slots of the valid lanes, a bit for each.
   std::uint32_t (*slots_of)(const EmbreeLanes& lanes);

@@ -49,20 +49,6 @@ HWY_INLINE HWY_ATTR VI integer(V a) {
   return hn::Sub(hn::BitCast(DI(), hn::Add(a, large)), hn::BitCast(DI(), large));
 }
 HWY_INLINE HWY_ATTR bool any(M mask) { return !hn::AllFalse(D(), mask); }
-static_assert(std::endian::native == std::endian::little);  // bits of masks
-HWY_INLINE HWY_ATTR M mask_of(std::uint32_t bits) {
-  std::uint8_t bytes[8] = {};
-  std::memcpy(bytes, &bits, sizeof bits);
-  return hn::LoadMaskBits(D(), bytes);
-}
-HWY_INLINE HWY_ATTR std::uint32_t bits_of(M mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(D(), mask, bytes);
-  std::uint16_t bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
-}
-
 /// What floats say of the lanes asked, a bit for each; of lanes in neither set nothing.
 struct Outcome {
   std::uint32_t missed = 0;
@@ -103,7 +89,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   const V nearest = narrow(r.nearest - start), farthest = hn::Min(narrow(minimum(r.farthest, limit) - start), all(1e30f));
 
   // Of numbers that are too large, or none, floats say nothing; nor where the doubles' own roundings show.
-  const M active = mask_of(lanes), nowhere = hn::AndNot(active, active);
+  const M active = float_mask_of_bits(lanes), nowhere = hn::AndNot(active, active);
   const M ordinary = hn::And(
       hn::And(hn::Le(hn::Max(hn::Abs(float_ox), hn::Abs(float_oy)), all(f.far_beside)), hn::Le(hn::Abs(float_oh), all(f.far_above))),
       hn::And(hn::And(hn::Le(hn::Add(hn::Abs(px), hn::Abs(py)), all(f.away)), hn::Le(hn::Abs(ph), all(f.tall))),

@@ -99,18 +99,14 @@ HWY_INLINE HWY_ATTR bool are_neighbours(const EmbreeLanes& lanes, int i) {
   return i + lanes_at_once <= lanes.count && hn::AllTrue(d, hn::Eq(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i)),
                                                                    hn::Iota(d, static_cast<std::int32_t>(lanes.slot[i]))));
 }
-HWY_INLINE HWY_ATTR hn::Mask<LaneSlots> are_valid(const EmbreeLanes& lanes, int i) {
-  return hn::Ne(hn::LoadU(LaneSlots(), lanes.valid + i), hn::Zero(LaneSlots()));
+HWY_INLINE HWY_ATTR hn::Mask<FloatTag> are_valid(const EmbreeLanes& lanes, int i) {
+  return hn::RebindMask(FloatTag(), hn::Ne(hn::LoadU(LaneSlots(), lanes.valid + i), hn::Zero(LaneSlots())));
 }
 
 std::uint32_t SlotsOf(const EmbreeLanes& lanes) {
   std::uint32_t slots = 0;
   int i = 0;
-  for (; are_neighbours(lanes, i); i += lanes_at_once) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(LaneSlots(), are_valid(lanes, i), bits);
-    slots |= (bits[0] | static_cast<std::uint32_t>(bits[1]) << 8) << lanes.slot[i];
-  }
+  for (; are_neighbours(lanes, i); i += lanes_at_once) slots |= bits_of(are_valid(lanes, i)) << lanes.slot[i];
   for (; i < lanes.count; ++i) slots |= static_cast<std::uint32_t>(lanes.valid[i] & 1) << lanes.slot[i];
   return slots;
 }
@@ -134,9 +130,7 @@ void PutEnds(const Packet& packet, const FloatPacket& floats, double slack, std:
   int i = 0;
   for (; are_neighbours(lanes, i); i += lanes_at_once) {
     const unsigned slot = lanes.slot[i];
-    const std::uint32_t here = changed >> slot;
-    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(here), static_cast<std::uint8_t>(here >> 8)};
-    const auto takes = hn::And(hn::LoadMaskBits(d, bits), hn::RebindMask(d, are_valid(lanes, i)));
+    const auto takes = hn::And(float_mask_of_bits(changed >> slot), are_valid(lanes, i));
     hn::StoreU(hn::IfThenElse(takes, hn::LoadU(d, by_slot + slot), hn::LoadU(d, lanes.end + i)), d, lanes.end + i);
   }
   for (; i < lanes.count; ++i) {

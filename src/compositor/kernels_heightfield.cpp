@@ -1,7 +1,5 @@
 // The walk through a heightfield for several rays side by side; compiled once for each SIMD target.
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 #include "compositor/heightfield_view.h"
 

@@ -6,6 +6,7 @@
 #define RAINREF_COMPOSITOR_PACKET_LANES_INL_H_
 #endif
 
+#include <bit>
 #include <cstddef>
 #include <cstring>
 
@@ -42,6 +43,20 @@ HWY_INLINE HWY_ATTR std::uint32_t bits_of(LaneMask mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(Real64Lanes::D(), mask.m, bytes);
   return bytes[0];
+}
+/// The same for vectors of floats, of up to 16 lanes.
+HWY_INLINE HWY_ATTR hn::Mask<FloatTag> float_mask_of_bits(std::uint32_t bits) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint8_t bytes[8] = {};
+  std::memcpy(bytes, &bits, sizeof bits);
+  return hn::LoadMaskBits(FloatTag(), bytes);
+}
+HWY_INLINE HWY_ATTR std::uint32_t bits_of(hn::Mask<FloatTag> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(FloatTag(), mask, bytes);
+  std::uint16_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
 }
 /// Hits of the lanes in `hit`, for the slots from `slot` on: puts those first that precede what is there, and gives their
 /// slots. Parts are whole numbers below 2^32.
