@@ -39,8 +39,13 @@ constexpr Address address_of(Boundary boundary) {
 /// Encodes stored values, `width` to a row, into a plane, ghost columns included.
 void encode_rows(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding);
 
-/// wave_step over whole rows; the tile must span the width.
-void wave_step_rows(const WaveJob& job, const parallel::Tile& tile);
+/// Rows [y0, y1) of both levels that a later call reads.
+struct RowsAhead {
+  int y0 = 0, y1 = 0;
+};
+/// wave_step over whole rows; the tile must span the width. Meanwhile it fetches rows that lie ahead, as many as its own work has time
+/// for: their memory is waited for at once, not when they are needed. Returns those that are left.
+RowsAhead wave_step_rows(const WaveJob& job, const parallel::Tile& tile, RowsAhead ahead = {});
 /// The second output of the corrected wave_step: adds the drops to `newest`, in place, where they touch it. After all steps that read
 /// these rows.
 void wave_previous_rows(const WaveJob& job, const parallel::Tile& tile);

@@ -88,11 +88,21 @@ template <int... Rows, class F>
 HWY_INLINE HWY_ATTR void for_each_row(std::integer_sequence<int, Rows...>, const F& f) {
   (f(std::integral_constant<int, Rows>()), ...);
 }
+// A row of each level that is fetched vector by vector, or null.
+using Fetched = std::array<const std::byte*, 2>;
+template <class Storage>
+HWY_INLINE HWY_ATTR void fetch(const Fetched& rows, int x) {
+  constexpr int line = 64 / static_cast<int>(sizeof(Storage));
+  if (!rows[0] || (Lanes::size() < line && x % line != 0)) return;
+  for (const std::byte* row : rows)
+    __builtin_prefetch(row + x * static_cast<std::ptrdiff_t>(sizeof(Storage)), 0, 2);  // into the second cache
+}
 // Whole vectors of columns [0, end) of R rows from y on, into which `drops` reach: each vector of the newest level is loaded once.
 // Returns the first column that is left. Neighbours are one texel away.
 template <int R, bool corrected, Edges edges, Rounding rounding, class Storage>
 HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storage*, R + 2> newest, std::array<Storage*, R> out,
-                                     std::array<const float*, R> shore, std::span<const Drop> drops, int end, int y) {
+                                     std::array<const float*, R> shore, std::span<const Drop> drops, const Fetched& fetched, int end,
+                                     int y) {
   constexpr int n = Lanes::size();
   constexpr std::integer_sequence each = std::make_integer_sequence<int, R>();
   constexpr std::span<const Drop> none;
@@ -103,6 +113,7 @@ HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storag
     here[k] = Lanes::load(newest[k + 1]);
   });
   const auto vector_of_rows = [&](const auto& near, int x) RAINREF_INLINED {
+    fetch<Storage>(fetched, x);
     const Lanes below = Lanes::load(newest[0] + x), above = Lanes::load(newest[R + 1] + x);
     for_each_row(each, [&](auto k) RAINREF_INLINED { after[k] = Lanes::load(newest[k + 1] + x + n); });
     for_each_row(each, [&](auto k) RAINREF_INLINED {
@@ -143,9 +154,9 @@ template <bool corrected, Edges edges, Rounding rounding, class Storage>
 class Rows {
  public:
   explicit Rows(const WaveJob& job) : job_(job), u_(job.uniforms) {}
-  // R rows from y on; drops: all that reach into them.
+  // R rows from y on; drops: all that reach into them. Takes one row off those ahead.
   template <int R>
-  HWY_ATTR void visit(std::span<const Drop> drops, int y) const {
+  HWY_ATTR void visit(std::span<const Drop> drops, int y, RowsAhead& ahead) const {
     const int width = job_.newest->width();
     int x = 0;
     if (corrected || u_.step == 1.0f) {
@@ -154,7 +165,9 @@ class Rows {
       std::array<const float*, R> shores;
       for (int k = 0; k < R + 2; ++k) rows[k] = newest(y + k - 1);
       for (int k = 0; k < R; ++k) out[k] = job_.previous->row<Storage>(y + k), shores[k] = shore(y + k);
-      x = step_block<R, corrected, edges, rounding, Storage>(u_, rows, out, shores, drops, width, y);
+      Fetched fetched{};
+      if (ahead.y0 < ahead.y1) fetched = {job_.newest->row_bytes(ahead.y0), job_.previous->row_bytes(ahead.y0)}, ++ahead.y0;
+      x = step_block<R, corrected, edges, rounding, Storage>(u_, rows, out, shores, drops, fetched, width, y);
     }
     if (x == width) return;
     for (int k = 0; k < R; ++k) single(drops, x, y + k);
@@ -181,7 +194,7 @@ class Rows {
   WaveStepUniforms u_;
 };
 template <bool corrected, Edges edges, Rounding rounding, class Storage>
-HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile) {
+HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile, RowsAhead& ahead) {
   constexpr int most = Lanes::size() == 16 ? 4 : 2;  // by the number of registers
   const Rows<corrected, edges, rounding, Storage> rows(job);
   std::vector<Drop> in_tile, in_rows;
@@ -190,9 +203,9 @@ HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile) {
     const int left = tile.y1 - y, count = left >= most ? most : left >= 2 ? 2 : 1;
     if (!in_tile.empty()) drops_in_rows(in_tile, y, y + count, in_rows);
     if (count == most)
-      rows.template visit<most>(in_rows, y);
+      rows.template visit<most>(in_rows, y, ahead);
     else
-      count == 2 ? rows.template visit<2>(in_rows, y) : rows.template visit<1>(in_rows, y);
+      count == 2 ? rows.template visit<2>(in_rows, y, ahead) : rows.template visit<1>(in_rows, y, ahead);
     y += count;
   }
   for (int y = tile.y0; y < tile.y1; ++y)
@@ -210,17 +223,18 @@ HWY_ATTR void with_constants(const WaveJob& job, const F& f) {
   else
     job.corrected ? f(Corrected(), TowardZero()) : f(AsPublished(), TowardZero());
 }
-void StepRows(const WaveJob& job, const parallel::Tile& tile) {
+RowsAhead StepRows(const WaveJob& job, const parallel::Tile& tile, RowsAhead ahead) {
   const Edges edges = !job.corrected ? Edges::none : job.uniforms.rim_damping > 0.0f ? Edges::rim : job.shore ? Edges::shore : Edges::none;
   pass::in_storage(job.newest->format(), [&]<class Storage>(Storage) HWY_ATTR {
     with_constants(job, [&](auto corrected, auto rounding) HWY_ATTR {
-      if (edges == Edges::none) return step_rows<corrected(), Edges::none, rounding(), Storage>(job, tile);
+      if (edges == Edges::none) return step_rows<corrected(), Edges::none, rounding(), Storage>(job, tile, ahead);
       if constexpr (corrected()) {
-        if (edges == Edges::shore) return step_rows<true, Edges::shore, rounding(), Storage>(job, tile);
-        step_rows<true, Edges::rim, rounding(), Storage>(job, tile);
+        if (edges == Edges::shore) return step_rows<true, Edges::shore, rounding(), Storage>(job, tile, ahead);
+        step_rows<true, Edges::rim, rounding(), Storage>(job, tile, ahead);
       }
     });
   });
+  return ahead;
 }
 
 template <class Storage>
@@ -250,7 +264,9 @@ namespace rainref::puddle {
 RAINREF_EXPORT(StepRows);
 RAINREF_EXPORT(PreviousRows);
 
-void wave_step_rows(const WaveJob& job, const parallel::Tile& tile) { RAINREF_DISPATCH(StepRows)(job, tile); }
+RowsAhead wave_step_rows(const WaveJob& job, const parallel::Tile& tile, RowsAhead ahead) {
+  return RAINREF_DISPATCH(StepRows)(job, tile, ahead);
+}
 void wave_previous_rows(const WaveJob& job, const parallel::Tile& tile) { RAINREF_DISPATCH(PreviousRows)(job, tile); }
 
 }  // namespace rainref::puddle

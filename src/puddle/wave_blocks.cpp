@@ -34,11 +34,14 @@ class Blocks {
     const int begin = first_row(k), end = first_row(k + 1);
     const bool open_below = k > 0 || wraps_, open_above = k + 1 < bands_ || wraps_;
     const Steps steps(jobs_, begin, end);
-    // A front of visits moves up; each step follows `reach` rows behind the step before.
+    // A front of visits moves up; each step follows `reach` rows behind the step before. Only the first reads from memory, and the
+    // others fetch what it reads next.
     for (int front = begin; front < end + steps_ * reach_ + visit_rows; front += visit_rows) {
+      RowsAhead ahead{std::min(front + visit_rows, end), std::min(front + 2 * visit_rows, end)};
       for (int step = 0; step < steps_; ++step) {
         const int narrower = step * reach_, y = front - narrower;
-        rows(steps, step, std::max(y, open_below ? begin + narrower : begin), std::min(y + visit_rows, open_above ? end - narrower : end));
+        rows(steps, step, std::max(y, open_below ? begin + narrower : begin), std::min(y + visit_rows, open_above ? end - narrower : end),
+             step > 0 ? &ahead : nullptr);
       }
     }
   }
@@ -82,7 +85,7 @@ class Blocks {
     return static_cast<int>(static_cast<std::int64_t>(height_ + 2 * less) * band / bands_) - less;
   }
   /// Rows [y0, y1) of a step; negative ones stand at the upper end of a wave that wraps.
-  void rows(const Steps& steps, int step, int y0, int y1) const {
+  void rows(const Steps& steps, int step, int y0, int y1, RowsAhead* ahead = nullptr) const {
     if (y0 < 0) {
       rows(steps, step, y0 + height_, std::min(y1, 0) + height_);
       y0 = 0;
@@ -91,7 +94,8 @@ class Blocks {
     const parallel::Tile tile{0, y0, jobs_[0].newest->width(), y1};
     // All that read these rows of the level before without its drops have done so.
     if (step > 0) add_drops(steps[step - 1], tile);
-    wave_step_rows(steps[step], tile);
+    const RowsAhead left = wave_step_rows(steps[step], tile, ahead ? *ahead : RowsAhead());
+    if (ahead) *ahead = left;
   }
   static void add_drops(const WaveJob& job, const parallel::Tile& tile) {
     if (job.corrected && !job.drops.empty()) wave_previous_rows(job, tile);
