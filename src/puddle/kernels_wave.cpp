@@ -88,21 +88,15 @@ template <int... Rows, class F>
 HWY_INLINE HWY_ATTR void for_each_row(std::integer_sequence<int, Rows...>, const F& f) {
   (f(std::integral_constant<int, Rows>()), ...);
 }
-// A row of each level that is fetched vector by vector, or null.
+// Where the rows of both levels begin that a later call reads: with every vector a line of each is fetched. Among the other instructions
+// and not in a row, for a core waits at once for some ten lines only.
 using Fetched = std::array<const std::byte*, 2>;
-template <class Storage>
-HWY_INLINE HWY_ATTR void fetch(const Fetched& rows, int x) {
-  constexpr int line = 64 / static_cast<int>(sizeof(Storage));
-  if (!rows[0] || (Lanes::size() < line && x % line != 0)) return;
-  for (const std::byte* row : rows)
-    __builtin_prefetch(row + x * static_cast<std::ptrdiff_t>(sizeof(Storage)), 0, 2);  // into the second cache
-}
+constexpr int line = 64;  // bytes of a cache
 // Whole vectors of columns [0, end) of R rows from y on, into which `drops` reach: each vector of the newest level is loaded once.
 // Returns the first column that is left. Neighbours are one texel away.
 template <int R, bool corrected, Edges edges, Rounding rounding, class Storage>
 HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storage*, R + 2> newest, std::array<Storage*, R> out,
-                                     std::array<const float*, R> shore, std::span<const Drop> drops, const Fetched& fetched, int end,
-                                     int y) {
+                                     std::array<const float*, R> shore, std::span<const Drop> drops, Fetched fetched, int end, int y) {
   constexpr int n = Lanes::size();
   constexpr std::integer_sequence each = std::make_integer_sequence<int, R>();
   constexpr std::span<const Drop> none;
@@ -113,7 +107,7 @@ HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storag
     here[k] = Lanes::load(newest[k + 1]);
   });
   const auto vector_of_rows = [&](const auto& near, int x) RAINREF_INLINED {
-    fetch<Storage>(fetched, x);
+    for (const std::byte* rows : fetched) __builtin_prefetch(rows + x * (line / n), 0, 2);  // into the second cache
     const Lanes below = Lanes::load(newest[0] + x), above = Lanes::load(newest[R + 1] + x);
     for_each_row(each, [&](auto k) RAINREF_INLINED { after[k] = Lanes::load(newest[k + 1] + x + n); });
     for_each_row(each, [&](auto k) RAINREF_INLINED {
@@ -154,7 +148,7 @@ template <bool corrected, Edges edges, Rounding rounding, class Storage>
 class Rows {
  public:
   explicit Rows(const WaveJob& job) : job_(job), u_(job.uniforms) {}
-  // R rows from y on; drops: all that reach into them. Takes one row off those ahead.
+  // R rows from y on; drops: all that reach into them. Takes what it fetches off the rows ahead.
   template <int R>
   HWY_ATTR void visit(std::span<const Drop> drops, int y, RowsAhead& ahead) const {
     const int width = job_.newest->width();
@@ -165,8 +159,9 @@ class Rows {
       std::array<const float*, R> shores;
       for (int k = 0; k < R + 2; ++k) rows[k] = newest(y + k - 1);
       for (int k = 0; k < R; ++k) out[k] = job_.previous->row<Storage>(y + k), shores[k] = shore(y + k);
-      Fetched fetched{};
-      if (ahead.y0 < ahead.y1) fetched = {job_.newest->row_bytes(ahead.y0), job_.previous->row_bytes(ahead.y0)}, ++ahead.y0;
+      const int next = ahead.y0 < ahead.y1 ? ahead.y0 : y;  // those at hand cost less than a branch
+      if (next != y) ahead.y0 = std::min(ahead.y0 + rows_fetched, ahead.y1);
+      const Fetched fetched{job_.newest->row_bytes(next), job_.previous->row_bytes(next)};
       x = step_block<R, corrected, edges, rounding, Storage>(u_, rows, out, shores, drops, fetched, width, y);
     }
     if (x == width) return;
@@ -174,6 +169,8 @@ class Rows {
   }
 
  private:
+  // In the vectors of one: rows follow each other in memory.
+  static constexpr int rows_fetched = std::max(line / (Lanes::size() * static_cast<int>(sizeof(Storage))), 1);
   // Vectors from x on, the last one in part, with any offset of the neighbours.
   HWY_ATTR void single(std::span<const Drop> drops, int x, int y) const {
     const int n = Lanes::size(), width = job_.newest->width();
