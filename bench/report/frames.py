@@ -39,7 +39,7 @@ def _registers(bench, threads):
 
 def measure(rainref, bench, out, counts, only, say):
     """({"frames": rows, "registers": rows, "starts": rows}, what is skipped). Threads in turns, so that what else the machine does meets them alike."""
-    folder, cache = os.path.join(out, "frames-run"), os.path.join(out, "frames-cache")
+    folder, cache = (os.path.abspath(os.path.join(out, name)) for name in ("frames-run", "frames-cache"))  # a relative cache is none: XDG
     found, skipped, registers = {"frames": [], "registers": [], "starts": []}, [], {n: [] for n in counts}
     try:
         for scene in (s for s in SCENES if re.search(only, f"frames/{s}")):

@@ -13,6 +13,9 @@ std::byte* take(std::size_t bytes);
 /// What take gave, of as many bytes.
 void give_back(std::byte* memory, std::size_t bytes);
 
+/// Asks for large pages in the whole ones that lie in memory taken elsewhere. A wish: it changes no byte.
+void prefer_large_pages(void* memory, std::size_t bytes);
+
 /// Of arrays that are made once and only grow: their new elements are zero and, in a large block, untouched.
 template <class T>
 struct Allocator {

@@ -52,6 +52,11 @@ std::byte* take(std::size_t bytes) {
   }
   return memory + shift;
 }
+void prefer_large_pages(void* memory, std::size_t bytes) {
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory), before = (large_page - begin % large_page) % large_page;
+  if (bytes < before + large_page) return;
+  ::madvise(static_cast<std::byte*>(memory) + before, (bytes - before) / large_page * large_page, MADV_HUGEPAGE);
+}
 void give_back(std::byte* memory, std::size_t bytes) {
   if (!memory) return;
   if (bytes < mapped_from) return std::free(memory);

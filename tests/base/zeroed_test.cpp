@@ -47,5 +47,14 @@ TEST(Zeroed, AnArrayGrowsWithZeros) {
   EXPECT_TRUE(std::all_of(numbers.begin() + 3, numbers.end(), [](float x) { return x == 0; }));
 }
 
+TEST(Zeroed, AWishForLargePagesChangesNoByte) {
+  std::vector<unsigned char> bytes(9 * mebibyte);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(i % 251);
+  for (const std::size_t from : {std::size_t{0}, std::size_t{1}, mebibyte, 2 * mebibyte + 3})
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, mebibyte, 2 * mebibyte, 4 * mebibyte - 1, 5 * mebibyte})
+      prefer_large_pages(bytes.data() + from, count);
+  for (std::size_t i = 0; i < bytes.size(); ++i) ASSERT_EQ(bytes[i], i % 251) << i;
+}
+
 }  // namespace
 }  // namespace rainref::zeroed

@@ -1,0 +1,20 @@
+// Large arrays of the whole program in large pages where the system has them: a start is mostly pages that are touched for the first time,
+// and a machine may take longer for one than for reading what it is filled with. The program alone; a library leaves this to its caller.
+#include <cstdlib>
+#include <new>
+
+#include "base/zeroed.h"
+
+void* operator new(std::size_t bytes) {
+  for (;;) {
+    if (void* const memory = std::malloc(bytes > 0 ? bytes : 1)) {
+      rainref::zeroed::prefer_large_pages(memory, bytes);
+      return memory;
+    }
+    const std::new_handler handler = std::get_new_handler();
+    if (!handler) throw std::bad_alloc();
+    handler();
+  }
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
