@@ -89,7 +89,7 @@ HWY_INLINE HWY_ATTR void for_each_row(std::integer_sequence<int, Rows...>, const
   (f(std::integral_constant<int, Rows>()), ...);
 }
 // Where the rows of both levels begin that a later call reads: with every vector a line of each is fetched. Among the other instructions
-// and not in a row, for a core waits at once for some ten lines only.
+// and not one after another, for a core waits for few lines at once.
 using Fetched = std::array<const std::byte*, 2>;
 constexpr int line = 64;  // bytes of a cache
 // Whole vectors of columns [0, end) of R rows from y on, into which `drops` reach: each vector of the newest level is loaded once.
@@ -159,8 +159,11 @@ class Rows {
       std::array<const float*, R> shores;
       for (int k = 0; k < R + 2; ++k) rows[k] = newest(y + k - 1);
       for (int k = 0; k < R; ++k) out[k] = job_.previous->row<Storage>(y + k), shores[k] = shore(y + k);
-      const int next = ahead.y0 < ahead.y1 ? ahead.y0 : y;  // those at hand cost less than a branch
-      if (next != y) ahead.y0 = std::min(ahead.y0 + rows_fetched, ahead.y1);
+      int next = y;  // those at hand cost less than a branch
+      if (ahead.y0 < ahead.y1) {
+        next = ahead.y0;
+        ahead.y0 = std::min(ahead.y0 + rows_fetched, ahead.y1);
+      }
       const Fetched fetched{job_.newest->row_bytes(next), job_.previous->row_bytes(next)};
       x = step_block<R, corrected, edges, rounding, Storage>(u_, rows, out, shores, drops, fetched, width, y);
     }

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as xml
+from unittest import mock
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "bench/report"))
@@ -201,6 +202,17 @@ class Documents(unittest.TestCase):
         self.assertEqual(document.scaling_table({"rows": [r for r in result["rows"] if r["threads"] < 16]}), "")
         result["registers"] = [{"threads": n, "median_ms": t} for n, t in ((1, 60.0), (16, 4.8))]
         self.assertIn("| 12.00 | 12.50 | 12 met |", document.scaling_table(result))
+
+    def test_starts_keep_nothing_in_the_users_cache(self):
+        caches = []
+
+        def run(rainref, folder, cache, scene, frame_count, more):
+            caches.append(cache)
+            return {"seconds": 0.1}, 0.3
+        with mock.patch.object(frames, "_run", run):
+            found, _ = frames.measure("rainref", "bench", os.path.join("no", "folder"), [1], "^start/windshield", lambda text: None)
+        self.assertEqual([row["scene"] for row in found["starts"]], ["windshield/default"])
+        self.assertTrue(caches and all(os.path.isabs(cache) for cache in caches), caches)  # XDG: a relative one is to be ignored
 
     def test_a_busy_machine_and_a_skipped_peer_are_said(self):
         result = committed()

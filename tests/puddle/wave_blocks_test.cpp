@@ -139,6 +139,7 @@ TEST(WaveBlocks, RowsAheadAreTakenOffAsTheyAreFetched) {
       EXPECT_EQ(step(504, 512, {40, 40}).y0, 40) << target;
       wave_step_rows(jobs_of(plain, none, nullptr)[0], plain.all());
       EXPECT_EQ(plain.now(), fetching.now()) << target;
+      EXPECT_EQ(step(0, 8, {0, 512}).y0, taken) << target;  // rows ahead that begin with those made
     }
   }
   select_simd_target("");

@@ -1,5 +1,5 @@
-// Large arrays of the whole program in large pages where the system has them: a start is mostly pages that are touched for the first time,
-// and a machine may take longer for one than for reading what it is filled with. The program alone; a library leaves this to its caller.
+// Large arrays of the whole program in large pages where the system has them: the first touch of a page is a fault, and a large page is
+// one for 512 small ones. The program alone; a library leaves this to its caller.
 #include <cstdlib>
 #include <new>
 
