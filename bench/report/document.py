@@ -93,7 +93,7 @@ def markdown(result, pictures):
         out += [whole]
     if not result["rows"]:
         return "\n".join(out)
-    out += ["Beside peers, in the same run; the ratio is of medians (Embree: the median of pairs, the update of the water for a frame on both sides):", "", peers_table(result)]
+    out += ["Beside peers, in the same run; the ratio is of medians (Embree, with the update of the water for a frame on both sides, and Numba: the median of turns):", "", peers_table(result)]
     if waves := scaling_table(result):
         out += ["The wave on many threads over one, of medians:", "", waves]
     for name in plots.PLOTS:

@@ -15,6 +15,12 @@ def _first(path, key):
     return ""
 
 
+def _processor():
+    """Its name, and of x86-64 family and model: a virtual machine's name may say neither."""
+    name, family, model = (_first("/proc/cpuinfo", key) for key in ("model name", "cpu family", "model\t"))
+    return (name or platform.machine()) + (f" (family {family}, model {model})" if family and model else "")
+
+
 def describe():
     flags = _first("/proc/cpuinfo", "flags").split()
     memory = _first("/proc/meminfo", "MemTotal").split()
@@ -28,7 +34,7 @@ def describe():
                     caches.append(f"L{level.read().strip()} {size.read().strip()}")
         except OSError:
             break
-    return {"processor": _first("/proc/cpuinfo", "model name") or platform.machine(), "cores": len(os.sched_getaffinity(0)),
+    return {"processor": _processor(), "cores": len(os.sched_getaffinity(0)),
             "simd": next((f for f in ("avx512f", "avx2", "sse4_1", "asimd") if f in flags), ""), "caches": ", ".join(caches),
             "memory_gib": round(int(memory[0]) / (1 << 20)) if memory else 0}
 

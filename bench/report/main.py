@@ -76,21 +76,30 @@ def dumps(result):
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-def our_rows(given, folder):
-    program, out = os.path.join(given.build, "bench/rainref_bench"), os.path.join(folder, "google_benchmark.json")
-    listed = subprocess.run([program, "--benchmark_list_tests"], capture_output=True, text=True, check=True).stdout.split()
+def names_of_rows(given):
+    """Of the rows of the report, as Google Benchmark names them."""
+    listed = subprocess.run([os.path.join(given.build, "bench/rainref_bench"), "--benchmark_list_tests"], capture_output=True, text=True, check=True).stdout.split()
     wanted = re.compile(f"^({'|'.join(ROWS)})/")
-    names = [name for name in listed if wanted.search(name) and "isa=" not in name and re.search(given.only, name)]
+    return [name for name in listed if wanted.search(name) and "isa=" not in name and re.search(given.only, name)]
+
+
+def our_rows(given, names, seconds):
     if not names:
         return [], []
-    say(f"{len(names)} rows")
+    program, out = os.path.join(given.build, "bench/rainref_bench"), os.path.join(given.out, "google_benchmark.json")
     exact = "|".join(name.replace(".", "[.]") for name in names)  # names hold no other character that means something there
     subprocess.run([program, f"--benchmark_filter=^({exact})$", "--benchmark_min_time=0.0000001", f"--benchmark_out={out}"],
-                   check=True, stdout=subprocess.DEVNULL, env={**os.environ, "RAINREF_BENCH_SECONDS": str(given.row_seconds)})
+                   check=True, stdout=subprocess.DEVNULL, env={**os.environ, "RAINREF_BENCH_SECONDS": str(seconds)})
     with open(out, encoding="utf-8") as file:
         found = rows.of_benchmark_file(json.load(file))
     os.remove(out)
     return found
+
+
+def rates_again(given, names, row, threads):
+    """Of the row and its steps:5, measured anew: {name: rate}."""
+    chosen = [name for name in names if rows.split_name(name) in ((row, threads), (row + "/steps:5", threads))]
+    return {found["row"]: found["rate"] for found in our_rows(given, chosen, given.row_seconds / peers.TURNS)[0]}
 
 
 def thread_counts():
@@ -107,11 +116,12 @@ def measure(given):
     say(f"Waiting for an idle machine, {given.wait:g} s at most")
     idle = machine.wait_until_idle(given.wait)
     watch = machine.Watch()
-    ours, beside = our_rows(given, given.out)
-    counts = thread_counts()
-    if any(row["row"].startswith("wave_step/corrected/rg32f") for row in ours):
+    names, counts = names_of_rows(given), thread_counts()
+    say(f"{len(names)} rows")
+    ours, beside = our_rows(given, names, given.row_seconds)
+    if any(row["row"].startswith(peers.WAVE) for row in ours):
         say("NumPy and Numba")
-        found, missing = peers.waves(counts, given.peer_seconds / 2)
+        found, missing = peers.waves(counts, given.peer_seconds / 2, lambda row, threads: rates_again(given, names, row, threads))
         beside, skipped = beside + found, skipped + missing
     say("Mesa's software device")
     found, missing = peers.ports(given.build, given.out, prepared, counts[-1], given.peer_seconds)

@@ -1,7 +1,7 @@
 """What a user would write instead of wave_step: a wave equation in NumPy, and in Numba's parallel loops.
 
-Run by the bench with the system's Python: peer_wave.py SECONDS THREADS... prints a JSON list of rows. Arithmetic of the corrected
-wave_step in float, with the edge repeated by a border of one texel.
+Run by the bench with the system's Python: reads requests, PEER SIDE THREADS SECONDS a line, and answers each with a line of JSON, either
+{"seconds", "hash", "version"} or {"reason"}. Arithmetic of the corrected wave_step in float, with the edge repeated by a border of one texel.
 """
 import hashlib
 import json
@@ -11,7 +11,6 @@ import time
 import numpy as np
 
 GAMMA, COURANT = np.float32(0.995), np.float32(0.24)
-SIDES = (1024, 2048, 4096)
 
 
 def numpy_step(newest, previous):
@@ -62,26 +61,34 @@ def measure(step, side, seconds):
     return goes, digest
 
 
-def main():
-    seconds, threads = float(sys.argv[1]), [int(t) for t in sys.argv[2:]]
-    rows, skipped = [], []
+def steps():
+    """For each peer how its step is made ready for so many threads, and its version."""
+    def with_numpy(_):
+        return numpy_step, np.__version__
 
-    def add(peer, version, side, count, result):
-        rows.append({"peer": peer, "version": version, "row": f"wave_step/corrected/rg32f/{side}", "threads": count,
-                     "items": side * side, "seconds": result[0], "hash": result[1]})
+    made = []
 
-    for side in SIDES:
-        add("numpy", np.__version__, side, 1, measure(numpy_step, side, seconds))
-    try:
+    def with_numba(threads):
         import numba
-        step = numba_step()
-        for count in threads:
-            numba.set_num_threads(min(count, numba.config.NUMBA_NUM_THREADS))
-            for side in SIDES:
-                add("numba", numba.__version__, side, count, measure(step, side, seconds))
-    except Exception as problem:  # whatever a broken installation raises, the other rows stay
-        skipped.append({"peer": "numba", "reason": f"{type(problem).__name__}: {problem}"})
-    json.dump({"rows": rows, "skipped": skipped}, sys.stdout)
+        if not made:
+            made.append(numba_step())
+        numba.set_num_threads(min(threads, numba.config.NUMBA_NUM_THREADS))
+        return made[0], numba.__version__
+
+    return {"numpy": with_numpy, "numba": with_numba}
+
+
+def main():
+    peers = steps()
+    for line in sys.stdin:
+        peer, side, threads, seconds = line.split()
+        try:
+            step, version = peers[peer](int(threads))
+            goes, digest = measure(step, int(side), float(seconds))
+            answer = {"seconds": goes, "hash": digest, "version": version}
+        except Exception as problem:  # whatever a broken installation raises, other requests are answered
+            answer = {"reason": f"{type(problem).__name__}: {problem}"}
+        print(json.dumps(answer), flush=True)
 
 
 main()

@@ -25,6 +25,9 @@ PORTS = (
 )
 
 
+WAVE, SIDES, TURNS = "wave_step/corrected/rg32f/", (1024, 2048, 4096), 3
+
+
 def last_line(text):
     lines = [line for line in text.strip().splitlines() if line.strip()]
     return lines[-1] if lines else "no output"
@@ -38,18 +41,73 @@ def python_with_numpy():
     return None
 
 
-def waves(threads, seconds):
-    """NumPy and Numba: (rows, skipped)."""
+class WavePeer:
+    """peer_wave.py, which waits for requests between those of ours."""
+
+    def __init__(self, python):
+        program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "peer_wave.py")
+        self.ended = ""  # or its last words
+        self.process = subprocess.Popen([python, program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def times(self, peer, side, threads, seconds):
+        """What it answers: {"seconds", "hash", "version"}. Raises RuntimeError."""
+        if self.ended:
+            raise RuntimeError(self.ended)
+        try:
+            self.process.stdin.write(f"{peer} {side} {threads} {seconds}\n")
+            self.process.stdin.flush()
+            line = self.process.stdout.readline()
+        except OSError:
+            line = ""
+        if not line:
+            self.ended = last_line(self.process.communicate()[1])
+            raise RuntimeError(self.ended)
+        answer = json.loads(line)
+        if "reason" in answer:
+            raise RuntimeError(answer["reason"])
+        return answer
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if not self.ended:
+            self.process.communicate()
+
+
+def row_of(peer, side, threads, answers, **more):
+    """The row of a peer's answers to alike requests."""
+    seconds = [s for answer in answers for s in answer["seconds"]]
+    return rows.of_times(peer, f"{WAVE}{side}", threads, "cell", side * side, seconds, answers[0]["hash"], version=answers[0]["version"], **more)
+
+
+def in_turns(peer, side, threads, seconds, ours):
+    """Numba's row, with the median of its turns' ratios for each row of ours: a machine that others share is slow for minutes, and then for both."""
+    answers, ratios = [], {}
+    for _ in range(TURNS):
+        rates = ours(f"{WAVE}{side}", threads)
+        answers.append(peer.times("numba", side, threads, seconds / TURNS))
+        theirs = side * side * 1e-6 / rows.quantile(answers[-1]["seconds"], 0.5)
+        for name, rate in rates.items():
+            ratios.setdefault(name, []).append(rate / theirs)
+    return row_of("numba", side, threads, answers, ratios={name: rows.significant(rows.quantile(r, 0.5)) for name, r in ratios.items()})
+
+
+def waves(counts, seconds, ours):
+    """NumPy and Numba: (rows, skipped). ours(row, threads) measures it and its steps:5 again: {name: millions of cells a second}."""
     python = python_with_numpy()
     if python is None:
         return [], [{"peer": name, "reason": f"not installed (Debian: python3-{name})"} for name in ("numpy", "numba")]
-    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "peer_wave.py")
-    done = subprocess.run([python, program, str(seconds)] + [str(t) for t in threads], capture_output=True, text=True)
-    if done.returncode != 0:
-        return [], [{"peer": name, "reason": last_line(done.stderr)} for name in ("numpy", "numba")]
-    found = json.loads(done.stdout)
-    return [rows.of_times(r["peer"], r["row"], r["threads"], "cell", r["items"], r["seconds"], r["hash"], version=r["version"])
-            for r in found["rows"]], found["skipped"]
+    found, skipped = [], []
+    with WavePeer(python) as peer:
+        for name, measured in (("numpy", (row_of("numpy", side, 1, [peer.times("numpy", side, 1, seconds)]) for side in SIDES)),
+                               ("numba", (in_turns(peer, side, count, seconds, ours) for count in counts for side in SIDES))):
+            try:
+                for row in measured:
+                    found.append(row)
+            except RuntimeError as problem:
+                skipped.append({"peer": name, "reason": str(problem)})
+    return found, skipped
 
 
 def keep_last_case(manifest, name):

@@ -90,7 +90,7 @@ def _best_rate(row):
 def comparisons(result):
     """For each row of a peer that has one of ours on as many threads: {"row", "threads", "peer", "ours", "theirs", "ratio", "ratio_best", "goal", "stream"}.
 
-    ratio: of medians, or where the bench measured pairs the median of pairs, the water's update on both sides; ratio_best: of the fastest goes; stream:
+    ratio: of medians, or where the bench measured in turns the median of these, with Embree the water's update on both sides; ratio_best: of the fastest goes; stream:
     percent of the stream of ours, or None.
     """
     ours = {(r["row"], r["threads"]): r for r in result["rows"]}
@@ -105,7 +105,7 @@ def comparisons(result):
                 continue
             best = _best_rate(row) / _best_rate(peer) if "best_ms" in peer and "best_ms" in row else None
             found.append({"row": name, "threads": peer["threads"], "peer": peer["peer"], "ours": row["rate"], "theirs": peer["rate"],
-                          "unit": peer["unit"], "ratio": significant(peer.get("ratio_with_update", row["rate"] / peer["rate"])),
+                          "unit": peer["unit"], "ratio": significant(peer.get("ratios", {}).get(name, peer.get("ratio_with_update", row["rate"] / peer["rate"]))),
                           "ratio_best": None if best is None else significant(best), "goal": goal(peer),
                           "stream": row.get("stream_percent")})
     return found

@@ -1,15 +1,17 @@
 // The reference evaluation: a number is a vector of floats, one lane for each output element.
 //
 // No operation crosses lanes, so the bits of an element do not depend on the width. What is missing here is missing on
-// purpose: no fused multiply-add, no reciprocal or square-root estimates, no hn::Min/Max (signed zeros differ between
-// targets), no hn::DemoteTo(float16) below F16C (it truncates), no sums over lanes.
-// Re-included for every target; see foreach_target.h.
+// purpose: no fused multiply-add of a product that is rounded, no reciprocal or square-root estimates, no hn::Min/Max (signed zeros differ
+// between targets), no hn::DemoteTo(float16) below F16C (it truncates), no sums over lanes. Re-included for every target; see
+// foreach_target.h.
 #if defined(RAINREF_MATH_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_MATH_LANES_INL_H_
 #undef RAINREF_MATH_LANES_INL_H_
 #else
 #define RAINREF_MATH_LANES_INL_H_
 #endif
+
+#include <bit>
 
 #include "hwy/highway.h"
 #include "math/real64_lanes-inl.h"
@@ -141,6 +143,8 @@ struct Lanes {
   friend HWY_INLINE HWY_ATTR Lanes max(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(a.v, b.v), b.v, a.v); }
 #endif
   friend HWY_INLINE HWY_ATTR Lanes abs(Lanes a) { return hn::IfThenElse(hn::Lt(a.v, hn::Zero(D())), hn::Neg(a.v), a.v); }
+  // The product is exact, so that with or without a fused multiply-add the difference is rounded once.
+  friend HWY_INLINE HWY_ATTR Lanes minus_four_times(Lanes a, Lanes b) { return hn::NegMulAdd(hn::Set(D(), 4.0f), b.v, a.v); }
   friend HWY_INLINE HWY_ATTR Lanes sqrt(Lanes a) { return hn::Sqrt(a.v); }
   friend HWY_INLINE HWY_ATTR Lanes square(Lanes a) { return a * a; }
   // + 0 makes the zero positive: targets disagree on the sign of floor(-0).
@@ -247,6 +251,14 @@ HWY_INLINE void store(float* p, Lanes x, Rounding, int count) {
 /// Half codes as they are stored: a small negative number that rounds to zero becomes +0, so that adding nothing to a
 /// stored value never changes its bits.
 HWY_INLINE hn::Vec<Lanes::DH> stored_half(Lanes x, Rounding rounding) {
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+  // The bits of -0 and of the negative numbers down to -2^-25, which all become 0, are the least of all as signed integers. An instruction
+  // less than to look at the codes, and the conversion leaves lanes out for nothing.
+  if (rounding == Rounding::rne) {
+    const __mmask16 kept = _mm512_cmpgt_epi32_mask(_mm512_castps_si512(x.v.raw), _mm512_set1_epi32(std::bit_cast<int>(-0x1p-25f)));
+    return hn::Vec<Lanes::DH>{_mm512_maskz_cvtps_ph(kept, x.v.raw, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC)};
+  }
+#endif
   const auto codes = x.half_codes<true>(rounding);
   return hn::IfThenZeroElse(hn::Eq(codes, hn::Set(Lanes::DH(), std::uint16_t{0x8000})), codes);
 }

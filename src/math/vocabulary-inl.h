@@ -22,6 +22,12 @@ RAINREF_FN N sum_any_order_in_pairs(N a, N b, N c, N d) {
   return (a + b) + (c + d);
 }
 
+/// a - 4 b, |b| < 2^126: the product is exact. Lanes fuse the two.
+template <class N>
+RAINREF_FN N minus_four_times(N a, N b) {
+  return a - N(4.0f) * b;
+}
+
 // ---- uniforms ------------------------------------------------------------------------------------------------------
 /// a / b of two uniforms: the same for every element, but by the arithmetic of the device.
 template <class N>

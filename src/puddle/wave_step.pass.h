@@ -148,7 +148,7 @@ RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Row, 
   // In pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
   const N around =
       sum_any_order_in_pairs(element<N>(in.here, x - 1), element<N>(in.here, x + 1), element<N>(in.below, x), element<N>(in.above, x));
-  const N laplacian = around - N(4.0f) * here;
+  const N laplacian = minus_four_times(around, here);
   const bool has_rim = u.rim_damping > 0.0f;
   const N rim = has_rim ? kept_in_rim<N>(u, x, y) : N(1.0f);
   const N stored = N::load(in.previous + x);

@@ -90,9 +90,63 @@ class Rows(unittest.TestCase):
         found = [(c["row"], c["ratio"], c["ratio_best"]) for c in rows.comparisons({"rows": ours, "peers": [numba]})]
         self.assertEqual(found, [(name, 2.0, 2.0), (name + "/steps:5", 3.0, 3.0)])
 
+    def test_ratios_of_turns_come_before_those_of_medians(self):
+        name = "wave_step/corrected/rg32f/1024"
+        ours = [dict(rows.of_benchmark(ENTRY), row=name + steps, threads=1, rate=100.0) for steps in ("", "/steps:5")]
+        numba = rows.of_times("numba", name, 1, "cell", 1000, [2e-5] * 3, "", ratios={name + "/steps:5": 1.7})
+        self.assertEqual([c["ratio"] for c in rows.comparisons({"rows": ours, "peers": [numba]})], [2.0, 1.7])
+
     def test_goals_are_the_issues(self):
         of = {name: rows.goal({"peer": "lavapipe", "row": name + "/corrected"}) for name in ("composite", "edge_splash.splash", "rain_on_glass")}
         self.assertEqual(of, {"composite": 3.5, "edge_splash.splash": 6.0, "rain_on_glass": 3.0})
+
+
+class WavePeers(unittest.TestCase):
+    """A program in the place of Numba answers what each case gives it."""
+
+    def waves(self, program, ours):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "peer_wave.py"), "w", encoding="utf-8") as file:
+                file.write(program)
+            with mock.patch.object(peers, "__file__", os.path.join(folder, "peers.py")), \
+                    mock.patch.object(peers, "python_with_numpy", lambda: sys.executable):
+                return peers.waves([1, 2], 0.5, ours)
+
+    # Seconds of a step: 1, 2, 4 of the turns with as many millionths of a second a cell.
+    ANSWERS = """
+import itertools, json, sys
+turns = itertools.cycle((1, 2, 4))
+for line in sys.stdin:
+    peer, side, threads, seconds = line.split()
+    turn = next(turns) if peer == "numba" else 1
+    print(json.dumps({"seconds": [turn * 1e-6 * int(side) ** 2] * 3, "hash": "h", "version": "0"}), flush=True)
+"""
+
+    def test_the_ratio_is_the_median_of_turns(self):
+        asked = []
+
+        def ours(row, threads):
+            asked.append((row, threads))
+            return {row: (8.0, 7.0, 1.0)[len(asked) % 3 - 1]}  # millions of cells a second, beside 1, 1/2, 1/4: ratios 8, 14, 4
+
+        found, skipped = self.waves(self.ANSWERS, ours)
+        self.assertEqual(skipped, [])
+        numba = [row for row in found if row["peer"] == "numba"]
+        self.assertEqual([(r["row"], r["threads"], r["ratios"], r["goes"]) for r in numba],
+                         [(f"{peers.WAVE}{side}", threads, {f"{peers.WAVE}{side}": 8.0}, 9) for threads in (1, 2) for side in peers.SIDES])
+        self.assertEqual(len(asked), len(numba) * peers.TURNS)
+        self.assertEqual({row["rate"] for row in numba}, {0.5})
+        self.assertEqual([row["threads"] for row in found if row["peer"] == "numpy"], [1, 1, 1])
+
+    def test_a_peer_that_fails_is_named_and_the_others_stay(self):
+        program = self.ANSWERS.replace("    turn = ", "    if peer == 'numba' and threads == '2':\n        print('{\"reason\": \"no\"}', flush=True)\n        continue\n    turn = ")
+        found, skipped = self.waves(program, lambda row, threads: {row: 1.0})
+        self.assertEqual(skipped, [{"peer": "numba", "reason": "no"}])
+        self.assertEqual([(r["peer"], r["threads"]) for r in found], [("numpy", 1)] * 3 + [("numba", 1)] * 3)
+
+    def test_a_program_that_ends_is_named_by_its_last_line(self):
+        found, skipped = self.waves("raise SystemExit('broken')", lambda row, threads: {row: 1.0})
+        self.assertEqual((found, skipped), ([], [{"peer": name, "reason": "broken"} for name in ("numpy", "numba")]))
 
 
 class Frames(unittest.TestCase):

@@ -45,6 +45,8 @@
   X(smoothstep_unit, small, smoothstep(0.0f, 0.15f, fract(a)))                                                               \
   X(sum_of_three, any, sum_any_order(a, b, c))                                                                               \
   X(sum_of_four, any, sum_any_order(a, b, c, a))                                                                             \
+  X(minus_four, any, minus_four_times(a, b* N(0.25f)))                                                                       \
+  X(minus_four_moved, moved, minus_four_times(a, b* N(0.25f)))                                                               \
   X(plane_length, any, length(a, b))                                                                                         \
   X(cut, small, to_number(to_int(a)))                                                                                        \
   X(cut_floor, small, to_number(to_int(floor(a))))                                                                           \

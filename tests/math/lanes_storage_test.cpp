@@ -17,12 +17,14 @@ constexpr Rounding both[] = {Rounding::rne, Rounding::rtz};
 
 /// Numbers that meet every branch of every store: signs of zero, subnormals, ties, both ends, overflow.
 std::vector<float> numbers() {
-  std::vector<float> x = {
-      0.0f,         -0.0f,        0x1p-149f, -0x1p-149f,    0x1p-126f,  0x1p-25f,   -0x1p-25f,      0x1.000002p-25f, 0x1.8p-24f,
-      0x1.ffcp-15f, 0x1.ffep-15f, 0x1p-14f,  0.1f,          -0.1f,      1.0f / 255, 0.5f / 255,     1.5f / 255,      0.5f,
-      127.5f / 255, 0.999f,       1.0f,      -1.0f,         1.0000001f, 2.0f,       1.00048828125f, 1.00146484375f,  3.0f,
-      65504.0f,     65519.0f,     65520.0f,  65536.0f,      -65520.0f,  1e6f,       0x1p100f,       0x1.fffffep127f, -0x1.fffffep127f,
-      254.5f / 255, 1e-7f,        -1e-30f,   0x1.ffffffp-2f};
+  std::vector<float> x = {0.0f,           -0.0f,           0x1p-149f,  -0x1p-149f,     0x1p-126f,        0x1p-25f,
+                          -0x1p-25f,      0x1.000002p-25f, 0x1.8p-24f, 0x1.ffcp-15f,   0x1.ffep-15f,     0x1p-14f,
+                          0.1f,           -0.1f,           1.0f / 255, 0.5f / 255,     1.5f / 255,       0.5f,
+                          127.5f / 255,   0.999f,          1.0f,       -1.0f,          1.0000001f,       2.0f,
+                          1.00048828125f, 1.00146484375f,  3.0f,       65504.0f,       65519.0f,         65520.0f,
+                          65536.0f,       -65520.0f,       1e6f,       0x1p100f,       0x1.fffffep127f,  -0x1.fffffep127f,
+                          254.5f / 255,   1e-7f,           -1e-30f,    0x1.ffffffp-2f, -0x1.fffffep-26f, -0x1.000002p-25f,
+                          -0x1.8p-25f,    -0x1p-24f};
   for (int i = 0; i < 984; ++i) x.push_back(static_cast<float>(i * 7919 % 1009) / 1000.0f - 0.002f);
   return x;
 }
