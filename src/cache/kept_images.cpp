@@ -94,8 +94,16 @@ class Reader {
   std::uintmax_t left_;
   std::optional<Hasher> hasher_{std::in_place, 0};
 };
+/// To touch memory for the first time takes several times as long as to read a file into it, and any number of threads may.
+void touch(Image& image, const Rows& rows) {
+  constexpr std::size_t page = 4096;  // at the least
+  rows(image.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (std::size_t at = 0; at < row_bytes(image); at += page) image.row_bytes(y)[at] = std::byte{0};
+  });
+}
 /// None where it is not of this recipe, or not whole.
-std::optional<std::vector<Image>> read(const fs::path& path, const std::string& recipe) {
+std::optional<std::vector<Image>> read(const fs::path& path, const std::string& recipe, const Rows& rows) {
   Reader file(path);
   Head head;
   if (!file.read(head) || std::memcmp(head.magic, magic, sizeof magic) != 0 || head.recipe_bytes != recipe.size()) return {};
@@ -116,17 +124,18 @@ std::optional<std::vector<Image>> read(const fs::path& path, const std::string& 
   images.reserve(heads.size());
   for (const ImageHead& of : heads) {
     Image& image = images.emplace_back(static_cast<Format>(of.format), static_cast<int>(of.width), static_cast<int>(of.height));
+    touch(image, rows);
     for (int y = 0; y < image.height(); ++y)
       if (!file.read({image.row_bytes(y), row_bytes(image)})) return {};
   }
   if (file.hash() != Hash128{head.high, head.low}) return {};
   return images;
 }
-std::optional<std::vector<Image>> found(const fs::path& path, const std::string& recipe) {
+std::optional<std::vector<Image>> found(const fs::path& path, const std::string& recipe, const Rows& rows) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return {};
   try {
-    std::optional<std::vector<Image>> images = read(path, recipe);
+    std::optional<std::vector<Image>> images = read(path, recipe, rows);
     if (images)
       fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // used last
     else
@@ -228,13 +237,13 @@ fs::path folder_of_user() {
 
 namespace {
 
-std::vector<Image> kept_or_made(const Recipe& recipe, const std::function<std::vector<Image>()>& make) {
+std::vector<Image> kept_or_made(const Recipe& recipe, const std::function<std::vector<Image>()>& make, const Rows& rows) {
   const Folder& in = folder();
   const std::optional<Hash128> program = in.path.empty() ? std::nullopt : program_hash();
   if (!program) return make();
   const std::string whole = program->text() + recipe.text();
   const fs::path path = in.path / (file_hash(std::as_bytes(std::span(whole))).text() + std::string(suffix));
-  if (std::optional<std::vector<Image>> kept = found(path, whole)) return std::move(*kept);
+  if (std::optional<std::vector<Image>> kept = found(path, whole, rows)) return std::move(*kept);
   std::vector<Image> made = make();
   keep(in, path, whole, made);
   return made;
@@ -242,7 +251,7 @@ std::vector<Image> kept_or_made(const Recipe& recipe, const std::function<std::v
 
 }  // namespace
 
-std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make) {
+std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make, const Rows& rows) {
   static Remembered<std::vector<Image>>& remembered = *new Remembered<std::vector<Image>>;
   const auto copies = [](const std::vector<Image>& all) {
     std::vector<Image> copied;
@@ -250,7 +259,7 @@ std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<
     return copied;
   };
   if (const auto known = remembered.find(recipe.text())) return copies(*known);
-  std::vector<Image> all = kept_or_made(recipe, make);
+  std::vector<Image> all = kept_or_made(recipe, make, rows);
   if (remembered_bytes() == 0) return all;
   std::size_t bytes = 0;
   for (const Image& image : all) bytes += Image::memory_bytes(image.format(), image.width(), image.height());
@@ -258,12 +267,13 @@ std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<
   return all;
 }
 
-Image image(const Recipe& recipe, const std::function<Image()>& make) {
-  return std::move(images(recipe, [&] {
+Image image(const Recipe& recipe, const std::function<Image()>& make, const Rows& rows) {
+  const auto one = [&] {
     std::vector<Image> all;
     all.push_back(make());
     return all;
-  })[0]);
+  };
+  return std::move(images(recipe, one, rows)[0]);
 }
 
 }  // namespace rainref::cache

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/rows.h"
 #include "rainref/image.h"
 
 namespace rainref::cache {
@@ -36,9 +37,10 @@ void keep_in(std::filesystem::path folder, std::uintmax_t most_bytes = std::uint
 std::filesystem::path folder_of_user();
 
 /// The images of make(). Read instead where they were kept by this very program (its file's bytes count) for this recipe, and their
-/// hash says that they are whole; or a copy of what this process remembers (cache/remembered.h).
-std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make);
+/// hash says that they are whole; or a copy of what this process remembers (cache/remembered.h). rows: who makes the memory that they
+/// are read into ready.
+std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make, const Rows& rows = rows_here);
 /// The same of one image.
-Image image(const Recipe& recipe, const std::function<Image()>& make);
+Image image(const Recipe& recipe, const std::function<Image()>& make, const Rows& rows = rows_here);
 
 }  // namespace rainref::cache

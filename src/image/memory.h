@@ -13,17 +13,22 @@ inline std::uint64_t texel_bytes(int width, int height, int channels) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * static_cast<std::uint64_t>(channels) * sizeof(float);
 }
 
-/// TextureData::build_mips of texels that are held. They move once, to where all levels have room: until then both lie in memory.
-inline void hold_mips(MemoryPeak& memory, int width, int height, int channels) {
-  std::uint64_t all = texel_bytes(width, height, channels);
-  const std::uint64_t first = all;
+/// Of all levels beyond the first, down to one texel.
+inline std::uint64_t mip_bytes(int width, int height, int channels) {
+  std::uint64_t bytes = 0;
   while (width > 1 || height > 1) {
     width = std::max(1, width / 2);
     height = std::max(1, height / 2);
-    all += texel_bytes(width, height, channels);
+    bytes += texel_bytes(width, height, channels);
   }
-  memory.pass(all);
-  memory.hold(all - first);
+  return bytes;
+}
+
+/// TextureData::build_mips of texels that are held. Where they have no room for it they move once: until then both lie in memory.
+inline void hold_mips(MemoryPeak& memory, int width, int height, int channels) {
+  const std::uint64_t more = mip_bytes(width, height, channels);
+  memory.pass(texel_bytes(width, height, channels) + more);
+  memory.hold(more);
 }
 
 }  // namespace rainref

@@ -30,7 +30,8 @@ Image Street::panorama(int width, int height, const scene::Vector3& eye, const p
   cache::Recipe recipe("night_street panorama");
   recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
   recipe.add({eye.x, eye.y, eye.z});
-  return cache::image(recipe, [&] { return traced(width, height, eye, executor); });
+  return cache::image(
+      recipe, [&] { return traced(width, height, eye, executor); }, parallel::rows_of(executor));
 }
 
 Image Street::traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "image/colour.h"
+#include "image/memory.h"
 #include "math/constants.h"
 #include "rainref/error.h"
 
@@ -21,7 +22,12 @@ zeroed::Array<float> recode(const Image& image, bool is_encoded, Variant variant
   if (!is_plain) decoded.emplace(image, Address::clamp, Address::clamp, rows);
   const int c = image.channels();
   const std::size_t width = static_cast<std::size_t>(image.width());
-  zeroed::Array<float> out(width * image.height() * 4);
+  const std::size_t texels = width * image.height() * 4;
+  zeroed::Array<float> out;
+  // With room for what build_mips adds, or all would move: memory touched for the first time is most of the time that a scene takes to
+  // begin.
+  out.reserve(texels + (variant == Variant::corrected ? mip_bytes(image.width(), image.height(), 4) / sizeof(float) : 0));
+  out.resize(texels);
   rows(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       const std::size_t first = static_cast<std::size_t>(y) * width;

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/read_file.h"
 #include "base/temporary_folder.h"
+#include "cache/program.h"
 
 namespace rainref::cache {
 namespace {
@@ -55,6 +57,26 @@ class KeptImages : public testing::Test {
   TemporaryFolder folder;
   int made = 0;
 };
+
+TEST_F(KeptImages, AreReadWhoeverMakesTheirMemoryReady) {
+  get(1);
+  std::vector<int> asked;
+  const Rows one_by_one = [&](int count, const std::function<void(int, int)>& body) {
+    for (int y = count; y-- > 0;) asked.push_back(y), body(y, y + 1);
+  };
+  const std::vector<Image> read = images(
+      Recipe("pattern").add({1.0}), [&] { return pattern(++made); }, one_by_one);
+  EXPECT_TRUE(same(read, pattern(1)));
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(asked.size(), 3u * 7u);
+}
+
+TEST(Program, ItsHashIsThatOfItsFile) {
+  const std::vector<std::byte> file = read_file("/proc/self/exe");
+  ASSERT_GT(file.size(), std::size_t{1} << 17);  // several pieces, the last one short
+  ASSERT_TRUE(program_hash());
+  EXPECT_EQ(*program_hash(), file_hash(file));
+}
 
 TEST_F(KeptImages, AreMadeOnceAndReadAfterwards) {
   for (int k = 0; k < 3; ++k) ASSERT_TRUE(same(get(1), pattern(1)));
