@@ -1,6 +1,6 @@
 // Sweeps the conversion to binary16 over all 2^32 floats: the integer rule against the processor's own conversion
-// (F16C), and the lanes of every SIMD target against the integer rule, to nearest and toward zero. A minute or two; not
-// part of the default tests.
+// (F16C), and the lanes of every SIMD target and what they store against the integer rule, to nearest and toward zero.
+// Some minutes; not part of the default tests.
 //
 //   half_full [--stride N]
 //
@@ -18,6 +18,7 @@
 #include "math/half.h"
 #include "math/half_array.h"
 #include "math/half_hardware.h"
+#include "math/lanes_kernels.h"
 #include "math/simd_target.h"
 
 namespace rainref::test {
@@ -92,6 +93,17 @@ int run(int argc, char** argv) {
           if (lanes[i].bits != rule[i].bits) tally.differs(finite[i], lanes[i].bits, rule[i].bits);
         }
         tally.checked += block_size;
+
+        Tally& stores = tallies[fmt::format("{} stores against rule, {}", target, name(rounding))];
+        const Timer of_stores(stores.seconds);
+        const int count = lane_count();
+        for (std::size_t i = 0; i < block_size; i += static_cast<std::size_t>(count))
+          store_by_lanes(lanes.data() + i, finite.data() + i, rounding, count);
+        for (std::size_t i = 0; i < block_size; ++i) {
+          const std::uint16_t expected = rule[i].bits == 0x8000 ? 0 : rule[i].bits;  // nothing stored is -0
+          if (lanes[i].bits != expected) stores.differs(finite[i], lanes[i].bits, expected);
+        }
+        stores.checked += block_size;
       }
     }
   }
