@@ -3,6 +3,7 @@
 Run by the bench with the system's Python: reads requests, PEER SIDE THREADS SECONDS a line, and answers each with a line of JSON, either
 {"seconds", "hash", "version"} or {"reason"}. Arithmetic of the corrected wave_step in float, with the edge repeated by a border of one texel.
 """
+import functools
 import hashlib
 import json
 import sys
@@ -25,6 +26,7 @@ def repeat_edge(level):
     level[:, 0], level[:, -1] = level[:, 1], level[:, -2]
 
 
+@functools.cache
 def numba_step():
     import numba
 
@@ -61,29 +63,24 @@ def measure(step, side, seconds):
     return goes, digest
 
 
-def steps():
-    """For each peer how its step is made ready for so many threads, and its version."""
-    def with_numpy(_):
-        return numpy_step, np.__version__
+def with_numpy(_):
+    return numpy_step, np.__version__
 
-    made = []
 
-    def with_numba(threads):
-        import numba
-        if not made:
-            made.append(numba_step())
-        numba.set_num_threads(min(threads, numba.config.NUMBA_NUM_THREADS))
-        return made[0], numba.__version__
+def with_numba(threads):
+    import numba
+    numba.set_num_threads(min(threads, numba.config.NUMBA_NUM_THREADS))
+    return numba_step(), numba.__version__
 
-    return {"numpy": with_numpy, "numba": with_numba}
+
+PEERS = {"numpy": with_numpy, "numba": with_numba}  # of so many threads: the step and its version
 
 
 def main():
-    peers = steps()
     for line in sys.stdin:
         peer, side, threads, seconds = line.split()
         try:
-            step, version = peers[peer](int(threads))
+            step, version = PEERS[peer](int(threads))
             goes, digest = measure(step, int(side), float(seconds))
             answer = {"seconds": goes, "hash": digest, "version": version}
         except Exception as problem:  # whatever a broken installation raises, other requests are answered

@@ -1,7 +1,8 @@
 """Rows of the bench: what Google Benchmark's JSON and the peers give, in one shape.
 
 A row is {"row", "threads", "unit", "best_ms", "q1_ms", "median_ms", "q3_ms", "goes", "rate", "hash"}; "rate" is of the median, in millions
-of items a second. Ours may have "stream_percent", which is of the fastest go; peers have "peer" and "version".
+of items a second. Ours may have "stream_percent", which is of the fastest go; peers have "peer" and "version", Numba's
+"ratios", of each row of ours that was measured in turns with it.
 """
 import re
 

@@ -94,7 +94,7 @@ class Reader {
   std::uintmax_t left_;
   std::optional<Hasher> hasher_{std::in_place, 0};
 };
-/// To touch memory for the first time takes several times as long as to read a file into it, and any number of threads may.
+/// To touch memory for the first time takes longer than to read a file into it, and any number of threads may.
 void touch(Image& image, const Rows& rows) {
   constexpr std::size_t page = 4096;  // at the least
   rows(image.height(), [&](int begin, int end) {

@@ -25,7 +25,7 @@ std::string mapped_file(const void* address) {
   return {};
 }
 
-/// None where it cannot be read. Piece by piece: to touch as much memory as a program is long takes ten times as long as to read it.
+/// None where it cannot be read. Piece by piece: to touch as much memory as a program is long takes longer than to read it.
 std::optional<Hash128> hash_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return {};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "base/memory.h"
 
@@ -13,10 +14,10 @@ inline std::uint64_t texel_bytes(int width, int height, int channels) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * static_cast<std::uint64_t>(channels) * sizeof(float);
 }
 
-/// Of all levels beyond the first, down to one texel.
-inline std::uint64_t mip_bytes(int width, int height, int channels) {
+/// Of the levels beyond the first: down to one texel, or fewer where there are to be so many in all.
+inline std::uint64_t mip_bytes(int width, int height, int channels, int levels = std::numeric_limits<int>::max()) {
   std::uint64_t bytes = 0;
-  while (width > 1 || height > 1) {
+  for (; levels > 1 && (width > 1 || height > 1); --levels) {
     width = std::max(1, width / 2);
     height = std::max(1, height / 2);
     bytes += texel_bytes(width, height, channels);

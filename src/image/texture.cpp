@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "image/memory.h"
 #include "math/half.h"
 #include "math/unorm.h"
 #include "rainref/error.h"
@@ -101,13 +102,8 @@ void TextureData::set_border(float r, float g, float b, float a) {
 }
 
 void TextureData::build_mips(int levels, const Rows& rows) {
-  std::size_t whole = texels_.size();
-  for (int w = view_.width[view_.levels - 1], h = view_.height[view_.levels - 1], l = view_.levels; l < levels && (w > 1 || h > 1); ++l) {
-    w = std::max(1, w / 2);
-    h = std::max(1, h / 2);
-    whole += static_cast<std::size_t>(w) * h * view_.channels;
-  }
-  texels_.reserve(whole);
+  const int last = view_.levels - 1;
+  texels_.reserve(texels_.size() + mip_bytes(view_.width[last], view_.height[last], view_.channels, levels - last) / sizeof(float));
   while (view_.levels < levels && (view_.width[view_.levels - 1] > 1 || view_.height[view_.levels - 1] > 1)) {
     const int above = view_.levels - 1, c = view_.channels;
     const int w0 = view_.width[above], h0 = view_.height[above], w = std::max(1, w0 / 2), h = std::max(1, h0 / 2);

@@ -24,8 +24,7 @@ zeroed::Array<float> recode(const Image& image, bool is_encoded, Variant variant
   const std::size_t width = static_cast<std::size_t>(image.width());
   const std::size_t texels = width * image.height() * 4;
   zeroed::Array<float> out;
-  // With room for what build_mips adds, or all would move: memory touched for the first time is most of the time that a scene takes to
-  // begin.
+  // With room for what build_mips adds, or all would move.
   out.reserve(texels + (variant == Variant::corrected ? mip_bytes(image.width(), image.height(), 4) / sizeof(float) : 0));
   out.resize(texels);
   rows(image.height(), [&](int begin, int end) {
