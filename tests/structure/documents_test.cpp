@@ -1,11 +1,10 @@
-// The documents: links and anchors resolve, commands name verbs that exist, and what a user reads stays short.
+// The documents: links and anchors resolve, and commands name verbs that exist.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -16,10 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 const fs::path root = RAINREF_SOURCE_DIR;
-
-// Words of README.md and docs, but for docs/notes and the page of pictures that scripts/gallery writes from the scenes' own sentences; and
-// of the two documents for contributors.
-constexpr int most_words_of_users = 12000, most_words_of_contributors = 2500;
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file);
@@ -71,16 +66,6 @@ Parts spans_of(const std::string& prose) {
     (is_code ? parts.code : parts.prose) += c == '`' ? '\n' : c;
   }
   return parts;
-}
-
-/// A word has a letter or a digit; code blocks have none.
-int words_of(const std::string& text) {
-  std::istringstream words(parts_of(text).prose);
-  int count = 0;
-  for (std::string word; words >> word;) {
-    count += std::any_of(word.begin(), word.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
-  }
-  return count;
 }
 
 /// The anchor that a heading gets: lower case, hyphens for spaces, no punctuation.
@@ -209,21 +194,6 @@ TEST(Documents, SourcesNameDocumentsThatExist) {
   EXPECT_GT(checked, 10);
 }
 
-TEST(Documents, AreShort) {
-  std::map<std::string, int> of_users;
-  int users = 0, contributors = 0;
-  for (const fs::path& document : documents()) {
-    const std::string name = name_of(document);
-    if (name.starts_with("docs/notes/") || name.starts_with("docs/gallery/")) continue;
-    const int words = words_of(text_of(document));
-    if (name == "README.md" || name.starts_with("docs/")) users += of_users[name] = words;
-    if (name == "ARCHITECTURE.md" || name == "CONTRIBUTING.md") contributors += words;
-  }
-  EXPECT_LE(users, most_words_of_users) << testing::PrintToString(of_users);
-  EXPECT_LE(contributors, most_words_of_contributors);
-  EXPECT_GT(users, 1000);
-}
-
 /// Why what stands in backticks in docs/notes/seeds.md is nowhere, or "": a file, a scene key of an effect, or a suite of tests.
 std::string missing_place(const std::string& place, const std::string& manifests, const std::string& tests) {
   if (place.find('/') != std::string::npos && std::regex_search(place, std::regex("\\.(h|cpp|toml)$")))
@@ -283,7 +253,6 @@ TEST(Documents, TheChecksRefuse) {
   EXPECT_EQ(links_of("[a](b.md) `[c](d.md)`\n```\n[e](f.md)\n```\n"), std::vector<std::string>{"b.md"});
   EXPECT_EQ(called_verbs("`rainref list`, `rainref` `is`, rainref is\n```\nrainref run x\n```\n"),
             (std::vector<std::string>{"run", "list"}));
-  EXPECT_EQ(words_of("one = `two`, 3\n```\nfour\n```\n"), 3);
 }
 
 // README.md's program is one that an installation's tests compile and run.
