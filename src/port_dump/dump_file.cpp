@@ -22,15 +22,16 @@ struct RefusedType {
   const char* extension;
   const char* reason;
 };
-constexpr std::array<RefusedType, 9> refused_types{{{".jpg", "JPEG is lossy"},
-                                                    {".jpeg", "JPEG is lossy"},
-                                                    {".hdr", "Radiance HDR keeps 8 bits and a shared exponent of each value"},
-                                                    {".rgbe", "Radiance HDR keeps 8 bits and a shared exponent of each value"},
-                                                    {".bmp", "BMP writers change the channels (RenderDoc makes RGB of R8)"},
-                                                    {".tga", "TGA writers change the channels"},
-                                                    {".tif", "TIFF is not read"},
-                                                    {".tiff", "TIFF is not read"},
-                                                    {".ktx2", "KTX2 is not read"}}};
+constexpr std::array<RefusedType, 9> refused_types{
+    {{".jpg", "JPEG is lossy"},
+     {".jpeg", "JPEG is lossy"},
+     {".hdr", "Radiance HDR keeps 8 bits and a shared exponent of each value, and nothing below 0"},
+     {".rgbe", "Radiance HDR keeps 8 bits and a shared exponent of each value, and nothing below 0"},
+     {".bmp", "BMP writers change the channels (RenderDoc makes RGB of R8)"},
+     {".tga", "TGA writers change the channels"},
+     {".tif", "TIFF is not read"},
+     {".tiff", "TIFF is not read"},
+     {".ktx2", "KTX2 is not read"}}};
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ExitCode::port_files, message); }
 

@@ -18,7 +18,7 @@ std::vector<ExrChannel> rgba(ExrType type) {
   return {{"A", type, sample}, {"B", type, sample}, {"G", type, sample}, {"R", type, sample}};
 }
 
-// Older RenderDoc, and Unity's EncodeToEXR without OutputAsFloat, write halves of a float target.
+// RenderDoc before its pull request 1631, and Unity's EncodeToEXR without OutputAsFloat, write halves of a float target.
 TEST(Traps, AnExrOfHalvesFromAFloatBuffer) {
   EXPECT_THAT(Dump().file("out.b.exr", exr({0, 0, 2, 1}, rgba(ExrType::half))).refusal(image(Format::rgba32f, 2, 1)),
               HasSubstr("expected rgba32f as floats, found halves: the exporter has rounded; export floats"));
@@ -49,12 +49,36 @@ TEST(Traps, PaddedRows) {
   EXPECT_THAT(Dump().file("out.b.npy", npy("'<f4'", "(2, 64)", bytes)).refusal(expected), HasSubstr("expected 3x2 texels, found 64x2"));
 }
 
-// RenderDoc saves an OpenGL target from the bottom row up, whatever its view shows; the pass may count v from the top.
+// RenderDoc's EXR holds A, B, G and R in this order whatever the target has: halves of what has up to 2 bytes a component, else floats.
+TEST(Traps, AnExrOfRenderDoc) {
+  Dump half, real;
+  half.file("out.b.exr", exr({0, 0, 2, 1}, rgba(ExrType::half)));
+  EXPECT_EQ(half.level(image(Format::rg16f, 2, 1)), values<std::uint16_t>({0x3c00, 0x3c00, 0x3c01, 0x3c01}));
+  EXPECT_THAT(half.notes(), ElementsAre(HasSubstr("4 channels, the buffer has 2: ba not read")));
+  real.file("out.b.exr", exr({0, 0, 2, 1}, rgba(ExrType::float32)));
+  EXPECT_EQ(real.level(image(Format::r32f, 2, 1)), values<float>({1, 2}));
+  // A 16-bit unorm target comes as halves, which hold 11 of its bits; one of 8 bits as well. Neither is the codes that were stored.
+  EXPECT_THAT(Dump().file("out.b.exr", exr({0, 0, 2, 1}, rgba(ExrType::half))).refusal(image(Format::rgba8, 2, 1)),
+              HasSubstr("expected rgba8 as 8-bit codes, found halves"));
+}
+
+// RenderDoc turns an uncompressed OpenGL texture over when it saves a file, so a pass that counts v as GL does has its first row last.
 TEST(Traps, PicturesUpsideDown) {
   PortInfo port;
   port.origin = Origin::bottom_left;
   EXPECT_EQ(Dump().file("out.b.png", png(1, 3, 8, 0, {"c", "b", "a"})).level(image(Format::r8, 1, 3), port), "abc");
   EXPECT_EQ(Dump().file("out.b.dds", DdsFile{.height = 3, .dxgi = 61}.with("cba")).level(image(Format::r8, 1, 3), port), "abc");
+}
+
+// Its GetTextureData leaves GL's order, the bottom row first: beside files that were turned over the sidecar says so.
+TEST(Traps, RawBytesOfTheSameTextureAreNotTurnedOver) {
+  PortInfo port;
+  port.origin = Origin::bottom_left;
+  EXPECT_EQ(Dump()
+                .file("out.b.bin", "abc")
+                .file("out.b.json", R"({"format": "r8", "width": 1, "height": 3, "origin": "top-left"})")
+                .level(image(Format::r8, 1, 3), port),
+            "abc");
 }
 
 // Swap chains and Windows' own formats put blue first.
@@ -67,12 +91,12 @@ TEST(Traps, BlueFirst) {
             "rgba");
 }
 
-// RenderDoc's raw files say nothing about themselves.
+// The bytes that RenderDoc's buffer viewer and GetTextureData give say nothing about themselves.
 TEST(Traps, RawBytesWithoutASidecar) {
   EXPECT_THAT(Dump().file("out.b.bin", "rgba").refusal(image(Format::rgba8, 1, 1)), HasSubstr("raw bytes need 'out.b.json'"));
 }
 
-// RenderDoc stitched the slices of an array or a cube through 8 bits.
+// RenderDoc lays the slices of an array or a cube out in a grid of RGBA8, or of RGBA32F where more than 8 bits go into an EXR.
 TEST(Traps, SlicesInOneFile) {
   EXPECT_THAT(
       Dump().file("out.b.dds", DdsFile{.dxgi = 10, .array_size = 2}.with(std::string(16, 'x'))).refusal(image(Format::rgba16f, 1, 1)),
@@ -81,7 +105,7 @@ TEST(Traps, SlicesInOneFile) {
               HasSubstr("expected 1x1 texels, found 1x6"));
 }
 
-// RenderDoc wrote a one-channel target as RGB.
+// RenderDoc saved a one-channel target as RGB; BMP has no other form.
 TEST(Traps, OneChannelSavedAsThree) {
   Dump dump;
   dump.file("out.b.png", png(2, 1, 8, 2, {"aaabbb"}));
@@ -101,7 +125,8 @@ TEST(Traps, FourChannelsForOne) {
 // Unreal's and RenderDoc's HDR, anyone's JPEG, a PNG of a float target.
 TEST(Traps, LossyPictures) {
   const capture::Array expected = image(Format::rgba16f, 8, 16);
-  EXPECT_THAT(Dump().file("out.b.hdr", image_io::hdr(1, 1, {{1, 2, 3, 4}})).refusal(expected), HasSubstr("Radiance HDR keeps 8 bits"));
+  EXPECT_THAT(Dump().file("out.b.hdr", image_io::hdr(1, 1, {{1, 2, 3, 4}})).refusal(expected),
+              HasSubstr("Radiance HDR keeps 8 bits and a shared exponent of each value, and nothing below 0"));
   EXPECT_THAT(Dump().file("out.b.jpg", image_io::jpeg(1)).refusal(expected), HasSubstr("JPEG is lossy"));
   EXPECT_THAT(Dump().file("out.b.png", png(1, 1, 8, 6, {"rgba"})).refusal(image(Format::rgba16f, 1, 1)),
               HasSubstr("the exporter has quantized"));
