@@ -52,6 +52,18 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
   return out;
 }
 
+/// What a reader of a list of failures should know without opening one: how much is wrong, and the first cause in words.
+std::string failing_message(const PassJudgement& p, const OutputJudgement& o) {
+  std::string out = fmt::format("{} of {} {} outside", o.failing, o.elements, element_word(o));
+  if (!p.causes.empty()) {
+    const Cause& c = p.causes.front();
+    out += fmt::format("; {}: {}: {}", cause_word(c), c.name, c.sentence);
+  } else if (has_unknown_cause(p)) {
+    out += "; cause unknown";
+  }
+  return out;
+}
+
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 /// What is wrong with the files of a run.
 std::string files_text(const PortJudgement& j, const std::string& id) {
@@ -66,8 +78,8 @@ Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgeme
   t.name = fmt::format("{}/out.{}", c.id, o.name);
   if (o.failing > 0) {
     t.outcome = o.known.empty() ? Test::failed : Test::skipped;
-    t.message = o.known.empty() ? fmt::format("{} of {} {} outside", o.failing, o.elements, element_word(o))
-                                : fmt::format("known: {} ({} of {} {} outside)", o.known, o.failing, o.elements, element_word(o));
+    t.message = failing_message(p, o);
+    if (!o.known.empty()) t.message = fmt::format("known: {} ({})", o.known, t.message);
     t.text = failing_text(p, o);
   } else if (c.status == Status::untested) {
     t.outcome = untested;
@@ -99,10 +111,9 @@ Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome unt
   const Figures f = figures_of(p);
   suite.remark = fmt::format("{} {}\n", name(p.status), p.reason);
   if (f.elements > 0) {
-    suite.remark +=
-        fmt::format("bounded {}, median width {} codes, 99 % below {}, ambiguous {}, vacuous {}, loose {}, atypical {}, free {}\n",
-                    share_text(f.bounded(), f.judged()), width_text(f.median_width), width_text(f.p99_width), f.ambiguous,
-                    share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged()), f.atypical, f.free);
+    suite.remark += fmt::format("bounded {}, median width {}, 99 % below {}, ambiguous {}, vacuous {}, loose {}, atypical {}, free {}\n",
+                                share_text(f.bounded(), f.judged()), width_text(f.median_width), width_text(f.p99_width), f.ambiguous,
+                                share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged()), f.atypical, f.free);
   }
   if (const std::string half = half_text(p); !half.empty()) suite.remark += half + "\n";
   return suite;
