@@ -50,7 +50,7 @@ std::string range_and_unit(const Parameter& p) {
 
 std::string notes(const Parameter& p) {
   std::string out = p.sentence;
-  if (!p.choices.empty()) out += fmt::format(" One of '{}'.", fmt::join(p.choices, "', '"));
+  if (p.type == Type::choice) out += fmt::format(" One of '{}'.", fmt::join(p.choices, "', '"));
   for (const auto& [variant, value] : p.variant_defaults) {
     out += fmt::format(" Default of variant '{}': {}.", variant, value_text(value));
   }

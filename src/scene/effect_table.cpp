@@ -26,7 +26,7 @@ Parameter effect_parameter(const EffectTable& table) {
 
 Parameter variant_parameter(const Effect& effect) {
   return choice("variant", effect.variants, "",
-                "Which reading of the effect: its source with all defects, or with every known defect corrected.")
+                "The arithmetic of the effect: its source's with all defects, or with every known defect corrected.")
       .required();
 }
 

@@ -88,7 +88,9 @@ void validate(const Parameter& p, std::span<const std::string> variants) {
   if (!well_formed_key(p.key)) broken(p, "malformed key");
   if (p.sentence.empty()) broken(p, "no sentence");
   if (!(p.minimum <= p.maximum)) broken(p, "empty range");
-  if ((p.type == Type::choice) != !p.choices.empty()) broken(p, "a choice has choices, and nothing else has");
+  const bool may_have_choices = p.type == Type::choice || p.type == Type::integer;
+  if (p.choices.empty() ? p.type == Type::choice : !may_have_choices)
+    broken(p, "a choice has choices, an integer may have some, and nothing else has");
   for (const std::string& variant : p.variants) {
     if (!contains(variants, variant)) broken(p, fmt::format("no variant '{}'", variant));
   }
@@ -202,6 +204,7 @@ int components(Type type) {
 bool accepts(const Parameter& p, const Value& value) {
   if (value.index() != alternative(p.type)) return false;
   if (p.type == Type::choice) return contains(p.choices, std::get<std::string>(value));
+  if (!p.choices.empty() && !contains(p.choices, fmt::format("{}", std::get<std::int64_t>(value)))) return false;
   return std::visit(
       [&](const auto& v) {
         using T = std::decay_t<decltype(v)>;
@@ -215,6 +218,10 @@ bool accepts(const Parameter& p, const Value& value) {
 
 std::string range_text(const Parameter& p) {
   if (components(p.type) == 0) return "";
+  if (!p.choices.empty()) {
+    const std::span<const std::string> others(p.choices.begin(), p.choices.end() - 1);
+    return fmt::format("{}{}{}", fmt::join(others, ", "), others.empty() ? "" : " or ", p.choices.back());
+  }
   const bool low = p.minimum > -none, high = p.maximum < none;
   if (low && high) return fmt::format("{} to {}", bound_text(p, p.minimum), bound_text(p, p.maximum));
   if (low) return fmt::format("at least {}", bound_text(p, p.minimum));
@@ -228,9 +235,10 @@ std::string expectation(const Parameter& p) {
   if (p.type == Type::choice) return fmt::format("one of '{}'", fmt::join(p.choices, "', '"));
   if (p.type == Type::text) return "text";
   const bool is_integer = p.type == Type::integer || p.type == Type::integer2;
-  std::string words =
-      count > 1 ? fmt::format("{} {}s", count, is_integer ? "integer" : "number") : std::string(is_integer ? "an integer" : "a number");
-  const std::string range = range_text(p);
+  std::string words = !p.choices.empty() ? range_text(p)
+                      : count > 1        ? fmt::format("{} {}s", count, is_integer ? "integer" : "number")
+                                         : std::string(is_integer ? "an integer" : "a number");
+  const std::string range = p.choices.empty() ? range_text(p) : "";
   if (!range.empty()) words += (range.starts_with("at ") ? " of " : " from ") + range;
   if (!p.unit.empty()) words += fmt::format(" [{}]", p.unit);
   return words;

@@ -30,7 +30,7 @@ struct Parameter {
   double maximum;    ///< inclusive, of each component; +infinity for none
   Value default_value;
   std::string sentence;
-  std::vector<std::string> choices;   ///< of Type::choice
+  std::vector<std::string> choices;   ///< of Type::choice; of an integer: what it may be where that is not all of its range
   std::vector<std::string> variants;  ///< the variants that use it; empty = every one
   std::vector<std::pair<std::string, Value>> variant_defaults;
   bool is_required = false;  ///< a scene must give it; default_value has no meaning then

@@ -4,17 +4,25 @@
 
 #include <fmt/format.h>
 
-#include "rainref/error.h"
 #include "scene/variant_names.h"
 
 namespace rainref::truth {
+namespace {
+
+scene::Parameter samples_parameter() {
+  scene::Parameter p = scene::integer("compositor.samples", "1", sample_counts.front(), sample_counts.back(), 1, "Traced rays of a pixel.");
+  for (const int count : sample_counts) p.choices.push_back(fmt::format("{}", count));
+  return p;
+}
+
+}  // namespace
 
 std::vector<scene::Parameter> parameters() {
   using scene::correct;
   return {
       scene::choice("compositor.picture", {"passes", "traced"}, "passes", "What is shown: the passes' picture, or one that is traced.")
           .only(correct),
-      scene::integer("compositor.samples", "1", 1, 16, 1, "Traced rays of a pixel: 1, 4, 8 or 16.").only(correct),
+      samples_parameter().only(correct),
       scene::integer("compositor.depth", "1", 1, 64, 8, "Surfaces that a traced ray may meet one after the other.").only(correct),
       scene::text("compositor.embree_config", "", "Configuration of Embree, such as isa=sse2; it changes no bit.").only(correct),
   };
@@ -39,13 +47,6 @@ Choice choice_from(const scene::Config& config) {
   c.picture.samples = static_cast<int>(config.integer("compositor.samples"));
   c.picture.shading.depth = static_cast<int>(config.integer("compositor.depth"));
   c.tracer.embree_config = config.text("compositor.embree_config");
-  try {
-    samples(c.picture.samples);
-  } catch (const Error& e) {
-    const scene::Origin& origin = config.entry("compositor.samples").origin;
-    if (origin.kind == scene::Origin::file) throw Error(e.code(), origin.at, e.what());
-    throw Error(e.code(), fmt::format("--set {}", e.what()));
-  }
   return c;
 }
 

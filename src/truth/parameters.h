@@ -21,8 +21,7 @@ struct Choice {
   PictureOptions picture;
   TracerOptions tracer;
 };
-/// What a scene chose; where these parameters are not declared, the passes' picture. Throws Error(usage) for a
-/// number of samples that has no pattern.
+/// What a scene chose; where these parameters are not declared, the passes' picture.
 Choice choice_from(const scene::Config& config);
 
 }  // namespace rainref::truth

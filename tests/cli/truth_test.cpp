@@ -52,7 +52,9 @@ TEST_F(Truth, WhatCannotBeComparedIsRefused) {
                  HasSubstr("--compare-truth: puddle as-published has no traced truth"));
   expect_refusal({"run", "published.toml", "-o", "o", "--set", "compositor.picture=traced"}, 2, HasSubstr("compositor.picture"));
   expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "compositor.picture=traced", "--set", "compositor.samples=3"}, 2,
-                 HasSubstr("--set compositor.samples: expected 1, 4, 8 or 16, found 3"));
+                 HasSubstr("--set compositor.samples: expected 1, 4, 8 or 16 [1], found 3"));
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "compositor.samples=32"}, 2,
+                 HasSubstr("--set compositor.samples: expected 1, 4, 8 or 16 [1], found 32"));
   expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "compositor.picture=painted"}, 2, HasSubstr("'passes', 'traced'"));
   expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "compositor.picture=traced", "--set", "compositor.surroundings=street"}, 2,
                  HasSubstr("compositor.surroundings: expected \"picture\""));

@@ -17,6 +17,11 @@ std::string validated(const std::vector<Parameter>& table) {
   return error_of([&] { validate(table, variants); });
 }
 
+Parameter among(Parameter p, std::vector<std::string> choices) {
+  p.choices = std::move(choices);
+  return p;
+}
+
 TEST(Parameter, ExpectationSaysTypeRangeAndUnit) {
   EXPECT_EQ(expectation(real("a", "1", 0.95, 0.999, 0.99, "s")), "a number from 0.95 to 0.999 [1]");
   EXPECT_EQ(expectation(real("a", "m", 0, infinity, 0, "s")), "a number of at least 0 [m]");
@@ -42,6 +47,17 @@ TEST(Parameter, AcceptsItsTypeInItsInclusiveRange) {
   EXPECT_TRUE(accepts(v, Real3{-1, 0, 2}));
   EXPECT_FALSE(accepts(v, Real3{0, 0, 3}));
   EXPECT_FALSE(accepts(v, Real2{0, 0}));
+}
+
+// As the samples of a traced pixel, which have patterns for some numbers alone.
+TEST(Parameter, AnIntegerMayHaveChoices) {
+  const Parameter p = among(integer("a", "1", 1, 16, 1, "s"), {"1", "4", "8", "16"});
+  EXPECT_EQ(expectation(p), "1, 4, 8 or 16 [1]");
+  EXPECT_EQ(range_text(p), "1, 4, 8 or 16");
+  for (const std::int64_t v : {1, 4, 8, 16}) EXPECT_TRUE(accepts(p, v)) << v;
+  for (const std::int64_t v : {0, 2, 15, 17, 32}) EXPECT_FALSE(accepts(p, v)) << v;
+  EXPECT_FALSE(accepts(p, std::string("4")));
+  EXPECT_EQ(validated({p}), "none");
 }
 
 TEST(Parameter, AnUnboundedRealStillRefusesWhatIsNotFinite) {
@@ -93,7 +109,10 @@ TEST(ValidateParameters, RefusesATableThatContradictsItself) {
   EXPECT_EQ(validated({real("a", "1", 1, 0, 0.5, "s")}), "5 parameter 'a': empty range");
   EXPECT_EQ(validated({real("a", "1", nan_value, 1, 0.5, "s")}), "5 parameter 'a': empty range");
   EXPECT_EQ(validated({real("a", "1", 0, 1, 0.5, "")}), "5 parameter 'a': no sentence");
-  EXPECT_EQ(validated({choice("a", {}, "", "s")}), "5 parameter 'a': a choice has choices, and nothing else has");
+  EXPECT_EQ(validated({choice("a", {}, "", "s")}), "5 parameter 'a': a choice has choices, an integer may have some, and nothing else has");
+  EXPECT_EQ(validated({among(text("a", "", "s"), {"x"})}),
+            "5 parameter 'a': a choice has choices, an integer may have some, and nothing else has");
+  EXPECT_EQ(validated({among(integer("a", "", 1, 16, 2, "s"), {"1", "4"})}), "5 parameter 'a': default 2, expected 1 or 4");
   EXPECT_EQ(validated({choice("a", {"x"}, "y", "s")}), "5 parameter 'a': default \"y\", expected one of 'x'");
 }
 

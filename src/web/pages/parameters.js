@@ -116,7 +116,7 @@ export class Parameters {
   /// Puts the inputs of a parameter into `inputs`; gives the function that shows a value.
   #inputs(parameter, standard, id, inputs, change) {
     const {type, minimum, maximum, choices} = parameter;
-    if (type === "choice" || type === "boolean") {
+    if (choices || type === "boolean") {  // an integer may have choices, too
       const isFlag = type === "boolean";
       const input = isFlag ? element("input", [], {type: "checkbox", id}) : element("select", choices.map(choice => element("option", choice)), {id});
       input.onchange = () => change(isFlag ? String(input.checked) : tomlValue(type, input.value));
