@@ -23,11 +23,11 @@ Wetting wetting(const Settings& s) { return {s.advancing_deg * pi / 180, s.reced
 std::vector<SizeCell> sizes_in_air(const Settings& s, double rate) {
   std::vector<SizeCell> out;
   if (!s.corrected || rate == 0) return out;
-  const double lambda = rain::DropSizes(rate, s.smallest_drop).lambda();
+  const rain::DropSizes sizes(rate, s.smallest_drop);
   const double h = (rain::DropSizes::largest_mm - s.smallest_drop) / cells;
   for (int i = 0; i < cells; ++i) {
     const double d = s.smallest_drop + (i + 0.5) * h;
-    out.push_back({d, 8000 * exp_real(Real64(-lambda * d)).v * h, rain::terminal_velocity(d)});
+    out.push_back({d, sizes.number(d) * h, rain::terminal_velocity(d)});
   }
   return out;
 }

@@ -51,9 +51,11 @@ DropSizes::DropSizes(double rate_mm_per_h, double smallest_mm) : rate_(rate_mm_p
   for (int i = 0; i < cells; ++i) flux_ += density(smallest_ + (i + 0.5) * h) * h;
 }
 
-double DropSizes::density(double diameter_mm) const {
-  return drops_of_no_size * exp_real(Real64(-lambda_ * diameter_mm)).v * terminal_velocity(diameter_mm);
+double DropSizes::number(double diameter_mm) const {
+  return rate_ == 0 ? 0 : drops_of_no_size * exp_real(Real64(-lambda_ * diameter_mm)).v;
 }
+
+double DropSizes::density(double diameter_mm) const { return number(diameter_mm) * terminal_velocity(diameter_mm); }
 
 double DropSizes::in_air(double diameter_mm) const {
   return rate_ == 0 ? 0 : drops_of_no_size / lambda_ * exp_real(Real64(-lambda_ * diameter_mm)).v;

@@ -22,6 +22,8 @@ class DropSizes {
   double flux() const { return flux_; }
   /// Lambda [1/mm].
   double lambda() const { return lambda_; }
+  /// N(D), drops in the air by diameter [1/m^3/mm]; 0 without rain.
+  double number(double diameter_mm) const;
   /// Drops in the air of at least this diameter [1/m^3].
   double in_air(double diameter_mm) const;
   /// The water that these drops bring [mm/h]. From 1 to 100 mm/h it is above the rate asked for by 3 to 19 %: that is the

@@ -85,6 +85,19 @@ TEST(DropSizes, FluxIsTheIntegralOfTheFormulas) {
   }
 }
 
+// N(D) = N(0) exp(-Lambda D), whose integral from D on is N(D) / Lambda.
+TEST(DropSizes, NumberIsTheFormulaAndInAirItsIntegral) {
+  for (const double rate : {1.0, 20.0, 100.0}) {
+    const DropSizes drops(rate, 0.5);
+    EXPECT_EQ(drops.number(0), 8000);
+    for (const double d : {0.5, 1.0, 3.0}) {
+      EXPECT_NEAR(drops.number(d), 8000 * std::exp(-drops.lambda() * d), 1e-9);  // a few units in the last place of 8000
+      EXPECT_NEAR(drops.in_air(d), drops.number(d) / drops.lambda(), 1e-9);
+    }
+  }
+  EXPECT_EQ(DropSizes(0, 0.5).number(1), 0);
+}
+
 TEST(DropSizes, WaterIsAboveTheRateByTheKnownAmount) {
   const double table[][3] = {{1, 1.18, .005}, {5, 5.90, .005}, {10, 11.64, .005}, {25, 28.3, .05}, {50, 54.8, .05}, {100, 105.1, .05}};
   for (const auto& [rate, water, digits] : table) {
