@@ -20,14 +20,15 @@ double nearest(double time, double grid) {
 }  // namespace
 
 std::vector<scene::Parameter> surface_parameters(const std::string& prefix) {
+  const SurfaceSettings standard;
   const auto key = [&](const char* name) { return prefix + "." + name; };
   return {
       scene::real(
-          key("height_tau"), "s", 0, 600, 0,
+          key("height_tau"), "s", 0, 600, standard.height_tau,
           "Time in which the height texture falls to 1/e where no drop stands, so that drops leave trails; 0: it is cleared each frame.")
           .only(published),
-      scene::real(key("wipe_strength"), "mm", 0, 1000, 10, "What a blade takes off the height.").only(published),
-      scene::real(key("mask_tau"), "s", 0.01, 600, 4, "Time in which the mask of freshly wiped glass falls to 1/e."),
+      scene::real(key("wipe_strength"), "mm", 0, 1000, standard.wipe_strength, "What a blade takes off the height.").only(published),
+      scene::real(key("mask_tau"), "s", 0.01, 600, standard.mask_tau, "Time in which the mask of freshly wiped glass falls to 1/e."),
   };
 }
 void read_surface(const scene::Config& config, const std::string& prefix, SurfaceSettings& s) {
