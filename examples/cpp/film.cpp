@@ -3,7 +3,7 @@
 
 int main() {
   rainref::parallel::Executor threads;
-  rainref::Simulation rain({"", {"effect=edge_splash", "run.size=[640, 360]"}}, threads);  // or read_scene("x.toml")
+  rainref::Simulation rain({.set = {"effect=edge_splash", "run.size=[640, 360]"}}, threads);  // or read_scene("x.toml")
   for (int frame = 0; frame < 10; ++frame) rain.next_frame();
   rain.write_png("splashes.png");
 }

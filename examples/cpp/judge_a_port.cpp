@@ -23,7 +23,7 @@ std::vector<std::uint8_t> my_display(const rainref::Cases& cases, std::size_t in
 
 int main() try {
   const rainref::parallel::Executor threads;
-  rainref::Simulation rain({"", {"effect=edge_splash", "run.size=[96, 54]"}}, threads);
+  rainref::Simulation rain({.set = {"effect=edge_splash", "run.size=[96, 54]"}}, threads);
   rainref::Cases cases(rain);
   for (int frame = 0; frame < 2; ++frame) cases.add_next_frame(rain, {"display"});
   for (std::size_t i = 0; i < cases.size(); ++i) {

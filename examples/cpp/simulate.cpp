@@ -13,7 +13,7 @@ namespace {
 
 void tell(const std::string& effect, std::vector<std::string> keys, const parallel::Executor& executor) {
   keys.insert(keys.end(), {"effect=" + effect, "run.size=[32, 18]"});
-  Simulation scene({"", keys}, executor);
+  Simulation scene({.set = keys}, executor);
   scene.simulate();
   scene.next_frame();
   std::printf("%s %d:", scene.effect().c_str(), scene.frame());
@@ -35,7 +35,7 @@ int main() try {
   tell("puddle", {"environment.width=64"}, executor);  // the street around, as coarse as pictures this small need it
   tell("windshield", {"scene.size=[64, 36]"}, executor);
   for (const char* effect : {"edge_splash", "screen_drops", "rainy_glass"}) tell(effect, {}, executor);
-  Simulation({"", {"effect=pudle"}}, executor);
+  Simulation({.set = {"effect=pudle"}}, executor);
   return 1;
 } catch (const Error& e) {
   std::printf("%d %s\n", static_cast<int>(e.code()), e.what());
