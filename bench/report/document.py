@@ -1,6 +1,7 @@
 """Markdown and plots from the JSON of a run; the part of docs/notes/performance.md that is made of committed ones."""
 import json
 import os
+import re
 
 import frames
 import growth
@@ -78,6 +79,11 @@ def rows_table(result):
     return table(["row", "threads", "rate", "ms", "±", "stream %", "hash"], lines)
 
 
+def without_folders(reason):
+    """The text with the last name alone of each path that begins at the root."""
+    return re.sub(r"(?<![\w./])/(?:[^/\s,;:']+/)*([^/\s,;:']+)", r"\1", reason.replace(os.getcwd() + os.sep, ""))
+
+
 def markdown(result, pictures):
     """The tables of a run. pictures: folder and stem of its plots, as a link goes there."""
     m = result["machine"]
@@ -86,7 +92,7 @@ def markdown(result, pictures):
     reasons = {}
     for s in result["skipped"]:
         reasons.setdefault(s["reason"], []).append(s["peer"] + (", " + s["row"] if "row" in s else ""))
-    out += [f"- Skipped: {'; '.join(names)}: {reason}" for reason, names in reasons.items()]
+    out += [f"- Absent from this run: {'; '.join(names)}: {reason}" for reason, names in reasons.items()]
     if result["skipped"]:
         out.append("")
     if whole := frames.markdown(result):

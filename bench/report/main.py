@@ -131,8 +131,8 @@ def measure(given):
     if not ours and not any(whole.values()):
         raise rows.Malformed(f"--only {given.only}: no row has such a name (--benchmark_list_tests prints those of passes)")
     idle["others_during_percent"] = watch.others_percent()
-    for one in skipped:  # a run is committed: where the checkout lay is nobody's concern
-        one["reason"] = one["reason"].replace(os.getcwd() + os.sep, "")
+    for one in skipped:  # a run is committed: the machine's folders are nobody's concern
+        one["reason"] = document.without_folders(one["reason"])
     return {"format": document.FORMAT, "version": 1, "title": given.title or f"{machine.describe()['cores']} cores", "machine": machine.describe(),
             "idle": idle, "seconds": round(time.monotonic() - begin), "rows": ours, "peers": beside, "skipped": skipped, **whole}
 

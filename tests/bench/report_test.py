@@ -274,7 +274,13 @@ class Documents(unittest.TestCase):
         result["skipped"] = [{"peer": "numba", "reason": "not installed"}]
         text = document.markdown(result, "")
         self.assertIn("**The machine was not idle**: others took 40.0 % of it after 60 s of waiting; others took 33.0 %", text)
-        self.assertIn("- Skipped: numba: not installed", text)
+        self.assertIn("- Absent from this run: numba: not installed", text)
+
+    def test_reasons_name_no_folder_of_the_machine(self):
+        for said, kept in [("cannot load 'x.so': found in none of /tmp/d/lib, build/lib, /lib/x86_64-linux-gnu, /lib",
+                            "cannot load 'x.so': found in none of lib, build/lib, x86_64-linux-gnu, lib"),
+                           (f"{os.getcwd()}/build/a is not built", "build/a is not built"), ("'/root/a b': 1/2 of https://x.org/y", "'a b': 1/2 of https://x.org/y")]:
+            self.assertEqual(document.without_folders(said), kept)
 
     def test_files_that_are_not_runs_are_refused(self):
         good = committed()

@@ -228,6 +228,11 @@ TEST(Documents, TheSourcesNamePlacesThatExist) {
   EXPECT_EQ(missing_place("NoSuchSuite.OfTests", manifests, tests), "no such test");
 }
 
+/// A build folder somewhere below the root, or what lies in somebody's home or in /tmp.
+bool names_a_folder(const std::string& text, std::smatch& path) {
+  static const std::regex folder("/[A-Za-z0-9_/.-]+/build/[a-z]+/|(^|[^A-Za-z0-9_.~/-])/(tmp|root|home)/[A-Za-z0-9_.-]+");
+  return std::regex_search(text, path, folder);
+}
 // What a machine wrote into a document or a kept run names nobody's folders.
 TEST(Documents, NameNoFolderOfAMachine) {
   int read = 0;
@@ -235,10 +240,18 @@ TEST(Documents, NameNoFolderOfAMachine) {
     if (file.path().extension() != ".md" && file.path().extension() != ".json") continue;
     const std::string text = text_of(file.path());
     std::smatch path;
-    EXPECT_FALSE(std::regex_search(text, path, std::regex("/[A-Za-z0-9_/.-]+/build/[a-z]+/"))) << name_of(file.path()) << ": " << path[0];
+    EXPECT_FALSE(names_a_folder(text, path)) << name_of(file.path()) << ": " << path[0];
     ++read;
   }
   EXPECT_GT(read, 20);
+}
+
+TEST(Documents, TheCheckOfFoldersRefuses) {
+  std::smatch path;
+  for (const std::string text : {"in /tmp/d/lib,", "'/root/a'", "/home/me/x", "at /x/build/release/bin"})
+    EXPECT_TRUE(names_a_folder(text, path)) << text;
+  for (const std::string text : {"build/release/bin", "a/tmp/b", "https://x.org/root/a", "/usr/lib", "/tmp"})
+    EXPECT_FALSE(names_a_folder(text, path)) << text;
 }
 
 // The checker itself: it must refuse what it is there to refuse.
