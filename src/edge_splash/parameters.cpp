@@ -50,7 +50,7 @@ std::vector<MemberParameter<Settings>> made() {
       // The picture.
       choice("scene.source", {"shapes", "street", "files"}, "shapes",
              "A mine track in fog, the street at night, both made here, or the files below."),
-      text("scene.image", "", "Picture that rain falls on, EXR, HDR, PNG or NPY; needs scene.depth_image."),
+      text("scene.image", "", "Picture that rain falls on; needs scene.depth_image."),
       text("scene.depth_image", "", "Its depth, EXR, 16-bit PNG or NPY."),
       choice("scene.depth_encoding", {"device", "metres"}, "device",
              "What the depth image holds: device depth in [0, 1], or metres along the view axis."),

@@ -84,7 +84,7 @@ const std::vector<MemberParameter<Settings>>& members() {
             "middle presses it down.")
            .only(correct),
        [](Settings& s, const Value& v) { s.objects = std::get<std::string>(v); }, [](const Settings& s) { return Value(s.objects); }},
-      text("environment.image", "", "Picture of the surroundings, EXR, HDR or PNG; empty: the street at night made here."),
+      text("environment.image", "", "Picture of the surroundings; empty: the street at night made here."),
       choice("environment.layout", {"latlong", "cube"}, "latlong",
              "Latitude/longitude panorama, or six cube faces in a row or column (+x -x +y -y +z -z)."),
       integer("environment.width", "texel", 0, 8192, 1024,

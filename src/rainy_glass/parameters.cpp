@@ -27,8 +27,7 @@ std::vector<MemberParameter<Settings>> made() {
       real<&Settings::distortion>("glass.distortion", "1", -1, 1, "Pictures by which the summed channels move the lookup.").only(published),
       real<&Settings::water_ior>("glass.water_ior", "1", 1, 2, "Refractive index of water.").only(correct),
       real<&Settings::probe_level>("glass.probe_level", "1", 0, 16, "Mip level of the probe."),
-      text("glass.probe_image", "",
-           "Latitude/longitude panorama of the probe, EXR, HDR, PNG or NPY; empty: scene.panorama, or the street at night."),
+      text("glass.probe_image", "", "Latitude/longitude panorama of the probe; empty: scene.panorama, or the street at night."),
       real<&Settings::rain_amount>("rain.amount", "1", 0, 1,
                                    "How heavy the rain is: droplets whose height in the map is below 1 - amount never show.")
           .published(1.0),
@@ -61,10 +60,9 @@ std::vector<MemberParameter<Settings>> made() {
       text("maps.raindrops_image", "", "Raindrop map of your own: normal in R and G, time offset in B, height in A; empty: baked."),
       text("maps.rivulets_image", "", "Rivulet map of your own: normal in R and G, flow in B (across) and A (along); empty: baked."),
       text("scene.image", "",
-           "Picture behind the glass, of the run's size, EXR, HDR, PNG or NPY; empty: the street at night, through a camera that focuses "
+           "Picture behind the glass, of the run's size; empty: the street at night, through a camera that focuses "
            "on the glass."),
-      text("scene.panorama", "",
-           "Latitude/longitude panorama behind the glass instead, EXR, HDR, PNG or NPY, seen through the camera; as far as the sky."),
+      text("scene.panorama", "", "Latitude/longitude panorama behind the glass instead, seen through the camera; as far as the sky."),
       text("scene.depth_image", "", "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY, needed beside scene.image.")
           .only(correct),
       real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres).").only(correct),

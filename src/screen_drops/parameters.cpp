@@ -63,9 +63,8 @@ std::vector<MemberParameter<Settings>> made() {
                                "Radius of a far point's disc, in a camera that focuses on the glass.")
           .only(correct),
       rounding<&Settings::rounding>("drops.rounding"),
-      text("scene.image", "", "Picture behind the glass, of the run's size, EXR, HDR, PNG or NPY; empty: the street at night."),
-      text("scene.panorama", "",
-           "Latitude/longitude panorama behind the glass instead, EXR, HDR, PNG or NPY, seen through the camera; as far as the sky."),
+      text("scene.image", "", "Picture behind the glass, of the run's size; empty: the street at night."),
+      text("scene.panorama", "", "Latitude/longitude panorama behind the glass instead, seen through the camera; as far as the sky."),
       real<&Settings::scene_margin>(
           "scene.margin", "1", 1, 10,
           "Field of view of the scene's picture over that of the picture, as tangents: drops see what lies beside the view.")

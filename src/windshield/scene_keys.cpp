@@ -21,7 +21,7 @@ void append(std::vector<Parameter>& all, std::vector<Parameter> more) { all.inse
 const std::vector<MemberParameter<Settings>>& scene_members() {
   using S = Settings;
   static const std::vector<MemberParameter<S>> table{
-      text("scene.image", "", "Picture of what lies before the car, EXR, HDR, PNG or NPY; empty: the street at night made here."),
+      text("scene.image", "", "Picture of what lies before the car; empty: the street at night made here."),
       text("scene.depth_image", "",
            "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
       real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres)."),
