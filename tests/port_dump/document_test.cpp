@@ -40,6 +40,23 @@ TEST(Document, TheWriterInPython) {
   EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
 }
 
+TEST(Document, TheWriterInCSharp) {
+  if (run("mcs --version && mono --version") != 0) GTEST_SKIP() << "no Mono here (Debian: mono-mcs)";
+  Dump dump;
+  const std::string folder = dump.path().string();
+  // Halves as an engine without such a type holds them: 16-bit codes, of which the file has the lower byte first.
+  dump.file("main.cs", "class Program {\n" + block("csharp") +
+                           "static void Main(string[] a) {\n"
+                           "  var codes = new ushort[12];\n"
+                           "  for (int i = 0; i < 12; ++i) codes[i] = (ushort)(" +
+                           std::to_string('a') + " + 2 * i + 256 * (" + std::to_string('b') +
+                           " + 2 * i));\n"
+                           "  SaveNpy(a[0], codes, \"<f2\", 2, 3, 2);\n}\n}\n");
+  ASSERT_EQ(run("mcs -warnaserror " + folder + "/main.cs -out:" + folder + "/main.exe"), 0);
+  ASSERT_EQ(run("mono " + folder + "/main.exe " + folder + "/out.b.npy"), 0);
+  EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
+}
+
 // The header's length is the only arithmetic of the C# writer: it must make a multiple of 64 of any text.
 TEST(Document, TheWriterInCSharpPadsAsTheOthers) {
   ASSERT_NE(block("csharp").find("head.PadRight((head.Length + 74) / 64 * 64 - 11) + \"\\n\""), std::string::npos);
