@@ -28,7 +28,7 @@ int named(const Pack& pack, const std::string& pass, std::initializer_list<Arc> 
   for (const Arc formula : formulas) {
     for (const char* profile : {"vulkan", "cuda"}) {
       arc_formula = formula;
-      const PortJudgement j = judged(pack, without_mistake, profile, pass, faults::diagnose);
+      const PortJudgement j = judged(pack, without_mistake, profile, {pass}, faults::diagnose);
       arc_formula = Arc::tangent;
       failing += is_named(j, pass, "asin or acos for atan2");
     }

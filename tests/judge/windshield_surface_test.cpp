@@ -41,7 +41,7 @@ TEST(WindshieldSurface, TheSmallPacksOwnOutputsPass) {
 
 // A blending unit that rounds one way and a judge that has seen it: a sum that is rounded once only is outside.
 TEST(WindshieldSurface, SplatHoldsADeviceToOneRounding) {
-  const std::vector<BoundPass> passes = enveloped_passes({"windshield-as-published"}, {"splat"});
+  const std::vector<BoundPass> passes = enveloped_passes({shipped_pack("windshield-as-published", {"splat"})});
   ASSERT_EQ(passes.size(), 1u);
   int differing = 0, rejected = 0;
   for (const BoundCase& b : passes[0].cases) {
