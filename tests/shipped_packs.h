@@ -85,6 +85,15 @@ inline const std::vector<PackPasses>& proven_packs() {
   }();
   return all;
 }
+/// The effects that have packs, in ascending order.
+inline const std::vector<std::string>& packed_effects() {
+  static const std::vector<std::string> all = [] {
+    std::set<std::string> names;
+    for (const PackPasses& p : shipped_packs()) names.insert(p.effect);
+    return std::vector<std::string>(names.begin(), names.end());
+  }();
+  return all;
+}
 /// Those of an effect.
 inline std::vector<PackPasses> packs_of(std::string_view effect, std::vector<PackPasses> packs) {
   std::erase_if(packs, [&](const PackPasses& p) { return p.effect != effect; });

@@ -80,8 +80,8 @@ TEST(PrintedFormulas, AreAllEvaluated) {
     for (const From& from : w.from)
       for (const std::string& line : lines_of_text(from.text)) evaluated[from.document].insert(line);
   int checked = 0;
-  for (const char* effect : {"puddle", "edge_splash", "screen_drops", "rainy_glass", "windshield"}) {
-    const std::string document = std::string("docs/effects/") + effect + ".md";
+  for (const std::string& effect : rainref::test::packed_effects()) {
+    const std::string document = "docs/effects/" + effect + ".md";
     for (const std::string& line : formulas_of(document)) {
       EXPECT_TRUE(evaluated[document].contains(line)) << document << ": no function evaluates\n" << line;
       ++checked;
