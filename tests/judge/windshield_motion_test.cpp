@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "drops/evaluations.h"
+#include "drops/scalar.h"
 #include "judge/lists.h"
 #include "math/path_enumeration.h"
 #include "rainref/error.h"
@@ -227,6 +228,36 @@ TEST(WindshieldMotion, TheLoosestProfileAllowsWhatEachAllows) {
     EXPECT_LT(p.log2_near_one.absolute, 0x1p-20) << name;
     EXPECT_EQ(p.pow.absolute, 0) << name;
   }
+}
+
+// Who may touch whom is asked of no pair whose surroundings do not meet. Of the smallest drops the rounding of their places is more than
+// a hundredth of their radii.
+TEST(WindshieldMotion, SurroundingsMeetWhereverSomeDeviceHasDropsTouch) {
+  const drops::NecksUniforms u{.frame = {1.5f, 0.1f, 0.9f}, .radius = 3e-5f, .dt = 0.1f, .keep = 0.5f, .padding0 = 0, .padding1 = 0};
+  Words words(5);
+  int touching = 0, apart_by_a_hundredth = 0;
+  for (const char* name : {"vulkan", "d3d", "webgpu"}) {
+    const enclosed::ProfileScope scope(profile(name));
+    for (int k = 0; k < 2000; ++k) {
+      const float mass = 1 + static_cast<float>(words() % 3), base = drops::scalar::neck_radius(u, drops::scalar::Scalar<float>(mass)).v;
+      const Drop a{{uniform(words, 0.5f, 1), uniform(words, 0.5f, 1)}, {}, mass, 9, 1, 0};
+      Drop b = a;
+      b.id = 2;
+      b.position[1] += 2 * base * uniform(words, 1, 1.05f) / u.frame[2];
+      bool is_any = false;
+      enclosed::PathEnumeration paths;
+      const auto of = [](const Drop& d) { return drops::state_of<enclosed::Rearranged>(d); };
+      paths.for_each_alternative([&] { is_any |= drops::scalar::overlap(u, of(a), of(b)); });
+      if (!is_any) continue;
+      ++touching;
+      const drops::Surroundings around_a(u.frame, a, base), around_b(u.frame, b, base);
+      const double x = around_a.x - around_b.x, y = around_a.y - around_b.y;
+      apart_by_a_hundredth += x * x + y * y >= (2 * 1.01 * base) * (2 * 1.01 * base);
+      EXPECT_TRUE(around_a.meets(around_b)) << name << ' ' << a.position[1] << ' ' << b.position[1] << ' ' << mass;
+    }
+  }
+  EXPECT_GT(touching, 1000);
+  EXPECT_GT(apart_by_a_hundredth, 100) << "a hundredth of the radii would be enough";
 }
 
 TEST(WindshieldMotion, CasesThatDoNotFitAreRefused) {
