@@ -33,7 +33,7 @@ struct Absence {
   const char* reason;
 };
 const std::vector<Absence> absences{
-    {{"honest", "tight", "null ports", "tier 2", "rewritten", "mutated", "alternatives", "GLSL", "WGSL"},
+    {{"honest", "tight", "null ports", "tier 2", "rewritten", "mutated", "alternatives", "GLSL", "seeded", "WGSL"},
      {"puddle-as-published ground_noise"},
      "the host makes it: a port takes it as data"},
     {{"honest", "tight", "tier 2", "rewritten", "alternatives"},
@@ -45,6 +45,10 @@ const std::vector<Absence> absences{
     {{"rewritten"},
      {"surface_hit", "puddle-as-published raindrops", "windshield_frame", "integrate", "necks", "merge", "wipe_drops"},
      "no invocation of an image that one text computes: Lists and RearrangedPort have their rearrangements"},
+    {{"seeded"},
+     {"screen_drops-corrected spawn", "screen_drops-corrected integrate", "screen_drops-corrected necks", "screen_drops-corrected merge",
+      "screen_drops-corrected splat"},
+     "its shaders are the windshield's, in which bugs are seeded"},
 };
 
 Passes all_passes() {
@@ -70,6 +74,18 @@ Passes ported(const std::string& file) {
     for (const capture::PassInfo& pass : e->info->passes)
       for (const capture::PassVariant& v : pass.variants)
         if (programs.contains(capture::formula(*e->info, pass, v))) some.insert(e->name + "-" + v.name + " " + pass.name);
+  }
+  return some;
+}
+
+/// Passes whose GLSL port has bugs seeded in it.
+Passes seeded() {
+  Passes some;
+  for (const auto& file : std::filesystem::directory_iterator(rainref::test::source_folder() + "/tests/ports/mutants")) {
+    const auto all = nlohmann::json::parse(contents(file.path()));
+    for (const nlohmann::json& m : all.at("mutants"))
+      some.insert(fmt::format("{}-{} {}", all.at("effect").get<std::string>(), m.at("variant").get<std::string>(),
+                              m.at("pass").get<std::string>()));
   }
   return some;
 }
@@ -104,6 +120,7 @@ std::vector<Proof> proofs() {
        those(judged, [](const BoundPass& p) { return !p.cases.front().slots.empty() || !keyed_outputs(*p.cases.front().c).empty(); })},
       {"printed", "tests/documents/written_test.cpp", written},
       {"GLSL", "tests/ports: ports_tests", ported("{}/bindings.json")},
+      {"seeded", "tests/ports/mutants: ports_tests, scripts/full/mutants", seeded()},
       {"WGSL", "tests/ports/wgsl_test.cpp", ported("wgsl/{}/programs.json")},
   };
 }
