@@ -1,5 +1,7 @@
 #include "drops/evaluations.h"
 
+#include <cmath>
+
 #include "drops/passes.h"
 #include "drops/scalar.h"
 #include "drops/spawn.pass.h"
@@ -21,6 +23,18 @@ const enclosed::Profile& loosest_profile() {
     return loose;
   }();
   return p;
+}
+
+Surroundings::Surroundings(const float (&frame)[3], const Drop& drop, double base) {
+  const double u = drop.position[0], v = drop.position[1], x_of_u = frame[0] * u, x_of_v = frame[1] * v;
+  x = x_of_u + x_of_v;
+  y = frame[2] * v;
+  // A radius is a power, known to 2^-14 at worst; a place a sum of two products, each within a few roundings of its own size.
+  radius = 1.01 * base + 0x1p-18 * (std::abs(x_of_u) + std::abs(x_of_v) + std::abs(y));
+}
+bool Surroundings::meets(const Surroundings& other) const {
+  const double dx = x - other.x, dy = y - other.y, reach = radius + other.radius;
+  return dx * dx + dy * dy < reach * reach;
 }
 
 std::unique_ptr<capture::PassModel> bind_integrate(const capture::PassCase& c) {

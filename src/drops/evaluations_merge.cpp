@@ -174,26 +174,19 @@ class Merging {
 
   void make_groups() {
     const enclosed::ProfileScope scope(loosest_profile());
-    struct Circle {
-      double x, y, radius;
-      std::size_t drop;
-    };
-    constexpr double slack = 1.01;
-    std::vector<Circle> circles;
+    std::vector<std::pair<Surroundings, std::size_t>> around;
     double largest = 0;
     for (std::size_t i = 0; i < drops_.size(); ++i) {
-      const auto s = state_of<Number>(drops_[i]);
-      circles.push_back({scalar::plane_x(u_, s.u, s.v).v, scalar::plane_y(u_, s.v).v, scalar::base_radius(u_, s.mass).v * slack, i});
-      largest = std::max(largest, circles.back().radius);
+      around.emplace_back(Surroundings(u_.frame, drops_[i], scalar::base_radius(u_, Number(drops_[i].mass)).v), i);
+      largest = std::max(largest, around.back().first.radius);
     }
-    std::sort(circles.begin(), circles.end(), [](const Circle& a, const Circle& b) { return a.x < b.x; });
+    std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) { return a.first.x < b.first.x; });
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (std::size_t k = 0; k < circles.size(); ++k) {
-      const Circle& a = circles[k];
-      for (std::size_t m = k + 1; m < circles.size() && circles[m].x - a.x < a.radius + largest; ++m) {
-        const Circle& b = circles[m];
-        const double dx = a.x - b.x, dy = a.y - b.y, reach = a.radius + b.radius;
-        if (dx * dx + dy * dy < reach * reach && may_touch(drops_[a.drop], drops_[b.drop])) pairs.emplace_back(a.drop, b.drop);
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      const auto& [a, i] = around[k];
+      for (std::size_t m = k + 1; m < around.size() && around[m].first.x - a.x < a.radius + largest; ++m) {
+        const auto& [b, j] = around[m];
+        if (a.meets(b) && may_touch(drops_[i], drops_[j])) pairs.emplace_back(i, j);
       }
     }
     std::vector<std::size_t> to(drops_.size());

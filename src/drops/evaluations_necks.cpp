@@ -26,11 +26,10 @@ class NecksOfDrops : public capture::KeyedModel {
   }
   int groups() const override { return static_cast<int>(drops_.size()); }
   const std::vector<capture::FieldRange>& ranges() const override { return Neck::ranges(true); }
-  void enclose(int group, std::vector<KeyedRecord>& out) const override {
-    const auto i = static_cast<std::size_t>(group);
-    const std::optional<State<Enclosure>> neck = neck_of<Enclosure>(i, near_[i]);
-    const bool lives = neck && scalar::stands_out(*neck);
-    out.push_back(lives ? pass::keyed_record(*neck, true, drops_[i].id) : KeyedRecord{drops_[i].id, false, {}, {}});
+  void enclose(int group, std::vector<KeyedRecord>& out) const override { add<Enclosure>(group, out); }
+  bool rearrange(int group, std::vector<KeyedRecord>& out) const override {
+    add<enclosed::Rearranged>(group, out);
+    return true;
   }
   std::optional<std::vector<std::byte>> reference() const override { return list<Number>(); }
   std::optional<std::vector<std::byte>> perturbed() const override { return list<Perturbed>(); }
@@ -40,6 +39,13 @@ class NecksOfDrops : public capture::KeyedModel {
   using State = scalar::NeckState<N>;
   using Places = std::vector<std::size_t>;
 
+  template <class N>
+  void add(int group, std::vector<KeyedRecord>& out) const {
+    const auto i = static_cast<std::size_t>(group);
+    const std::optional<State<N>> neck = neck_of<N>(i, near_[i]);
+    const bool lives = neck && scalar::stands_out(*neck);
+    out.push_back(lives ? pass::keyed_record(*neck, true, drops_[i].id) : KeyedRecord{drops_[i].id, false, {}, {}});
+  }
   template <class N>
   bool touching(std::size_t a, std::size_t b) const {
     const auto s = state_of<N>(drops_[a]), t = state_of<N>(drops_[b]);
@@ -85,23 +91,13 @@ class NecksOfDrops : public capture::KeyedModel {
   }
 
   void find_near() {
-    constexpr double slack = 1.01;
-    struct Circle {
-      double x, y, radius;
-    };
-    std::vector<Circle> circles;
-    for (const Drop& d : drops_) {
-      const auto s = state_of<Number>(d);
-      const double column = s.u.v, row = s.v.v;
-      circles.push_back({u_.frame[0] * column + u_.frame[1] * row, u_.frame[2] * row, scalar::neck_radius(u_, s.mass).v * slack});
-    }
+    std::vector<Surroundings> around;
+    for (const Drop& d : drops_) around.emplace_back(u_.frame, d, scalar::neck_radius(u_, Number(d.mass)).v);
     near_.resize(drops_.size());
-    for (std::size_t a = 0; a < circles.size(); ++a) {
+    for (std::size_t a = 0; a < around.size(); ++a) {
       all_.push_back(a);
-      for (std::size_t b = 0; b < circles.size(); ++b) {
-        const double x = circles[a].x - circles[b].x, y = circles[a].y - circles[b].y, reach = circles[a].radius + circles[b].radius;
-        if (a != b && x * x + y * y < reach * reach) near_[a].push_back(b);
-      }
+      for (std::size_t b = 0; b < around.size(); ++b)
+        if (a != b && around[a].meets(around[b])) near_[a].push_back(b);
     }
   }
 

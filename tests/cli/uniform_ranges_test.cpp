@@ -17,7 +17,7 @@
 #include "judge/support.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::cli {
 namespace {
@@ -62,18 +62,16 @@ class Ranges : public Recorder {
   std::string variant_;
 };
 
-class UniformRanges : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
-INSTANTIATE_TEST_SUITE_P(Effects, UniformRanges,
-                         testing::Combine(testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"),
-                                          testing::Values("as-published", "corrected")),
-                         [](const auto& i) {
-                           std::string name = std::get<0>(i.param) + "_" + std::get<1>(i.param);
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+class UniformRanges : public testing::TestWithParam<rainref::test::PackPasses> {};
+INSTANTIATE_TEST_SUITE_P(Effects, UniformRanges, testing::ValuesIn([] {
+                           std::vector<rainref::test::PackPasses> one_of_each_variant = rainref::test::shipped_packs();
+                           std::erase_if(one_of_each_variant, [](const auto& p) { return p.name != p.effect_and_variant(); });
+                           return one_of_each_variant;
+                         }()),
+                         rainref::test::name_of_pack_test);
 
 TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
-  const auto& [name, variant] = GetParam();
+  const std::string &name = GetParam().effect, &variant = GetParam().variant;
   const scene::Effect& entry = simulation::effect_table().find(name);
   const parallel::Executor executor(2);
   // What makes a run large or long, and what has nothing to do with uniforms, stays small.
@@ -97,7 +95,7 @@ TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
                                                  {"flow.warm_up", "0.1"},
                                                  {"falling_rain.far", "1"},
                                                  {"falling_rain.smallest_drop", "4"}};
-  const std::string packs = rainref::test::source_folder() + "/tests/packs/", scene = packs + name + "-" + variant + ".toml";
+  const std::string packs = rainref::test::packs_folder().string() + "/", scene = rainref::test::pack_scene(GetParam().name);
   // The street would take seconds to make.
   std::vector<std::string> always{"run.frames=2"};
   if (name == "windshield") always.insert(always.end(), {fmt::format("scene.image='{}sky.png'", packs), "vehicle.key_frames=''"});

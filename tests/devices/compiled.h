@@ -57,6 +57,8 @@ struct Compiled {
   friend Compiled sin(Compiled a) { return std::sin(a.v); }
   friend Compiled cos(Compiled a) { return std::cos(a.v); }
   friend Compiled atan2(Compiled y, Compiled x) { return std::atan2(y.v, x.v); }
+  /// What a pass rounds on its way, as the reference stores it.
+  friend Compiled half_of(Compiled a, Rounding own) { return to_float(to_half(a.v, own)); }
   friend Compiled fetch(const float* texels, Int offset, Compiled) { return Compiled(texels[offset.i]); }
 };
 

@@ -5,6 +5,7 @@
 
 #include "blur_pyramid/scalar.h"
 #include "capture/pass_case.h"
+#include "drops/splat_scalar.h"
 #include "edge_splash/scalar.h"
 #include "pass/display_scalar.h"
 #include "pass/model.h"
@@ -33,6 +34,9 @@ bool with_defined_pass(const capture::PassCase& c, const F& f) {
   RAINREF_PASS("edge_splash", "splash", c.corrected(), edge_splash::SplashPass, edge_splash::scalar::SplashPassText);
   RAINREF_PASS("edge_splash", "splash", !c.corrected(), edge_splash::PublishedSplashPass, edge_splash::scalar::PublishedSplashPassText);
   RAINREF_PASS("windshield", "wipe_texture", true, windshield::WipeTexturePass, windshield::scalar::WipeTexturePassText);
+  RAINREF_PASS("windshield", "persist", true, windshield::PersistPass, windshield::scalar::PersistPassText);
+  RAINREF_PASS("windshield", "falling_rain", true, windshield::FallingRainPass, windshield::scalar::FallingRainPassText);
+  RAINREF_PASS("windshield", "join_panes", true, windshield::JoinPanesPass, windshield::scalar::JoinPanesPassText);
   RAINREF_PASS("windshield", "normals", true, windshield::NormalsPass, windshield::scalar::NormalsPassText);
   RAINREF_PASS("windshield", "smear", true, windshield::SmearPass, windshield::scalar::SmearPassText);
   RAINREF_PASS("windshield", "condense", true, windshield::CondensePass, windshield::scalar::CondensePassText);
@@ -45,6 +49,7 @@ bool with_defined_pass(const capture::PassCase& c, const F& f) {
   RAINREF_PASS("rainy_glass", "rain_on_glass", true, rainy_glass::RainOnGlassPass, rainy_glass::RainOnGlassText);
   RAINREF_PASS(c.effect, "blur_pyramid", c.level == 0, blur_pyramid::FogPass, blur_pyramid::scalar::FogPassText);
   RAINREF_PASS(c.effect, "blur_pyramid", c.level != 0, blur_pyramid::HalvePass, blur_pyramid::scalar::HalvePassText);
+  RAINREF_PASS(c.effect, "splat", true, drops::SplatPass, drops::scalar::SplatPassText);
   RAINREF_PASS(c.effect, "display", true, pass::DisplayPass, pass::scalar::DisplayPassText);
 #undef RAINREF_PASS
   return false;

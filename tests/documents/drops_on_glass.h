@@ -216,7 +216,9 @@ inline void necks(const Run& r, Given& out) {
       if (to[k] == &d && (!taken || is_larger(drops[k], *taken))) taken = &drops[k];
     if (taken) {
       const float both = d.mass + taken->mass;
-      const Neck fresh{constant(r, 1, 1.1f) * ((1 / radius(both)) * plane(r, taken->position - d.position)),
+      const Float2 way =
+          r.is("planes subtracted") ? plane(r, taken->position) - plane(r, d.position) : plane(r, taken->position - d.position);
+      const Neck fresh{r.unless("a ten-thousandth too far", constant(r, 1, 1.1f), 1.0001f) * ((1 / radius(both)) * way),
                        taken->mass / std::max(both, 1.0f), 1, d.id};
       if (stands_out(fresh) && !(neck.share * neck.left > fresh.share)) neck = fresh;
     }

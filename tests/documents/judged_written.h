@@ -31,24 +31,24 @@ inline std::vector<capture::Array> given(const Written& w, const Pack& pack, con
     w.give(run, out);
   return out.arrays;
 }
-/// A port of the functions, each with a mistake or with "", judged; one pass alone, or all ("").
+/// A port of the functions, each with a mistake or with "", judged; these passes alone, or all (none).
 template <class MistakeOf>
-PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of, const std::string& profile = "vulkan", const std::string& only = "",
-                     decltype(ValidateOptions::explain) explain = {}) {
+PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of, const std::string& profile = "vulkan",
+                     const std::vector<std::string>& only = {}, decltype(ValidateOptions::explain) explain = {}) {
   const TemporaryFolder folder;
-  for (const PackCase& entry : pack.cases) {
-    const PassCase c = pack.read(entry);
-    const Written* w = written(pack.effect + "-" + c.variant, c.pass);
-    if (!w || (!only.empty() && c.pass != only)) continue;
-    const std::vector<capture::Array> arrays = given(*w, pack, c, mistake_of(*w));
-    for (std::size_t o = 0; o < arrays.size(); ++o) put_array(folder / c.folder(), "out." + c.outputs[o].name, arrays[o]);
-  }
   ValidateOptions options;
   options.profile = profile;
   options.partial = true;
-  if (!only.empty()) options.only = {only};
+  options.only = only;
   options.executor = &test_executor();
   options.explain = explain;
+  for (const PackCase& entry : pack.cases) {
+    const PassCase c = pack.read(entry);
+    const Written* w = written(pack.effect + "-" + c.variant, c.pass);
+    if (!w || !options.wants(c.pass)) continue;
+    const std::vector<capture::Array> arrays = given(*w, pack, c, mistake_of(*w));
+    for (std::size_t o = 0; o < arrays.size(); ++o) put_array(folder / c.folder(), "out." + c.outputs[o].name, arrays[o]);
+  }
   return validate(pack, folder.path(), options);
 }
 

@@ -5,6 +5,7 @@
 #include "cli/support.h"
 #include "documents/judged_written.h"
 #include "faults/diagnose.h"
+#include "shipped_packs.h"
 
 namespace rainref::documents {
 namespace {
@@ -28,7 +29,7 @@ int named(const Pack& pack, const std::string& pass, std::initializer_list<Arc> 
   for (const Arc formula : formulas) {
     for (const char* profile : {"vulkan", "cuda"}) {
       arc_formula = formula;
-      const PortJudgement j = judged(pack, without_mistake, profile, pass, faults::diagnose);
+      const PortJudgement j = judged(pack, without_mistake, profile, {pass}, faults::diagnose);
       arc_formula = Arc::tangent;
       failing += is_named(j, pass, "asin or acos for atan2");
     }
@@ -50,6 +51,26 @@ TEST(OtherFormulas, OfTheAngleOfADirection) {
   const Pack pack(folder / "pack");
   EXPECT_EQ(named(pack, "shade", {Arc::tangent}), 0);
   EXPECT_GT(named(pack, "shade", {Arc::sine, Arc::polynomial}), 0) << "nothing was to be named";
+}
+
+// The plane of a difference by a difference of planes: what compilers may make of it, and no more than that.
+TEST(OtherFormulas, OfTheWayFromOneDropToAnother) {
+  int packs = 0;
+  for (const rainref::test::PackPasses& p : rainref::test::proven_packs()) {
+    if (!p.has("necks")) continue;
+    ++packs;
+    const Pack pack(small_packs / p.name);
+    const auto status = [&](const char* mistake, const char* profile) {
+      const PortJudgement j = judged(pack, [&](const Written&) { return mistake; }, profile, {"necks"});
+      return pass_of(j, "necks").status;
+    };
+    for (const char* profile : {"vulkan", "d3d", "webgpu", "metal"}) {
+      EXPECT_EQ(status("planes subtracted", profile), Status::warn) << p.name << ' ' << profile;
+      EXPECT_EQ(status("a ten-thousandth too far", profile), Status::fail) << p.name << ' ' << profile;
+    }
+    EXPECT_EQ(status("planes subtracted", "cuda"), Status::fail) << p.name << ": CUDA lets no compiler do so";
+  }
+  EXPECT_EQ(packs, 2);
 }
 
 /// A blade's ends in the plane from its other members.

@@ -23,12 +23,13 @@ using capture::Array;
 
 constexpr int invocations = 100;
 
-MutationReport mutated(const std::string& pack, const std::string& profile, int threads, int of_each = invocations) {
+MutationReport mutated(const PackPasses& of, const std::string& profile, int threads, int of_each = invocations) {
   const parallel::Executor executor(threads);
   ValidateOptions options;
+  options.only = of.passes;
   options.profile = profile;
   options.executor = &executor;
-  return mutate(capture::Pack(pack_folder(pack)), options, of_each);
+  return mutate(capture::Pack(pack_folder(of.name)), options, of_each);
 }
 std::string line(const MutantJudgement& m) {
   return fmt::format("{} {} {} {} {} {}", m.pass, m.name, m.legal, m.compared, m.differing, m.outside);
@@ -46,7 +47,7 @@ struct Count {
   }
 };
 
-class Mutation : public testing::TestWithParam<std::string> {};
+class Mutation : public testing::TestWithParam<PackPasses> {};
 
 // Bits are bits: under ieee whatever changes some is caught, at every invocation.
 TEST_P(Mutation, UnderIeeeEveryChangeIsCaughtForEveryNumberOfThreads) {
@@ -101,17 +102,21 @@ int far_off(const Fault& d, const BoundCase& b, Bind bind) {
 TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
   const MutationReport report = mutated(GetParam(), "vulkan", 0);
   const Count count(report);
-  fmt::print("{}: {} of {} faults that change something are caught, {} more warn\n", GetParam(), count.caught, count.bugs, count.warned);
+  fmt::print("{}: {} of {} faults that change something are caught, {} more warn\n", GetParam().name, count.caught, count.bugs,
+             count.warned);
+  // Of 100, in the passes that go by this pack (RAINREF_ALL_PACKS: in all of its passes); 94 where the pack is not named here.
   // Masks of 8 bits hide what moves them by less than a code.
-  const std::map<std::string, int> least{
+  const std::map<std::string, int> lower{
       {"puddle-as-published", 92},      {"puddle-corrected", 79},      {"rainy_glass-as-published", 80},  {"rainy_glass-corrected", 80},
       {"edge_splash-as-published", 92}, {"edge_splash-corrected", 75}, {"screen_drops-as-published", 70}, {"screen_drops-corrected", 74},
-      {"windshield-as-published", 94},  {"windshield-corrected", 93}};
+      {"windshield-corrected", 93},     {"windshield-mist", 86},       {"windshield-smear", 89}};
+  const auto named = lower.find(GetParam().name);
+  const int least = named == lower.end() ? 94 : named->second;
   // None slips through that did not before there were rearrangements; what those hold warns, and is the smaller part.
-  EXPECT_GE(count.caught + count.warned, count.bugs * least.at(GetParam()) / 100);
-  EXPECT_GE(count.caught, count.bugs * (least.at(GetParam()) - 8) / 100);
+  EXPECT_GE(count.caught + count.warned, count.bugs * least / 100);
+  EXPECT_GE(count.caught, count.bugs * (least - 8) / 100);
 
-  const capture::Pack pack(pack_folder(GetParam()));
+  const capture::Pack pack(pack_folder(GetParam().name));
   int large = 0;
   for (const BoundPass& pass : enveloped_passes({GetParam()})) {
     const BoundCase& b = pass.cases.front();
@@ -153,11 +158,7 @@ TEST(Binding, ALatticeWithoutCellsIsRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Packs, Mutation, testing::ValuesIn(packs), [](const auto& tested) {
-  std::string name = tested.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Packs, Mutation, testing::ValuesIn(proven_packs()), name_of_pack_test);
 
 }  // namespace
 }  // namespace rainref::faults

@@ -26,7 +26,7 @@
 #include "judge/shadow.h"
 #include "judge/validate.h"
 #include "rainref/error.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::fuzz {
 
@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Bytes = std::span<const std::byte>;
 
-/// A small pack of the repository, and the first case of each of its passes, cut to a few texels.
+/// A small pack of the repository, and the first case of each of the passes that the proofs take of it, cut to a few texels.
 struct Base {
   std::string name;
   Json head;  ///< the manifest without cases
@@ -50,14 +50,13 @@ inline bool keeps_size(const std::string& pass) {
 inline const std::vector<Base>& bases() {
   static const std::vector<Base> all = [] {
     std::vector<Base> out;
-    for (const char* name : {"puddle-as-published", "puddle-corrected", "windshield-as-published", "windshield-corrected",
-                             "edge_splash-as-published", "edge_splash-corrected", "screen_drops-as-published", "screen_drops-corrected",
-                             "rainy_glass-as-published", "rainy_glass-corrected"}) {
-      const capture::Pack pack(fs::path(rainref::test::source_folder() + "/tests/packs") / name);
-      Base base{name, Json::parse(contents(pack.folder() / capture::manifest_name)), pack.effect, {}};
+    for (const rainref::test::PackPasses& proven : rainref::test::proven_packs()) {
+      const capture::Pack pack(rainref::test::pack_folder(proven.name));
+      Base base{proven.name, Json::parse(contents(pack.folder() / capture::manifest_name)), pack.effect, {}};
       base.head["cases"] = Json::array();
       std::vector<std::string> seen;
       for (const capture::PackCase& entry : pack.cases) {
+        if (!proven.has(entry.pass)) continue;
         const std::string key = entry.pass + (entry.level > 0 ? "+" : "");
         if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
         seen.push_back(key);

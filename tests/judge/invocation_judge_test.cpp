@@ -13,9 +13,11 @@ namespace {
 
 TEST(InvocationJudge, AnswersAsOneWhoWasNeverAsked) {
   std::map<Accepted, int> met;
-  for (const std::string& name : test::packs) {
+  for (const test::PackPasses& proven : test::proven_packs()) {
+    const std::string& name = proven.name;
     MiniPort port(name);
     for (const capture::PackPass& pass : port.pack.passes) {
+      if (!proven.has(pass.name)) continue;
       const auto entry = std::find_if(port.pack.cases.begin(), port.pack.cases.end(), [&](const auto& c) { return c.pass == pass.name; });
       const capture::PassCase c = port.pack.read(*entry);
       const capture::PassEvaluations* evaluations = evaluations_of(port.pack.effect, pass.name);

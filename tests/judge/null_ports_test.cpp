@@ -99,7 +99,7 @@ TEST(NullPorts, OneThatAJudgementWouldWarnOfDoesNotPass) {
   EXPECT_EQ(passing({&nearly}, "webgpu", "typical"), "zeros") << "a sine of 0 is 0";
 }
 TEST(NullPorts, NoPassOfTheSmallPacksIsPassedByOne) {
-  for (const test::BoundPass& pass : test::enveloped_passes()) {
+  for (const test::BoundPass& pass : test::judged_passes()) {
     NullPorts ports;
     for (const test::BoundCase& b : pass.cases) ports.judge(*b.c, b.model.get(), profile("vulkan"), &profile("typical"), HalfMode::either);
     EXPECT_THAT(ports.passing(), IsEmpty()) << pass.name();
@@ -107,7 +107,7 @@ TEST(NullPorts, NoPassOfTheSmallPacksIsPassedByOne) {
 }
 TEST(NullPorts, AreZerosAndTheInputsOfTheOutputsFormat) {
   std::vector<std::string> names;
-  for (const test::BoundPass& pass : test::enveloped_passes({"puddle-corrected"}, {"wave_step"}))
+  for (const test::BoundPass& pass : test::judged_passes({test::shipped_pack("puddle-corrected", {"wave_step"})}))
     for (const NullPort& port : null_ports(*pass.cases.front().c)) names.push_back(port.what);
   EXPECT_THAT(names, Contains("zeros"));
   EXPECT_THAT(names, Contains("a copy of its input wave"));

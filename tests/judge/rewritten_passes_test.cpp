@@ -7,6 +7,7 @@
 
 #include "devices/defined_passes.h"
 #include "judge/alternatives.h"
+#include "judge/rewritten_passes.h"
 #include "judge/support.h"
 #include "math/recorded.h"
 
@@ -45,6 +46,14 @@ std::string explained(const Alternatives& all, const std::vector<float>& got, co
 struct Tally {
   int checked = 0, outside_as_written = 0;
 };
+
+}  // namespace
+
+bool is_rewritten(const capture::PassCase& c) {
+  return devices::with_defined_pass(c, [](const auto&) {});
+}
+
+namespace {
 
 /// RAINREF_INVOCATIONS sets how many of each case; scripts/full/honesty takes more.
 void rewrite(const test::BoundCase& b, const std::string& pass_name, const enclosed::Profile& p, Tally& tally) {

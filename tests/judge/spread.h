@@ -116,10 +116,11 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       if (pass.is_of_mass_units()) continue;
       EXPECT_TRUE(pass.is_of_masks() || m.ratios.size() > 10) << pass.name() << ' ' << name;
       // Most of its elements have no bound there: sines of hundreds.
-      if (pass.name() == "screen_drops-as-published drops" && (name == "webgpu" || name == "metal")) continue;
+      if (pass.pass_and_variant == "screen_drops-as-published drops" && (name == "webgpu" || name == "metal")) continue;
       // What a sum of many taps spreads by grows as a root of their number, its envelope as the number. So do the six roundings of
       // the weights of a lookup between two levels. A hash has few roundings, magnified alike: to nearest, devices give few numbers.
-      const double most = pass.name() == "screen_drops-corrected background" ? 7 : pass.name() == "puddle-as-published raindrops" ? 8 : 4;
+      const std::string& what = pass.pass_and_variant;
+      const double most = what == "screen_drops-corrected background" ? 7 : what == "puddle-as-published raindrops" ? 8 : 4;
       EXPECT_LE(at(m.ratios, 0.5), most) << pass.name() << ' ' << name;
     }
   }

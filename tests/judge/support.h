@@ -8,17 +8,19 @@
 #include <vector>
 
 #include "capture/pack_read.h"
+#include "judge/evaluations.h"
 #include "judge/profiles.h"
 #include "judge/slots.h"
 #include "judge/validate.h"
+#include "math/path_enumeration.h"
 #include "math/perturbed.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::judge::test {
 
-inline const std::vector<std::string> packs{
-    "puddle-as-published",   "puddle-corrected",          "rainy_glass-as-published", "rainy_glass-corrected",   "edge_splash-as-published",
-    "edge_splash-corrected", "screen_drops-as-published", "screen_drops-corrected",   "windshield-as-published", "windshield-corrected"};
+using rainref::test::pack_folder, rainref::test::PackPasses, rainref::test::proven_packs, rainref::test::shipped_pack,
+    rainref::test::shipped_packs, rainref::test::name_of_pack_test;
+
 /// Every profile under which results may differ.
 inline std::vector<std::string> inexact_profiles() {
   std::vector<std::string> names = profile_names();
@@ -26,13 +28,17 @@ inline std::vector<std::string> inexact_profiles() {
   names.push_back("typical");
   return names;
 }
-inline std::filesystem::path pack_folder(const std::string& name) { return rainref::test::source_folder() + "/tests/packs/" + name; }
 
-/// A case that some envelope judges.
+/// A case that is judged.
 struct BoundCase {
   std::unique_ptr<capture::PassCase> c;
-  std::unique_ptr<capture::PassModel> model;
-  std::vector<Slot> slots;
+  std::unique_ptr<capture::PassModel> model;  ///< null: by its bits alone
+  std::vector<Slot> slots;                    ///< that envelopes judge
+  /// The list of records with ids that the model judges, or null.
+  const capture::CaseOutput* list() const {
+    const auto found = std::find_if(c->outputs.begin(), c->outputs.end(), [&](const auto& o) { return model && model->keyed(o.name); });
+    return found == c->outputs.end() ? nullptr : &*found;
+  }
   std::vector<capture::Array> expected() const {
     std::vector<capture::Array> out;
     for (const capture::CaseOutput& o : c->outputs) out.push_back(o.array);
@@ -41,38 +47,68 @@ struct BoundCase {
 };
 /// A pass of a small pack with all its cases.
 struct BoundPass {
-  /// Of masks of 0 and 1, which hide most of what devices do: nearly every value is one number.
-  bool is_of_masks() const { return name() == "edge_splash-as-published splash"; }
-  /// Of whole mass units, and the pack has no place where a device could tip one: nothing spreads. windshield_motion_test.cpp has
-  /// places where one can.
-  bool is_of_mass_units() const {
-    return name() == "screen_drops-corrected merge" || name() == "windshield-corrected merge" ||
-           name() == "windshield-corrected wipe_drops";
-  }
   std::string pack, pass;
+  std::string pass_and_variant;  ///< "windshield-corrected merge": whatever the pack
   std::vector<BoundCase> cases;
   std::string name() const { return pack + " " + pass; }
+  /// Of masks of 0 and 1, which hide most of what devices do: nearly every value is one number.
+  bool is_of_masks() const { return pass_and_variant == "edge_splash-as-published splash"; }
+  /// Of whole mass units, and the packs have no place where a device could tip one: nothing spreads. windshield_motion_test.cpp has
+  /// places where one can.
+  bool is_of_mass_units() const { return pass == "merge" || pass == "wipe_drops"; }
 };
-/// Of some packs; all passes, or those named.
-inline std::vector<BoundPass> enveloped_passes(const std::vector<std::string>& of = packs, const std::vector<std::string>& only = {}) {
+/// The passes that a port is judged by; those that the host makes are data.
+inline std::vector<BoundPass> judged_passes(const std::vector<PackPasses>& of = proven_packs()) {
   std::vector<BoundPass> all;
-  for (const std::string& name : of) {
-    const capture::Pack pack(pack_folder(name));
-    for (const capture::PackPass& pass : pack.passes) {
-      if (!only.empty() && std::find(only.begin(), only.end(), pass.name) == only.end()) continue;
-      BoundPass bound{name, pass.name, {}};
+  for (const PackPasses& some : of) {
+    const capture::Pack pack(pack_folder(some.name));
+    for (const std::string& pass : some.passes) {
+      BoundPass found{some.name, pass, some.effect_and_variant() + " " + pass, {}};
       for (const capture::PackCase& entry : pack.cases) {
-        if (entry.pass != pass.name) continue;
+        if (entry.pass != pass) continue;
         auto c = std::make_unique<capture::PassCase>(pack.read(entry));
+        const auto is_data = [](const capture::CaseOutput& o) { return o.judge == capture::Judge::input_only; };
+        if (std::all_of(c->outputs.begin(), c->outputs.end(), is_data)) continue;
+        auto model = bound(pass, binder(pack.effect, pass), *c);
         std::vector<Slot> slots = slots_of(*c);
-        if (slots.empty()) continue;
-        auto model = binder(pack.effect, pass.name)(*c);
-        bound.cases.push_back({std::move(c), std::move(model), std::move(slots)});
+        found.cases.push_back({std::move(c), std::move(model), std::move(slots)});
       }
-      if (!bound.cases.empty()) all.push_back(std::move(bound));
+      if (!found.cases.empty()) all.push_back(std::move(found));
     }
   }
   return all;
+}
+/// Those of them that some envelope judges.
+inline std::vector<BoundPass> enveloped_passes(const std::vector<PackPasses>& of = proven_packs()) {
+  std::vector<BoundPass> all = judged_passes(of);
+  for (BoundPass& pass : all) std::erase_if(pass.cases, [](const BoundCase& b) { return b.slots.empty(); });
+  std::erase_if(all, [](const BoundPass& pass) { return pass.cases.empty(); });
+  return all;
+}
+/// Those that give a list of records with ids, which a model judges.
+inline std::vector<BoundPass> list_passes(const std::vector<PackPasses>& of = proven_packs()) {
+  std::vector<BoundPass> all = judged_passes(of);
+  std::erase_if(all, [](const BoundPass& pass) { return !pass.cases.front().list(); });
+  return all;
+}
+
+/// Whether rearrangements of all that the pass gives are evaluated.
+inline bool has_second_tier(const BoundPass& pass) {
+  const enclosed::ProfileScope scope(profile("vulkan"));
+  const auto is_known = [](const auto& rearrange) {
+    bool known = true;
+    enclosed::PathEnumeration paths;
+    paths.for_each_alternative([&] { known &= rearrange(); });
+    return known;
+  };
+  return std::all_of(pass.cases.begin(), pass.cases.end(), [&](const BoundCase& b) {
+    const capture::KeyedModel* list = b.list() ? b.model->keyed(b.list()->name) : nullptr;
+    std::vector<capture::KeyedRecord> records;
+    std::vector<float> port(b.slots.size());
+    std::vector<enclosed::Enclosure> values(b.slots.size());
+    return b.model && (!list || list->groups() == 0 || is_known([&] { return list->rearrange(0, records); })) &&
+           (b.slots.empty() || is_known([&] { return b.model->rearrange(0, 0, port.data(), values.data()); }));
+  });
 }
 
 /// splitmix64 (Steele, Lea, Flood 2014).

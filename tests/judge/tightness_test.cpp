@@ -7,15 +7,11 @@ namespace {
 
 using namespace test;
 
-class Tightness : public testing::TestWithParam<std::string> {};
+class Tightness : public testing::TestWithParam<PackPasses> {};
 
 TEST_P(Tightness, TheMedianEnvelopeIsAtMostFourTimesTheSpread) { expect_tight(enveloped_passes({GetParam()})); }
 
-INSTANTIATE_TEST_SUITE_P(Packs, Tightness, testing::ValuesIn(packs), [](const auto& tested) {
-  std::string name = tested.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Packs, Tightness, testing::ValuesIn(proven_packs()), name_of_pack_test);
 
 }  // namespace
 }  // namespace rainref::judge

@@ -33,34 +33,6 @@ void put_code(const Slot& s, std::int64_t code, std::byte* at) {
   }
 }
 
-class EveryProfile : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
-
-TEST_P(EveryProfile, TheExpectedOutputsPass) {
-  const auto& [pack, profile] = GetParam();
-  TemporaryFolder folder;
-  const MiniPort port(pack);
-  port.run(folder.path());
-  const PortJudgement j = judge(port.pack, folder.path(), profile);
-  for (const PassJudgement& p : j.passes) {
-    // The article's march has rays without a useful bound. Direct3D asks for truncated halves; to nearest is a warning.
-    const bool may_be_untested = pack == "puddle-as-published" && p.pass == "surface_hit" && profile != "ieee";
-    if (may_be_untested && p.status == Status::untested) continue;
-    const bool may_warn = profile == "d3d" && (p.pass == "wave_step" || p.pass == "surface_hit" || p.pass == "shade");
-    const bool is_data = pack == "puddle-as-published" && p.pass == "ground_noise";
-    EXPECT_TRUE(p.status == (is_data ? Status::data : Status::pass) || (may_warn && p.status == Status::warn)) << p.pass << '\n' << why(j);
-    for (const CaseJudgement& c : p.cases)
-      for (const OutputJudgement& o : c.outputs) EXPECT_EQ(o.differing, 0) << c.id << ' ' << o.name;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Packs, EveryProfile,
-                         testing::Combine(testing::Values("puddle-corrected", "puddle-as-published"), testing::ValuesIn(profile_names())),
-                         [](const auto& tested) {
-                           std::string name = std::get<0>(tested.param) + "_" + std::get<1>(tested.param);
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
-
 /// One element of one output of one pass, and what is put there.
 struct Moved {
   const char *pack, *pass, *output, *profile;

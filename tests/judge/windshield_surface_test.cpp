@@ -1,47 +1,20 @@
-// The windshield's passes that draw textures and pictures: their envelopes hold the small packs' own outputs, and a device to
-// one rounding.
+// The windshield's splat: its envelopes hold a device to one rounding.
 #include <cstdlib>
+#include <cstring>
 
-#include "faults/diagnose.h"
 #include "judge/invocation_judge.h"
 #include "judge/mini_port.h"
 #include "judge/reference_outputs.h"
 #include "judge/support.h"
-#include "reports/example_judgement.h"
 
 namespace rainref::judge {
 namespace {
 
 using namespace test;
 
-const std::vector<std::string> surface_names{"splat", "wipe_texture", "normals", "blur_pyramid", "composite", "display"};
-
-/// A port that stored what the pack expects, under a profile.
-void expect_own_outputs_pass(const std::string& profile_name, bool may_warn) {
-  for (const char* variant : {"windshield-as-published", "windshield-corrected"}) {
-    const TemporaryFolder folder;
-    const capture::Pack pack(reports::small_pack(variant));
-    reports::write_port(pack, folder.path());
-    for (const std::string& pass : surface_names) {
-      ValidateOptions options;
-      options.profile = profile_name;
-      options.only = {pass};
-      options.executor = &test_executor();
-      options.explain = faults::diagnose;
-      const PortJudgement j = validate(pack, folder.path(), options);
-      EXPECT_TRUE(j.status == Status::pass || (may_warn && j.status == Status::warn)) << variant << ' ' << why(j);
-    }
-  }
-}
-TEST(WindshieldSurface, TheSmallPacksOwnOutputsPass) {
-  for (const char* name : {"ieee", "vulkan", "cuda", "webgpu", "metal"}) expect_own_outputs_pass(name, false);
-  // It asks for stores toward zero, which the reference does not make.
-  expect_own_outputs_pass("d3d", true);
-}
-
 // A blending unit that rounds one way and a judge that has seen it: a sum that is rounded once only is outside.
 TEST(WindshieldSurface, SplatHoldsADeviceToOneRounding) {
-  const std::vector<BoundPass> passes = enveloped_passes({"windshield-as-published"}, {"splat"});
+  const std::vector<BoundPass> passes = enveloped_passes({shipped_pack("windshield-as-published", {"splat"})});
   ASSERT_EQ(passes.size(), 1u);
   int differing = 0, rejected = 0;
   for (const BoundCase& b : passes[0].cases) {

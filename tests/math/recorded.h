@@ -72,6 +72,13 @@ struct Recorded {
   friend Recorded fract(const Recorded& a) { return a - floor(a); }
   friend Int to_int(const Recorded& a) { return {to_int(Single(a.v)).i}; }
   friend Recorded to_number(Int a) { return index(a.i); }
+  /// What a pass rounds on its way, as the reference stores it.
+  friend Recorded half_of(const Recorded& a, Rounding own) {
+    const auto nearest = [](const Gpu* x) { return Gpu(to_float(to_half(x[0].v, Rounding::rne))); };
+    const auto toward_zero = [](const Gpu* x) { return Gpu(to_float(to_half(x[0].v, Rounding::rtz))); };
+    const float stored = to_float(to_half(a.v, own));
+    return {stored, own == Rounding::rne ? applied(nearest, {a.tree}) : applied(toward_zero, {a.tree})};
+  }
   friend Recorded fetch(const float* texels, Int offset, const Recorded&) { return Recorded(texels[offset.i]); }
 
 #define RAINREF_RECORDED_1(name)                                                              \

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/support.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::cli {
 namespace {
@@ -24,12 +24,19 @@ struct Offsets {
 
 bool is_there(const char* tool) { return std::system(fmt::format("command -v {} > /dev/null 2>&1", tool).c_str()) == 0; }
 
-class Layout : public testing::TestWithParam<const char*> {
+class Layout : public testing::TestWithParam<std::string> {
  protected:
   Layout() {
-    for (const char* variant : {"as-published", "corrected"}) {
-      const std::filesystem::path pack = fmt::format("{}/tests/packs/{}-{}", rainref::test::source_folder(), GetParam(), variant);
-      packs.emplace_back(pack, ordered_json::parse(contents(pack / "manifest.json")));
+    for (const rainref::test::PackPasses& p : rainref::test::packs_of(GetParam(), rainref::test::proven_packs())) {
+      const std::filesystem::path pack = rainref::test::pack_folder(p.name);
+      ordered_json manifest = ordered_json::parse(contents(pack / "manifest.json"));
+      for (const auto& [list, key] : {std::pair("passes", "name"), std::pair("cases", "pass")}) {
+        ordered_json proven = ordered_json::array();
+        for (const ordered_json& one : manifest[list])
+          if (p.has(one[key])) proven.push_back(one);
+        manifest[list] = proven;
+      }
+      packs.emplace_back(pack, std::move(manifest));
     }
   }
 
@@ -157,11 +164,11 @@ class Layout : public testing::TestWithParam<const char*> {
   }
 
   TemporaryFolder folder;
-  std::vector<std::pair<std::filesystem::path, ordered_json>> packs;
+  std::vector<std::pair<std::filesystem::path, ordered_json>> packs;  ///< manifests of the passes that the proofs take of each
 };
 
-INSTANTIATE_TEST_SUITE_P(Effects, Layout, testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"),
-                         [](const auto& effect) { return std::string(effect.param); });
+INSTANTIATE_TEST_SUITE_P(Effects, Layout, testing::ValuesIn(rainref::test::packed_effects()),
+                         [](const auto& effect) { return effect.param; });
 
 TEST_P(Layout, C) {
   put(folder / "a.c", printing_program(described("c")));

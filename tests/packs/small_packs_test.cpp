@@ -3,12 +3,12 @@
 
 #include "capture/pack_read.h"
 #include "cli/support.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::cli {
 namespace {
 
-const std::filesystem::path here = rainref::test::source_folder() + "/tests/packs";
+using rainref::test::pack_folder, rainref::test::pack_scene, rainref::test::PackPasses;
 
 std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
   std::map<std::string, std::string> out;
@@ -18,19 +18,19 @@ std::map<std::string, std::string> files_of(const std::filesystem::path& folder)
   return out;
 }
 
-class SmallPack : public testing::TestWithParam<std::string> {};
+class SmallPack : public testing::TestWithParam<PackPasses> {};
 
 // A change that is meant is recorded by scripts/accept_packs.
 TEST_P(SmallPack, IsWhatThisBuildWrites) {
   TemporaryFolder folder;
-  const std::string scene = (here / (GetParam() + ".toml")).string();
+  const std::string scene = pack_scene(GetParam().name);
   Circumstances c;
   c.is_copy = true;
   // As scripts/accept_packs: the bakes of rainy glass and the background of screen drops run before frame 0.
-  const std::string at = GetParam().starts_with("rainy_glass") || GetParam().starts_with("screen_drops") ? "0,12" : "11,12";
+  const std::string at = GetParam().effect == "rainy_glass" || GetParam().effect == "screen_drops" ? "0,12" : "11,12";
   const Outcome o = run_rainref(folder.path(), {"pack", scene, "--at", at, "-o", "fresh"}, c);
   ASSERT_EQ(o.code, 0) << o.err;
-  const auto expected = files_of(here / GetParam()), found = files_of(folder / "fresh");
+  const auto expected = files_of(pack_folder(GetParam().name)), found = files_of(folder / "fresh");
   EXPECT_EQ(found.size(), expected.size());
   for (const auto& [name, bytes] : expected) {
     ASSERT_TRUE(found.contains(name)) << name;
@@ -42,7 +42,7 @@ TEST_P(SmallPack, IsWhatThisBuildWrites) {
 bool is_small(const capture::PassCase& c) { return c.pass == "windshield_frame" || c.level > 2; }
 
 TEST_P(SmallPack, IsWholeAndHasContent) {
-  const capture::Pack pack(here / GetParam());
+  const capture::Pack pack(pack_folder(GetParam().name));
   EXPECT_EQ(pack.file_beside(), "");
   for (const capture::PackCase& entry : pack.cases) {
     const capture::PassCase c = pack.read(entry);
@@ -61,22 +61,11 @@ TEST_P(SmallPack, IsWholeAndHasContent) {
 
 TEST_P(SmallPack, IsUnder300Kilobytes) {
   std::uintmax_t bytes = 0;
-  for (const auto& [name, content] : files_of(here / GetParam())) bytes += content.size();
+  for (const auto& [name, content] : files_of(pack_folder(GetParam().name))) bytes += content.size();
   EXPECT_LT(bytes, 300000u);
 }
 
-std::string name_of(const testing::TestParamInfo<std::string>& tested) {
-  std::string name = tested.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-INSTANTIATE_TEST_SUITE_P(Packs, SmallPack,
-                         testing::Values("puddle-as-published", "puddle-corrected", "puddle-shore", "windshield-as-published",
-                                         "windshield-corrected", "edge_splash-as-published", "edge_splash-corrected",
-                                         "rainy_glass-as-published", "rainy_glass-corrected", "screen_drops-as-published",
-                                         "screen_drops-corrected", "rainy_glass-slopes", "screen_drops-storm", "windshield-closing",
-                                         "windshield-trails", "windshield-panes", "windshield-smear", "windshield-neck"),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(Packs, SmallPack, testing::ValuesIn(rainref::test::shipped_packs()), rainref::test::name_of_pack_test);
 
 }  // namespace
 }  // namespace rainref::cli

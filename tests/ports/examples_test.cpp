@@ -48,7 +48,7 @@ TEST(Examples, EachEditOfEachMutantAppliesOnceAndChangesTheFile) {
 TEST(Examples, EachSetOfMistakesIsOfEveryPassAndItsEditsApply) {
   using Pass = std::string;  // "puddle.display.corrected"
   std::set<Pass> passes;
-  for (const char* effect : {"puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"}) {
+  for (const std::string& effect : packed_effects()) {
     const nlohmann::json programs = port_runner::parse_json(examples + "/" + effect + "/bindings.json").at("programs");
     for (const auto& [formula, program] : programs.items()) passes.insert(formula.substr(0, formula.find('/')));
   }

@@ -11,10 +11,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/temporary_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::ports {
 
 namespace fs = std::filesystem;
+using test::PackPasses, test::pack_folder, test::packed_effects, test::proven_packs;
 inline const std::string source = RAINREF_SOURCE_DIR, spirv = RAINREF_SPIRV, examples = source + "/examples/ports";
 inline std::string pack_of(const std::string& variant, const std::string& effect = "puddle") {
   return source + "/tests/packs/" + effect + "-" + variant;

@@ -1,26 +1,10 @@
-// The windshield's ports on a software device: they run, the judge passes them, and it catches bugs seeded in them.
+// Bugs seeded in the windshield's ports, on a software device.
 #include "ports/support.h"
 
 namespace rainref {
 namespace {
 
 using namespace ports;
-
-std::string windshield(const std::string& variant) { return pack_of(variant, "windshield"); }
-
-class WindshieldPort : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Packs, WindshieldPort, testing::Values("as-published", "corrected", "trails", "panes", "mist", "neck"),
-                         [](const auto& pack) -> std::string { return pack.param[0] == 'a' ? "AsPublished" : pack.param; });
-
-// Every pass of it has a port.
-TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
-  const TemporaryFolder folder;
-  const std::string pack = windshield(GetParam());
-  const Outcome run = run_port(pack, folder.path(), "--repeat 2", "windshield");
-  ASSERT_EQ(run.code, 0) << run.text;
-  const Outcome verdict = judge(pack, folder.path());
-  EXPECT_EQ(verdict.code, 0) << verdict.text;
-}
 
 // Some bugs of each pass; scripts/full/mutants has them all.
 TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
