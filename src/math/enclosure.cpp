@@ -170,6 +170,8 @@ Enclosure mix(const Enclosure& from, const Enclosure& to, const Enclosure& t) {
     return profile().reference ? published : hull(published, from + (to - from) * t);
   }
   if (from.is_vacuous() || to.is_vacuous() || t.is_vacuous()) return Enclosure::vacuous();
+  // from * 1 + 0 and from + 0 are exact.
+  if (t.lo == 0 && t.hi == 0) return Enclosure::checked(from.lo, from.hi);
   const Enclosure a = from.unrounded(), b = to.unrounded();
   // The exact function is linear in each argument: its extrema lie at corners. Then the roundings of either formula,
   // (1 - t), two products and a sum, or (b - a), a product and a sum, each relative to what it rounds.

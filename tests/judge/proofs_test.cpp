@@ -40,7 +40,10 @@ const std::vector<Absence> absences{
      {"spawn", "puddle-corrected raindrops"},
      "whole numbers alone: judged by bits"},
     {{"mutated"}, {"puddle-corrected raindrops"}, "judged by bits; bits_replay_test.cpp has its mistakes"},
-    {{"tier 2"}, {"surface_hit"}, "a march is judged by the gap where it ends"},
+    {{"alternatives"}, {"puddle-as-published display", "windshield_frame", "normals", "interior"}, "the text decides nothing"},
+    {{"tier 2"},
+     {"puddle-as-published surface_hit"},
+     "a march of distances, nearly every comparison of which is open once it is rearranged"},
     {{"tier 2"}, {"merge", "windshield-corrected wipe_drops"}, "water is counted in whole units: what is moved tips one or does not"},
     {{"rewritten"},
      {"surface_hit", "puddle-as-published raindrops", "windshield_frame", "integrate", "necks", "merge", "wipe_drops"},
@@ -140,11 +143,11 @@ TEST(Proofs, GoOverEveryPassAndVariant) {
         EXPECT_TRUE(is_any) << named << " is no pass, or has two reasons to be in no proof '" << proof << "'";
       }
     }
-  std::string table = fmt::format("{:<34}", "pass");
+  std::string table = fmt::format("{:<40}", "pass");
   for (const Proof& p : proven) table += fmt::format(" {}", p.name);
   int whole = 0;
   for (const std::string& pass : all) {
-    table += fmt::format("\n{:<34}", pass);
+    table += fmt::format("\n{:<40}", pass);
     bool is_whole = true;
     for (const Proof& p : proven) {
       const auto reason = reasons.find({p.name, pass});
@@ -184,11 +187,8 @@ TEST(Proofs, TheDocumentNamesWhatHasNoSecondTier) {
     const bool is_some = std::find(all.begin(), all.end(), true) != all.end();
     alone.push_back(fmt::format("{}`{}`", is_some ? variants.at(name) : "", name));
   }
-  ASSERT_GE(alone.size(), 2u);
-  const std::string last = alone.back();
-  alone.pop_back();
   EXPECT_THAT(contents(rainref::test::source_folder() + "/docs/conformance.md"),
-              testing::HasSubstr(fmt::format("{} and {} have the first tier alone.", fmt::join(alone, ", "), last)));
+              testing::HasSubstr(fmt::format("The first tier alone is there for {}.", fmt::join(alone, ", "))));
 }
 
 // A folder without its scene, or a pass that a pack's manifest does not have, would be in no proof without a word.

@@ -104,7 +104,11 @@ TEST(RewrittenPasses, LieInsideTheirRearrangements) {
   for (const test::BoundPass& pass : test::enveloped_passes())
     for (const char* name : {"vulkan", "d3d"}) {
       Tally tally;
-      for (const test::BoundCase& b : pass.cases) rewrite(b, pass.name(), profile(name), tally);
+      for (const test::BoundCase& b : pass.cases) {
+        // What a pass rounds on its way is recorded to nearest.
+        if (b.model->rounds_inside() && profile(name).half_store == enclosed::StoreRounding::rtz) continue;
+        rewrite(b, pass.name(), profile(name), tally);
+      }
       if (HasFatalFailure()) return;
       rewritten_passes += tally.checked > 0;
       outside_as_written += tally.outside_as_written;

@@ -113,7 +113,7 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
         EXPECT_LE(at(m.widths, 0.9), 0x1p13) << pass.name() << ' ' << name;
         continue;
       }
-      if (pass.is_of_mass_units()) continue;
+      if (pass.is_one_number(profile(name))) continue;
       EXPECT_TRUE(pass.is_of_masks() || m.ratios.size() > 10) << pass.name() << ' ' << name;
       // Most of its elements have no bound there: sines of hundreds.
       if (pass.pass_and_variant == "screen_drops-as-published drops" && (name == "webgpu" || name == "metal")) continue;
