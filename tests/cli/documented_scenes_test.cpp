@@ -48,14 +48,13 @@ TEST_F(DocumentedScenes, EveryEffectReadsTheListedPictures) {
   ASSERT_NE(section, std::string::npos);
   for (const char* kind : {"EXR", "Radiance HDR", "PNG", "JPEG", "NPY"})
     EXPECT_LT(document.find(kind, section), document.find("\n## ", section + 1)) << kind;
-  put(folder / "photo.jpg", image_io::jpeg(3));  // 8x16
-  put_npy(folder / "far.npy", 8, 16, 1, metres);
+  put(folder / "photo.jpg", image_io::jpeg(3));  // 24x16, as depth.npy
   const std::vector<std::string> scenes{"effect=puddle\nenvironment.image=photo.jpg", "effect=windshield\nscene.image=photo.jpg",
-                                        "effect=edge_splash\nscene.source=files\nscene.image=photo.jpg\nscene.depth_image=far.npy",
+                                        "effect=edge_splash\nscene.source=files\nscene.image=photo.jpg\nscene.depth_image=depth.npy",
                                         "effect=screen_drops\nscene.image=photo.jpg",
-                                        "effect=rainy_glass\nscene.image=photo.jpg\nscene.depth_image=far.npy"};
+                                        "effect=rainy_glass\nscene.image=photo.jpg\nscene.depth_image=depth.npy"};
   for (const std::string& scene : scenes) {
-    std::vector<std::string> words{"hash", "photo.toml", "--frames", "1", "--set", "run.size=[8, 16]"};
+    std::vector<std::string> words{"hash", "photo.toml", "--frames", "1", "--set", "run.size=[24, 16]"};
     std::string text;
     for (const std::string& line : lines_of(scene)) {
       if (line.starts_with("effect="))
