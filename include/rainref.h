@@ -238,6 +238,7 @@ typedef struct rr_judge_options {
   const char* port;     ///< what reports call the port; NULL: "outputs in memory"
   const char* half;     ///< how the port rounds stores to binary16: "rne", "rtz"; NULL: found out where the profile leaves it open
   int32_t threads;      ///< 0: one for each processor
+  int32_t strict;       ///< 1: each WARN is a FAIL
 } rr_judge_options;
 /// Judges every pass that anything was given for, and says why one fails. A run with an output that was not given is NOT JUDGED. `options`
 /// may be NULL. Free it; it may outlive the cases.
@@ -254,6 +255,7 @@ typedef struct rr_folder_options {
   int32_t threads;       ///< 0: one for each processor
   rr_progress progress;  ///< called by the thread that judges; may be NULL
   void* user;
+  int32_t strict;  ///< 1: each WARN is a FAIL
 } rr_folder_options;
 /// Judges the files that a port wrote (docs/dumps.md) for the cases of a pack, as `rainref validate PACK --port PORT` does; one case is in
 /// memory at a time. Files that are missing or cannot be used stand in the reports, and what does not need them is judged: RR_OK. RR_FILES

@@ -22,8 +22,17 @@ BEGIN, END = "<!-- scripts/devices.py write -->\n", "<!-- end of scripts/devices
 # profile holds.
 SWIFTSHADER = {"exp2", "log_near_one", "sin_cos", "sin_cos_beyond", "unorm_load"}
 LAVAPIPE = {"exp2", "atan2", "unorm_load", "srgb_store_ulp"}
+# How reports say so: `known_outside` of the profile. Devices by name, each with what of it lies outside.
+NAMES = {"SwiftShader": SWIFTSHADER, "lavapipe": LAVAPIPE}
+WORDS = {"exp2": "exp2", "log_near_one": "logarithms near 1", "sin_cos": "sines and cosines", "sin_cos_beyond": "sines and cosines", "atan2": "atan2",
+         "unorm_load": "loads of 8 bits", "srgb_store_ulp": "sRGB stores"}
 KNOWN = {(stem, key) for stem, outside in [("chromium-swiftshader", SWIFTSHADER), ("node-swiftshader", SWIFTSHADER), ("firefox-lavapipe", LAVAPIPE)]
          for key in outside}
+
+
+def known_words():
+    """"SwiftShader (exp2, ...), lavapipe (...)": in the order of WORDS."""
+    return ", ".join(f"{name} ({', '.join(dict.fromkeys(words for key, words in WORDS.items() if key in outside))})" for name, outside in NAMES.items())
 
 
 def devices(folder):
@@ -316,7 +325,7 @@ def typical(found, profile, known):
     gpus = [stem for stem, census in found.items() if not census["device"]["fallback"]]
     lines, good = [f"{len(found)} files, {len(gpus)} of GPUs, the others of software devices"], True
     for key, entry in profile.items():
-        if key in ("name", "reference"):
+        if key in ("name", "reference", "about", "known_outside"):
             continue
         lines.append(f"{key} = {allowed_words(entry)}")
         if key not in MEASURED:

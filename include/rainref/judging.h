@@ -140,6 +140,7 @@ struct JudgeOptions {
   std::string profile = "vulkan";          ///< "ieee", "vulkan", "webgpu", ...: what the port's API allows
   std::string port = "outputs in memory";  ///< what reports call the port
   std::optional<Rounding> half{};          ///< how the port rounds stores to binary16; none: found out where the profile leaves it open
+  bool strict = false;                     ///< each WARN is a FAIL
 };
 
 /// Runs of passes with what they took and gave, in the order of execution: what a port is run on. Every function throws Error, naming what

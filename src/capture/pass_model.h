@@ -124,6 +124,8 @@ struct PassEvaluations {
   /// Why what the host derived from the other inputs cannot belong to them, or ""; null where nothing is derived.
   std::string (*doubt)(const PassCase&) = nullptr;
   std::vector<AlternativeFormula> alternatives = {};
+  /// Uniforms and inputs of the host that it makes of the run's own state: a port's are its own, and no scene says them.
+  std::vector<std::string> of_state = {};
 };
 
 }  // namespace rainref::capture

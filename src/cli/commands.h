@@ -39,6 +39,7 @@ struct PackOptions {
   std::vector<int> frames;          ///< ascending
   bool may_add_frames = false;      ///< of passes that a port which does nothing passes in these
   std::vector<std::string> passes;  ///< empty: every pass of the variant
+  bool shows_coverage = false;      ///< lists what of each pass's text no case takes
 };
 
 struct ValidateRequest {
@@ -53,6 +54,9 @@ struct ValidateRequest {
   double timeout_s = 600;         ///< of each run of it
   int repeat = 1;                 ///< runs of it
   bool allow_untested = false;
+  bool strict = false;        ///< each WARN fails
+  bool foreign_host = false;  ///< with `shadow`: what the host chose otherwise than the scene is a note
+  bool verbose = false;       ///< all that is known of each pass
   int threads = 0;
   std::string command;  ///< as typed, for the report
   ReportOptions reports;

@@ -71,6 +71,10 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
   verb.add_flag("--partial", f.request.partial, "A port in progress: passes that it has no files of are NOT JUDGED, and not missing");
   verb.add_flag("--no-causes", f.request.no_causes, "Do not look for what went wrong, which may take longer than judging");
   verb.add_flag("--allow-untested", f.request.allow_untested, "Forgive UNTESTED and NOT JUDGED, beside at least one PASS");
+  verb.add_flag("--strict", f.request.strict, "Each WARN fails");
+  verb.add_flag("--foreign-host", f.request.foreign_host,
+                "With --shadow: uniforms, inputs and a first state that are not the scene's are notes, not failures");
+  verb.add_flag("--verbose", f.request.verbose, "All that is known of each pass, and what of its text no run takes");
   add_threads(verb, f.threads);
   add_report_options(verb, f.request.reports);
   for (CLI::Option* option : verb.get_options([](const CLI::Option* o) { return o->get_type_name() == "TEXT"; })) option->type_name("FILE");
@@ -102,6 +106,7 @@ void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
 void require_pack_and_port(const ValidateFlags& f) {
   if (f.pack.empty()) throw Error(ExitCode::usage, "validate: expected the folder of a PACK, or --shadow DIR");
   if (changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: go with --shadow and a scene only");
+  if (f.request.foreign_host) throw Error(ExitCode::usage, "--foreign-host: goes with --shadow only");
   if (!f.exec && f.port.empty()) throw Error(ExitCode::usage, "validate: expected --port DIR, or --exec COMMAND, which runs the port");
 }
 

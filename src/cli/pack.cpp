@@ -167,11 +167,13 @@ class Packing {
           not_exercised_ += fmt::format("warning: unexercised.{}: '{}' is exercised, or there is none\n", pass, alternative);
       if (c.alternatives == 0) continue;
       writer.add_coverage(pass, c.taken, c.alternatives, c.never, reasons);
-      if (!c.never.empty()) not_exercised_ += fmt::format("{} {}\n", pass, reports::coverage_text(c, reports::shown_alternatives));
+      if (options_.shows_coverage && !c.never.empty())
+        not_exercised_ += fmt::format("{} {}\n", pass, reports::coverage_text(c, c.never.size()));
     }
     return writer.finish();
   }
-  /// Of the pack written last: which alternatives of its passes no case takes, a line for each pass.
+  /// Of the pack written last: reasons for what is exercised; where asked for, which alternatives of its passes no case takes, a line for
+  /// each pass.
   const std::string& not_exercised() const { return not_exercised_; }
   /// The next write() is without this pass.
   void leave_out(const std::string& pass) { std::erase(passes_, pass); }

@@ -19,6 +19,7 @@
 #include "cli/terminal.h"
 #include "faults/diagnose.h"
 #include "faults/mutate.h"
+#include "judge/conclude.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
 #include "judge/races.h"
@@ -218,6 +219,7 @@ Judged judge_shadow(const ValidateRequest& request, const Reports& reports, cons
   judge::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
+  options.foreign_host = request.foreign_host;
   options.executor = &executor;
   Progress progress("judging", static_cast<int>(dumped.size()));
   options.progress = [&](int, int) { progress.advance(); };
@@ -234,8 +236,9 @@ judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) 
   Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
   judged.judgement.command = request.command;
   if (request.no_causes) judged.judgement.notes.push_back("causes of failures were not looked for (--no-causes)");
+  if (request.strict) judge::fail_warnings(judged.judgement);
   reports.apply_baseline(judged.judgement);
-  const std::string text = reports::report_text(judged.judgement);
+  const std::string text = reports::report_text(judged.judgement, request.verbose);
   if (reports.has_standard_output())
     print_aside(text);
   else

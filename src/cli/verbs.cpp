@@ -121,6 +121,7 @@ Verb pack_verb(CLI::App& app) {
     SceneFlags scene;
     std::string output;
     std::optional<std::string> at, passes;
+    bool shows_coverage = false;
   };
   CLI::App& verb = *app.add_subcommand("pack", "Write a conformance pack: inputs, uniforms and expected outputs of every pass");
   const auto f = std::make_shared<Flags>();
@@ -128,6 +129,7 @@ Verb pack_verb(CLI::App& app) {
   verb.add_option("-o,--output", f->output, "Folder of the pack; an older pack there is replaced")->type_name("DIR")->required();
   verb.add_option("--at", f->at, "Frames to take (default: 0,1,12, and one more for a pass that does nothing in these)")->type_name("LIST");
   verb.add_option("--passes", f->passes, "Passes to take, such as wave_step,shade (default: all)")->type_name("LIST");
+  verb.add_flag("--coverage", f->shows_coverage, "List what of each pass's text no case takes; the manifest has it too");
   verb.footer("Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack");
   return {&verb, [f] {
             PackOptions options;
@@ -136,6 +138,7 @@ Verb pack_verb(CLI::App& app) {
             for (const std::string& frame : list_of(f->at.value_or("0,1,12")))
               options.frames.push_back(whole_number(frame, "--at", 0, 1000000));
             options.may_add_frames = !f->at;
+            options.shows_coverage = f->shows_coverage;
             std::sort(options.frames.begin(), options.frames.end());
             if (f->passes) options.passes = list_of(*f->passes);
             options.scene = resolve(f->scene);

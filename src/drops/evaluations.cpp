@@ -52,5 +52,10 @@ std::vector<capture::Array> recompute_spawn(const capture::PassCase& c) {
   out.levels = {pass::bytes_of(drops)};
   return {out};
 }
+capture::PassEvaluations spawn_evaluations() {
+  capture::PassEvaluations all{"spawn", nullptr, recompute_spawn};
+  all.of_state = {"first_id", "room"};
+  return all;
+}
 
 }  // namespace rainref::drops

@@ -32,5 +32,7 @@ std::unique_ptr<capture::PassModel> bind_integrate(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_splat(const capture::PassCase& c);
 /// spawn: the drops of before and the arrivals.
 std::vector<capture::Array> recompute_spawn(const capture::PassCase& c);
+/// How an effect offers its spawn: which ids are free and how many hangs on the drops that live.
+capture::PassEvaluations spawn_evaluations();
 
 }  // namespace rainref::drops

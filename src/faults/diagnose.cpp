@@ -66,7 +66,8 @@ std::vector<Cause> causes_of_texels(const FailedRun& f) {
   TexelReplay run = texels_of(f);
   std::optional<TexelReplay> other;
   if (f.other) other.emplace(texels_of(*f.other));
-  std::vector<Cause> best = diagnosed(run, other ? &*other : nullptr);
+  std::vector<Cause> best = diagnosed(run, other ? &*other : nullptr, f.is_warned);
+  if (f.is_warned) return best;
   // What gives the very bits is a better word than a formula that could have given them.
   const bool is_exact = !best.empty() && best.front().is_likely && best.front().explained * 10 >= best.front().of * 9;
   if (is_exact) return best;
@@ -82,6 +83,7 @@ std::vector<Cause> causes_of_texels(const FailedRun& f) {
 
 judge::Explanation diagnose(const FailedRun& failed) {
   const capture::PassCase& c = failed.run.c;
+  if (failed.is_warned) return {judge::is_enveloped(c) ? causes_of_texels(failed) : std::vector<Cause>(), ""};
   judge::Explanation why{{}, where_it_fails(failed)};
   if (!judge::keyed_outputs(c).empty()) {
     why.causes = causes_of_lists(failed);

@@ -207,19 +207,19 @@ std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<F
   return out;
 }
 
-std::vector<Cause> diagnosed(Replay& run, Replay* other) {
+std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   std::vector<Tried> causes = run.causes(run.plain());
   // Where nearly all of it is explained by what is plain, what is less so is not needed.
   std::set<std::string> sought;
   const auto explains_little = [&] { return std::none_of(causes.begin(), causes.end(), [](const Tried& c) { return score(c) >= 1.5; }); };
   for (const auto more : {&Replay::deeper, &Replay::solved, &Replay::fitted}) {
-    if (is_explained(causes)) continue;
+    if (is_plain || is_explained(causes)) continue;
     for (Tried& c : run.causes((run.*more)())) {
       sought.insert(c.name);
       causes.push_back(std::move(c));
     }
   }
-  if (explains_little() && run.widen()) {
+  if (!is_plain && explains_little() && run.widen()) {
     if (other) other->widen();
     for (const auto again : {&Replay::plain, &Replay::deeper})
       for (Tried& c : run.causes((run.*again)())) causes.push_back(std::move(c));

@@ -71,7 +71,8 @@ std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<F
 
 /// What explains a run, best first. `other`: another failing run of the pass, or null: what explains both is believed. A cause is
 /// likely where no rival, which would be another mistake elsewhere, explains as much.
-std::vector<judge::Cause> diagnosed(Replay& run, Replay* other);
+/// `is_plain`: what is plain is tried alone.
+std::vector<judge::Cause> diagnosed(Replay& run, Replay* other, bool is_plain = false);
 
 /// A case whose uniforms, texels and records are others, within a quarter or so.
 capture::PassCase varied(const capture::PackPass& pass, const capture::PassCase& c);

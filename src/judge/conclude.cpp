@@ -1,54 +1,108 @@
 #include "judge/conclude.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "judge/profiles.h"
 
 namespace rainref::judge {
+namespace {
+
+/// What a case or several have.
+struct Counts {
+  std::int64_t elements = 0, unbounded = 0, free = 0, atypical = 0, beyond = 0;
+  std::int64_t failing = 0, expanded = 0, rearranged = 0;
+  std::uint64_t rearranged_distance = 0;
+
+  void add(const CaseJudgement& j) {
+    for (const OutputJudgement& o : j.outputs) {
+      elements += o.elements;
+      unbounded += o.unbounded;
+      free += o.free;
+      atypical += o.atypical;
+      beyond += j.beyond > 0 ? o.beyond : 0;
+    }
+    failing += j.failing;
+    expanded += j.expanded;
+    rearranged += j.rearranged;
+    rearranged_distance = std::max(rearranged_distance, j.rearranged_distance);
+  }
+};
+
+/// Why what fails does, where its counts say it; "".
+std::string failure_text(const Counts& n, const enclosed::Profile& profile) {
+  if (n.beyond > 0)
+    return fmt::format("{} elements that {} leaves without a bound are farther off than the coarsest device that is known or conforms",
+                       n.beyond, profile.name);
+  // Some are explained by much that is wide, stale values too: it is the reason of all or of none.
+  if (n.expanded == 0 || n.expanded < n.failing) return "";
+  return fmt::format(
+      "only multiplying out a product of two sums would explain the {} invocations outside; no compiler is seen to do that{}", n.failing,
+      profile.rearrangement_remedy.empty() ? "" : ", and " + profile.rearrangement_remedy);
+}
+/// What is warned of; empty: nothing.
+std::vector<std::string> warnings(const Counts& n, const enclosed::Profile& profile) {
+  std::vector<std::string> out;
+  if (n.rearranged > 0)
+    out.push_back(fmt::format("{} invocations lie outside the formula as written, by up to {} codes, inside its rearrangements ({}){}",
+                              n.rearranged, n.rearranged_distance, name(profile.rearrangement),
+                              profile.rearrangement_remedy.empty() ? "" : ": " + profile.rearrangement_remedy));
+  if (n.atypical > 0)
+    out.push_back(fmt::format("{} elements lie inside the profile {} but outside {}", n.atypical, profile.name, typical_words()));
+  return out;
+}
+std::string joined(const std::vector<std::string>& sentences) { return fmt::format("{}", fmt::join(sentences, "; ")); }
+
+}  // namespace
 
 void conclude(CaseJudgement& j, const enclosed::Profile& profile) {
-  std::int64_t elements = 0, unbounded = 0, free = 0, atypical = 0;
-  for (const OutputJudgement& o : j.outputs) {
-    elements += o.elements;
-    unbounded += o.unbounded;
-    free += o.free;
-    atypical += o.atypical;
-  }
+  Counts n;
+  n.add(j);
   if (j.failing > 0) {
     j.status = Status::fail;
-    if (j.expanded > 0)
-      j.reason = fmt::format(
-          "for {} of {} invocations only multiplying out a product of two sums would explain it; no compiler is seen "
-          "to do that{}",
-          j.expanded, j.failing, profile.rearrangement_remedy.empty() ? "" : ", and " + profile.rearrangement_remedy);
-  } else if (elements == 0 && j.outputs.empty()) {
+    j.reason = failure_text(n, profile);
+  } else if (n.elements == 0 && j.outputs.empty()) {
     j.status = Status::untested;
     j.reason = "nothing to judge";
-  } else if (unbounded * 2 > elements - free && elements > free) {
+  } else if (n.unbounded * 2 > n.elements - n.free && n.elements > n.free) {
     j.status = Status::untested;
-    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, neither from the profile nor from what real devices do",
-                           100.0 * static_cast<double>(unbounded) / static_cast<double>(elements - free));
-  } else if (j.rearranged > 0) {
-    j.status = Status::warn;
-    j.reason = fmt::format("{} invocations lie outside the formula as written, by up to {} codes, inside its rearrangements ({}){}",
-                           j.rearranged, j.rearranged_distance, name(profile.rearrangement),
-                           profile.rearrangement_remedy.empty() ? "" : "; " + profile.rearrangement_remedy);
-  } else if (atypical > 0) {
-    j.status = Status::warn;
-    j.reason = fmt::format("{} elements lie inside the profile but outside what real devices do", atypical);
+    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, neither from the profile nor from what known devices do",
+                           100.0 * static_cast<double>(n.unbounded) / static_cast<double>(n.elements - n.free));
   } else {
-    j.status = Status::pass;
+    j.reason = joined(warnings(n, profile));
+    j.status = j.reason.empty() ? Status::pass : Status::warn;
   }
 }
 
-void conclude(PassJudgement& pass) {
+void conclude(PassJudgement& pass, const enclosed::Profile& profile) {
   const std::string doubt = std::move(pass.reason);  // of the rounding that was found
   pass.status = doubt.empty() ? Status::pass : Status::warn;
+  for (const CaseJudgement& c : pass.cases) pass.status = worse(pass.status, c.status);
+  Counts n;
+  for (const CaseJudgement& c : pass.cases)
+    if (c.status == pass.status) n.add(c);
   pass.reason = doubt;
-  for (const CaseJudgement& c : pass.cases) {
-    const Status both = worse(pass.status, c.status);
-    if (both != pass.status || (c.status == both && pass.reason.empty())) pass.reason = c.reason.empty() ? doubt : c.reason;
-    pass.status = both;
+  if (pass.status == Status::warn) {
+    std::vector<std::string> all = warnings(n, profile);
+    if (!doubt.empty()) all.insert(all.begin(), doubt);
+    pass.reason = joined(all);
+  } else {
+    // The first that has a reason of its own; what is counted is the reason of all.
+    const auto own = [&](const CaseJudgement& c) {
+      Counts one;
+      one.add(c);
+      return c.status == pass.status && !c.reason.empty() && (c.status != Status::fail || c.reason != failure_text(one, profile));
+    };
+    const auto found = std::find_if(pass.cases.begin(), pass.cases.end(), own);
+    const std::string counted = pass.status == Status::fail ? failure_text(n, profile) : "";
+    if (found != pass.cases.end())
+      pass.reason = found->reason;
+    else if (!counted.empty())
+      pass.reason = counted;
   }
   if (!pass.cases.empty() &&
       std::all_of(pass.cases.begin(), pass.cases.end(), [](const CaseJudgement& c) { return c.status == Status::data; })) {
@@ -72,6 +126,23 @@ void conclude(PortJudgement& j) {
     j.reason = j.passes.empty() ? "nothing was judged" : "nothing was judged: all is taken as data";
   }
   if (j.status == Status::not_judged) j.status = Status::untested;  // of the whole, something may well have been judged
+}
+
+void fail_warnings(PortJudgement& j) {
+  bool has_changed = false;
+  const auto fail = [&](Status& status, std::string& reason) {
+    if (status != Status::warn) return false;
+    status = Status::fail;
+    reason = "a warning, which is to fail: " + reason;
+    return has_changed = true;
+  };
+  for (PassJudgement& p : j.passes) {
+    for (CaseJudgement& c : p.cases)
+      if (fail(c.status, c.reason)) c.broken = true;
+    if (fail(p.status, p.reason)) continue;
+    for (const CaseJudgement& c : p.cases) p.status = worse(p.status, c.status);
+  }
+  if (has_changed) conclude(j);
 }
 
 }  // namespace rainref::judge

@@ -7,11 +7,15 @@
 namespace rainref::judge {
 
 /// Status and reason of a case from its counts under a profile. UNTESTED where less than half of the elements have a bound, by the
-/// profile or by what real devices do.
+/// profile or by what known devices do.
 void conclude(CaseJudgement& judgement, const enclosed::Profile& profile);
 /// Those of a pass from its cases. Its reason so far is a doubt about the rounding that was found, which warns.
-void conclude(PassJudgement& judgement);
+/// What is counted is counted over all cases.
+void conclude(PassJudgement& judgement, const enclosed::Profile& profile);
 /// The status of the whole from its passes, and the first that is bad.
 void conclude(PortJudgement& judgement);
+
+/// Makes each WARN a FAIL, of cases, passes and the whole: the reasons say of what.
+void fail_warnings(PortJudgement& judgement);
 
 }  // namespace rainref::judge

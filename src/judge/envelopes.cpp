@@ -1,10 +1,12 @@
 #include "judge/envelopes.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "judge/alternatives.h"
+#include "judge/beyond.h"
 #include "judge/failures.h"
 #include "judge/quantities.h"
 #include "judge/second_tier.h"
@@ -22,11 +24,19 @@ using capture::PassModel;
 using enclosed::CodeRange;
 using enclosed::Enclosure;
 
+constexpr std::uint8_t beyond_mark = 4;  // of OutputJudgement::map, until the whole case is known
+
 /// Counts of some rows under one rounding.
 struct Part {
   CaseJudgement counts;
   std::vector<Widths> widths;                          // of each output
   std::vector<std::vector<std::uint32_t>> rearranged;  // widths of the sampled invocations
+  // What fails only where there is much of it.
+  struct Gross {
+    std::vector<Failure> worst;
+    Widths farthest;
+  };
+  std::vector<Gross> beyond;  // of each output
 };
 
 class CaseJudge {
@@ -49,13 +59,16 @@ class CaseJudge {
     options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
       Scratch scratch(SecondTier(slots_, model_, *options_.profile),
                       SecondTier(slots_, model_, options_.typical ? *options_.typical : *options_.profile));
+      if (options_.typical) scratch.coarse.emplace(slots_, model_, *options_.profile);
       for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x) invocation(x, y, scratch, parts[static_cast<std::size_t>(tile.y0 / rows)], whole);
     });
     for (std::size_t m = 0; m < modes_.size(); ++m) {
       std::vector<Widths> widths(case_.outputs.size());
       std::vector<std::vector<std::uint32_t>> rearranged(case_.outputs.size());
-      for (std::vector<Part>& tile : parts) add(whole[m], tile[m], widths, rearranged);
+      std::vector<Part::Gross> beyond(case_.outputs.size());
+      for (std::vector<Part>& tile : parts) add(whole[m], tile[m], widths, rearranged, beyond);
+      settle_beyond(whole[m], widths, beyond);
       for (std::size_t o = 0; o < widths.size(); ++o) {
         OutputJudgement& out = whole[m].outputs[o];
         widths[o].summarize(out);
@@ -73,7 +86,9 @@ class CaseJudge {
     Stored stored;
     std::vector<CodeRange> ranges, nearest, other_ranges;
     std::vector<char> vacuous;        ///< of each value
-    SecondTier second, other_second;  ///< by the profile, and by what real devices do
+    SecondTier second, other_second;  ///< by the profile, and by what known devices do
+
+    std::optional<Beyond> coarse;  ///< where devices are known
 
     Scratch(const SecondTier& tier, const SecondTier& other) : second(tier), other_second(other) {}
   };
@@ -92,6 +107,7 @@ class CaseJudge {
       p.counts.outputs.push_back(o);
       p.widths.emplace_back();
       p.rearranged.emplace_back();
+      p.beyond.emplace_back();
     }
     return p;
   }
@@ -206,7 +222,7 @@ class CaseJudge {
         }
       }
     }
-    if (!failed && !is_rearranged && (differs || any_vacuous)) check_typical(x, y, s, mode, counts, whole);
+    if (!failed && !is_rearranged && (differs || any_vacuous)) check_typical(x, y, s, mode, part, whole);
     if (s.second.exists() && (static_cast<std::int64_t>(y) * model_.width() + x) % 64 == 0) sample_rearranged(x, y, s, mode, part);
   }
 
@@ -219,7 +235,8 @@ class CaseJudge {
   bool only_rearranged(int x, int y, Scratch& s, HalfMode mode, CaseJudgement& counts) const {
     const enclosed::Rearrangement own = options_.profile->rearrangement, most = enclosed::Rearrangement::expanded;
     if (s.second.accepts(own, x, y, s.stored, s.nearest, mode)) return true;
-    if (own != most) counts.expanded += s.second.accepts(most, x, y, s.stored, s.nearest, mode);
+    if (own != most && s.second.is_near(s.stored, s.nearest, mode))
+      counts.expanded += s.second.accepts(most, x, y, s.stored, s.nearest, mode);
     return false;
   }
   void sample_rearranged(int x, int y, Scratch& s, HalfMode mode, Part& part) const {
@@ -240,13 +257,20 @@ class CaseJudge {
                                       rules_of(*options_.profile, HalfMode::rne, slot.store_rounding));
     else if (!s.alternatives.gave_up)
       accepted = s.nearest[v];
-    out.worst.push_back(failure_of(slot, x, y, case_.outputs[o].array, port_[o], options_.profile->reference ? nullptr : &accepted));
-    if (out.records) {
-      out.worst.back().field = quantities_of(case_.outputs[o])[static_cast<std::size_t>(slot.channel)].name;
-      out.worst.back().field_kind = slot.kind;
-    }
+    out.worst.push_back(failure(x, y, v, options_.profile->reference ? nullptr : &accepted));
     part.widths[o].add_failing(slot.channel, value_distance(slot.kind, out.worst.back()));
     if (out.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(out.worst);
+  }
+
+  /// `accepted`: the codes that come nearest; null where there are none.
+  Failure failure(int x, int y, std::size_t v, const CodeRange* accepted) const {
+    const Slot& slot = slots_[v];
+    const std::size_t o = static_cast<std::size_t>(slot.output);
+    Failure f = failure_of(slot, x, y, case_.outputs[o].array, port_[o], accepted);
+    if (!case_.outputs[o].array.is_records) return f;
+    f.field = quantities_of(case_.outputs[o])[static_cast<std::size_t>(slot.channel)].name;
+    f.field_kind = slot.kind;
+    return f;
   }
 
   /// The codes of alternative a, into s.ranges.
@@ -257,11 +281,12 @@ class CaseJudge {
     for (const std::int64_t code : s.stored.expected) s.ranges.push_back({code, code});
   }
 
-  /// What the profile leaves without a useful bound is held to what real devices do with the formula as written; what it bounds only warns
+  /// What the profile leaves without a useful bound is held to what known devices do with the formula as written; what it bounds only warns
   /// by it, where they do not come to it by a rearrangement that the profile allows either.
-  void check_typical(int x, int y, Scratch& s, HalfMode mode, CaseJudgement& counts, CaseJudgement& whole) const {
+  void check_typical(int x, int y, Scratch& s, HalfMode mode, Part& part, CaseJudgement& whole) const {
+    CaseJudgement& counts = part.counts;
     int best = -1;
-    bool is_rearranged = false;
+    bool is_rearranged = false, is_atypical = false;
     if (options_.typical) {
       s.others.run(model_, x, y, s.stored.got_values.data(), as_stored(*options_.typical, mode));
       std::size_t fewest = slots_.size() + 1;
@@ -289,15 +314,50 @@ class CaseJudge {
           best >= 0 && !bound_of(slots_[v], s.others.values[static_cast<std::size_t>(best)][v], s.other_ranges[v]).vacuous;
       if (best >= 0 && !s.other_ranges[v].contains(s.stored.got[v]) && (s.vacuous[v] || !is_rearranged)) {
         ++out.atypical;
+        is_atypical |= s.vacuous[v] != 0;
         mark(whole, slots_[v].output, x, y, 2);
       } else if (s.vacuous[v]) {
         ++(is_bounded ? out.typical : out.unbounded);
       }
     }
+    if (!is_atypical || !s.coarse || !s.coarse->finds(x, y, s.stored, s.vacuous, mode)) return;
+    ++counts.beyond;
+    for (std::size_t v = 0; v < slots_.size(); ++v) {
+      if (!s.coarse->is_beyond(v)) continue;
+      const std::size_t o = static_cast<std::size_t>(slots_[v].output);
+      ++counts.outputs[o].beyond;
+      mark(whole, slots_[v].output, x, y, beyond_mark);
+      Part::Gross& to = part.beyond[o];
+      to.worst.push_back(failure(x, y, v, &s.coarse->codes(v)));
+      to.farthest.add_failing(slots_[v].channel, value_distance(slots_[v].kind, to.worst.back()));
+      if (to.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(to.worst);
+    }
   }
 
-  static void add(CaseJudgement& whole, const Part& part, std::vector<Widths>& widths,
-                  std::vector<std::vector<std::uint32_t>>& rearranged) {
+  /// Lets what is beyond every device fail where there is much of it; else it stays a warning.
+  void settle_beyond(CaseJudgement& j, std::vector<Widths>& widths, const std::vector<Part::Gross>& beyond) const {
+    std::int64_t count = 0, vacuous = 0;
+    for (const OutputJudgement& o : j.outputs) count += o.beyond, vacuous += o.vacuous;
+    const bool fails = is_gross(count, vacuous);
+    if (fails)
+      j.failing += j.beyond;
+    else
+      j.beyond = 0;
+    for (std::size_t o = 0; o < j.outputs.size(); ++o) {
+      OutputJudgement& out = j.outputs[o];
+      for (std::uint8_t& texel : out.map)
+        if (texel == beyond_mark) texel = fails ? 3 : 2;
+      if (!fails) continue;
+      out.failing += out.beyond;
+      out.atypical = std::max<std::int64_t>(0, out.atypical - out.beyond);
+      out.worst.insert(out.worst.end(), beyond[o].worst.begin(), beyond[o].worst.end());
+      keep_worst(out.worst);
+      widths[o].append(beyond[o].farthest);
+    }
+  }
+
+  static void add(CaseJudgement& whole, const Part& part, std::vector<Widths>& widths, std::vector<std::vector<std::uint32_t>>& rearranged,
+                  std::vector<Part::Gross>& beyond) {
     whole.invocations += part.counts.invocations;
     whole.failing += part.counts.failing;
     whole.ambiguous += part.counts.ambiguous;
@@ -306,17 +366,21 @@ class CaseJudge {
     whole.rearranged += part.counts.rearranged;
     whole.rearranged_distance = std::max(whole.rearranged_distance, part.counts.rearranged_distance);
     whole.expanded += part.counts.expanded;
+    whole.beyond += part.counts.beyond;
     for (std::size_t o = 0; o < whole.outputs.size(); ++o) {
       OutputJudgement& to = whole.outputs[o];
       const OutputJudgement& from = part.counts.outputs[o];
       for (auto counter : {&OutputJudgement::elements, &OutputJudgement::failing, &OutputJudgement::differing, &OutputJudgement::vacuous,
                            &OutputJudgement::loose, &OutputJudgement::atypical, &OutputJudgement::typical, &OutputJudgement::unbounded,
-                           &OutputJudgement::rearranged, &OutputJudgement::free})
+                           &OutputJudgement::rearranged, &OutputJudgement::free, &OutputJudgement::beyond})
         to.*counter += from.*counter;
       to.worst.insert(to.worst.end(), from.worst.begin(), from.worst.end());
       keep_worst(to.worst);
       widths[o].append(part.widths[o]);
       rearranged[o].insert(rearranged[o].end(), part.rearranged[o].begin(), part.rearranged[o].end());
+      beyond[o].worst.insert(beyond[o].worst.end(), part.beyond[o].worst.begin(), part.beyond[o].worst.end());
+      keep_worst(beyond[o].worst);
+      beyond[o].farthest.append(part.beyond[o].farthest);
     }
   }
 

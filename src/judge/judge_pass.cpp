@@ -81,7 +81,7 @@ Asked asked(const PassTask& task, std::size_t k) {
 }
 
 /// Asks about the run with the most failures, which says most, and the next.
-Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
+Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options, bool is_warned = false) {
   std::vector<std::size_t> failing;
   for (std::size_t k = 0; k < judged.cases.size(); ++k)
     if (judged.cases[k].failing > 0) failing.push_back(k);
@@ -90,13 +90,47 @@ Explanation explained(const PassTask& task, const PassJudgement& judged, const J
   if (failing.empty()) return {};
   const Asked worst = asked(task, failing[0]);
   const auto failed = [&](const Asked& a, std::size_t k, const FailedRun* other) -> FailedRun {
-    return {*task.pass, a.run, a.before ? &a.before->c : nullptr, task.bind, a.model.get(), judged.cases[k], judged, judged.half_mode,
-            options,    other};
+    return {*task.pass,
+            a.run,
+            a.before ? &a.before->c : nullptr,
+            task.bind,
+            a.model.get(),
+            judged.cases[k],
+            judged,
+            judged.half_mode,
+            options,
+            other,
+            is_warned};
   };
   if (failing.size() == 1) return task.runs.explain(failed(worst, failing[0], nullptr));
   const Asked next = asked(task, failing[1]);
   const FailedRun other = failed(next, failing[1], nullptr);
   return task.runs.explain(failed(worst, failing[0], &other));
+}
+
+/// The same judgement with what is warned of as failing.
+PassJudgement as_failing(PassJudgement judged) {
+  for (CaseJudgement& c : judged.cases) {
+    if (c.status != Status::warn) continue;
+    for (OutputJudgement& o : c.outputs) {
+      o.failing = o.atypical + o.rearranged;
+      for (std::uint8_t& texel : o.map) {
+        c.failing += texel == 2;
+        if (texel == 2) texel = 3;
+      }
+    }
+  }
+  return judged;
+}
+/// What would explain elements that are warned of: a likely cause, or nothing. A device may be the reason, so no other is told.
+std::vector<Cause> causes_of_warning(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
+  JudgeOptions how = options;
+  // What a known device would do tells what is near; but for rearrangements, which the profile alone allows.
+  const bool is_rearranged = std::any_of(judged.cases.begin(), judged.cases.end(), [](const CaseJudgement& c) { return c.rearranged > 0; });
+  if (options.typical && !is_rearranged) how.profile = options.typical;
+  std::vector<Cause> causes = explained(task, as_failing(judged), how, true).causes;
+  std::erase_if(causes, [](const Cause& c) { return !c.is_likely; });
+  return causes;
 }
 
 /// A port that does nothing and passes all of these runs; "": none.
@@ -156,7 +190,7 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     judged.causes_sought = static_cast<bool>(task.runs.explain);
     judged.coverage = summary(coverage[k], task.pass->unexercised);
     choose_mode(judged, cases[k], votes[k], votes, options);
-    conclude(judged);
+    conclude(judged, *options.profile);
     if (task.runs.tries_null_ports && (judged.status == Status::pass || judged.status == Status::warn)) {
       judged.null_port = null_port_of(task, judged, options);
       if (!judged.null_port.empty()) {
@@ -164,7 +198,9 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
         judged.reason = "a port that does nothing passes: " + judged.null_port;
       }
     }
-    if (!task.runs.explain || judged.status != Status::fail) continue;
+    if (!task.runs.explain) continue;
+    if (judged.status == Status::warn) judged.causes = causes_of_warning(task, judged, options);
+    if (judged.status != Status::fail) continue;
     Explanation why = explained(task, judged, options);
     judged.causes = std::move(why.causes);
     judged.where = std::move(why.where);

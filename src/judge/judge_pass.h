@@ -40,6 +40,9 @@ struct FailedRun {
   HalfMode half_mode;           ///< that the pass was judged by
   const JudgeOptions& options;
   const FailedRun* other = nullptr;  ///< the failing run that says next most; null: none
+  /// What is asked about is warned of and does not fail: `judgement` has it as failing. What is plain is tried alone, which bounds the
+  /// time.
+  bool is_warned = false;
 };
 /// What would explain its failures, and what they share. The judge itself knows no mistakes: faults/diagnose.h does.
 using Explain = std::function<Explanation(const FailedRun&)>;
@@ -49,7 +52,7 @@ struct PassRuns {
   LoadRun load;
   SettleRun settle;
   std::function<void()> done_one;  ///< after each run; may be null
-  Explain explain;                 ///< asked about a pass that fails; may be null
+  Explain explain;                 ///< asked about a pass that fails, or warns of elements; may be null
   bool tries_null_ports = false;   ///< a pass that a port passes which does nothing is UNTESTED
   bool counts_coverage = false;    ///< PassJudgement::coverage is wanted
 };

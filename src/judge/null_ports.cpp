@@ -43,7 +43,7 @@ bool is_expected(const PassCase& c, const std::vector<Array>& port) {
   }
   return true;
 }
-/// What the profile leaves without a useful bound must lie inside what real devices do, as in any judgement.
+/// What the profile leaves without a useful bound must lie inside what known devices do, as in any judgement.
 bool passes(const PassCase& c, const capture::PassModel* model, const std::vector<Array>& port, const enclosed::Profile& profile,
             const enclosed::Profile* typical, HalfMode mode) {
   if (is_expected(c, port)) return true;

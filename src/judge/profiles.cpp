@@ -136,6 +136,11 @@ void set_part(Profile& p, const std::string& member, const std::string& part, co
   v->second(p, e);
 }
 
+/// Words about a profile, which typical_words() reads.
+bool is_of_typical(const std::string& key) { return key == "about" || key == "known_outside"; }
+/// Those that nobody is judged under.
+bool is_no_rule(std::string_view name) { return name == "typical" || name == "coarsest"; }
+
 }  // namespace
 
 enclosed::Profile parse_profile(std::string_view toml, const std::string& file) {
@@ -151,6 +156,10 @@ enclosed::Profile parse_profile(std::string_view toml, const std::string& file) 
       sourced.insert(member);
       continue;
     }
+    if (is_of_typical(e.key)) {
+      text(e);
+      continue;
+    }
     set_part(p, member, part, e);
     if (member != "name" && member != "reference" && member != "rearrangement_remedy") without_source.emplace(member, e);
   }
@@ -163,7 +172,7 @@ enclosed::Profile parse_profile(std::string_view toml, const std::string& file) 
 std::vector<std::string> profile_names() {
   std::vector<std::string> names;
   for (const auto& e : detail::embedded_profiles())
-    if (e.name != "typical") names.emplace_back(e.name);
+    if (!is_no_rule(e.name)) names.emplace_back(e.name);
   return names;
 }
 const enclosed::Profile& profile(std::string_view name) {
@@ -178,11 +187,19 @@ const enclosed::Profile& profile(std::string_view name) {
               fmt::format("--profile: expected one of {}, found '{}'{}", fmt::join(names, ", "), name, did_you_mean(name, names)));
 }
 const enclosed::Profile& judging_profile(std::string_view name) {
-  if (name != "typical") return profile(name);
-  throw Error(
-      ExitCode::usage,
-      fmt::format("--profile: expected one of {}, found 'typical', which is what present devices do and no rule: each of these warns by it",
-                  fmt::join(profile_names(), ", ")));
+  if (!is_no_rule(name)) return profile(name);
+  throw Error(ExitCode::usage,
+              fmt::format("--profile: expected one of {}, found '{}', which is what {} and no rule", fmt::join(profile_names(), ", "), name,
+                          name == "typical" ? "known devices do" : "no device exceeds"));
+}
+const std::string& typical_words() {
+  static const std::string words = [] {
+    std::map<std::string, std::string> of;
+    for (const RawEntry& e : scene::read_toml(profile_text("typical"), "typical.toml"))
+      if (is_of_typical(e.key)) of[e.key] = text(e);
+    return fmt::format("what known devices do (typical: {}; outside it lie {})", of["about"], of["known_outside"]);
+  }();
+  return words;
 }
 std::string_view profile_text(std::string_view name) {
   for (const auto& e : detail::embedded_profiles())

@@ -9,12 +9,14 @@
 
 namespace rainref::judge {
 
-/// "ieee", "vulkan", ...: without "typical", which only warns.
+/// "ieee", "vulkan", ...: without "typical" and "coarsest", which nobody is judged under: what known devices do, and what no device does.
 std::vector<std::string> profile_names();
 /// The profile of this name; Error(usage) naming the nearest one.
 const enclosed::Profile& profile(std::string_view name);
-/// One that a port may be judged under: Error(usage) for "typical" too.
+/// One that a port may be judged under: Error(usage) for one that is not among profile_names().
 const enclosed::Profile& judging_profile(std::string_view name);
+/// What known devices do, in words for reports: "what known devices do (typical: two NVIDIA chips, ...; outside it lie SwiftShader ...)".
+const std::string& typical_words();
 /// The text of its data file, with the source of every number.
 std::string_view profile_text(std::string_view name);
 

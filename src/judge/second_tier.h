@@ -22,6 +22,10 @@ class SecondTier {
                HalfMode mode);
   /// The same of what run() gave.
   bool accepts(const Alternatives& all, const Stored& stored, const std::vector<enclosed::CodeRange>& nearest, HalfMode mode);
+  /// Whether what was stored lies near some alternative of the last accepts(): at most four times as many codes away as it accepts. A
+  /// product of two sums, of at most four terms together with its sums 7 roundings, has 31 when it is multiplied out: each no larger, but
+  /// where its terms cancel. Of `nearest` where the pass has no evaluation for rearrangements.
+  bool is_near(const Stored& stored, const std::vector<enclosed::CodeRange>& nearest, HalfMode mode);
   /// Every alternative of these rearrangements, into `all`.
   void run(enclosed::Rearrangement how, int x, int y, const Stored& stored, HalfMode mode, Alternatives& all) const;
   /// The codes of the first alternative; null where there is none.

@@ -83,7 +83,7 @@ class Shadow {
     result.files = faults_.all();
     set_first_bad(result);
     result.notes.insert(result.notes.end(), files_.notes().begin(), files_.notes().end());
-    for (const Tally* tally : {&differing_, &unchecked_})
+    for (const Tally* tally : {&host_.foreign, &host_.rounded, &host_.of_state, &unchecked_})
       for (const std::string& line : tally->lines()) result.notes.push_back(line);
     conclude(result);
     return result;
@@ -261,20 +261,28 @@ class Shadow {
       return out;
     }
     const bool is_first = loaded_.insert(run.id).second;
-    Tally unused;
     if (!run.plan) {
       if (is_first)
         unchecked_.add(fmt::format("the manifest does not know all runs of {}; uniforms and inputs were taken as they are", run.pass),
                        run.id);
       return out;
     }
-    out.broken = check_uniforms(plan_, *run.plan, out.c.uniforms, is_first ? differing_ : unused);
-    for (std::size_t i = 0; i < out.c.inputs.size() && out.broken.empty(); ++i) out.broken = check_input(run, i, is_first);
+    HostNotes unused;
+    HostNotes& notes = is_first ? host_ : unused;
+    const HostRules rules{options_.foreign_host, evaluations_of(plan_.effect, run.pass)};
+    out.broken = check_uniforms(plan_, *run.plan, out.c, rules, notes);
+    for (std::size_t i = 0; i < out.c.inputs.size() && out.broken.empty(); ++i) {
+      const capture::CaseInput& input = out.c.inputs[i];
+      out.broken =
+          plan_.is_given(*run.plan, input.name)
+              ? check_given(plan_, *run.plan, i, input.array, contents_.hash(fmt::format("{}/in.{}", run.id, input.name)), rules, notes)
+              : check_link(run, i, is_first);
+    }
     return out;
   }
 
-  /// Why an input is not what it should be, or "".
-  std::string check_input(const Run& run, std::size_t i, bool is_first) {
+  /// Why an input is not the output that it should be, or "".
+  std::string check_link(const Run& run, std::size_t i, bool is_first) {
     const capture::CaseInput& input = run.plan->c.inputs[i];
     const PlannedRun* source = plan_.source(*run.plan, input.name);
     // Of a pass that runs once for each mip level each level is compared with its own run.
@@ -290,16 +298,11 @@ class Shadow {
   std::string check_link(const Run& run, std::size_t i, const std::string& part, const PlannedRun* source, bool is_first) {
     const std::string& name = run.plan->c.inputs[i].name;
     const std::string buffer = fmt::format("{}/{}", run.id, part);
-    const capture::PackEdge* edge = plan_.edge(run.pass, name);
-    if (!edge || edge->from == "host" || (!source && plan_.frames.contains(run.frame) && run.frame == 0)) {
-      if (is_first && contents_.hash(buffer) != run.plan->input_hashes[i])
-        differing_.add(fmt::format("input {} of {} is not the {}", name, run.pass, plan_.from_scene ? "scene's" : "manifest's"), run.id);
-      return "";
-    }
     const std::string output = source ? fmt::format("{}/out.{}", source->c.folder(), name) : "";
     if (contents_.hash(output).empty()) {
       if (is_first)
-        unchecked_.add(fmt::format("input {} of {} was not compared with the output of {}, which is not there", name, run.pass, edge->from),
+        unchecked_.add(fmt::format("input {} of {} was not compared with the output of {}, which is not there", name, run.pass,
+                                   plan_.edge(run.pass, name)->from),
                        run.id);
       return "";
     }
@@ -354,7 +357,8 @@ class Shadow {
   std::vector<Run> runs_;
   FileFaults faults_;
   DumpedContents contents_;
-  Tally differing_, unchecked_;
+  HostNotes host_;
+  Tally unchecked_;
   std::set<std::string> loaded_, links_broken_, not_good_;
   int done_ = 0;
 };

@@ -17,9 +17,10 @@ namespace rainref::judge {
 /// Judges the dumps in `folder`, laid out as a pack: in.*, uniforms.bin and out.* of each run, which are `dumped`.
 ///
 /// A run fails when an output lies outside what the profile allows for its inputs, when an input is not the output that
-/// the graph names, or when its uniforms cannot be its own (a number that is none, another frame's time, another run's
-/// counter). Other uniforms and the host's inputs that differ from the plan's are notes. A planned run that was not
-/// dumped is not judged. Outputs of Judge::input_only are taken as they are.
+/// the graph names, when its uniforms cannot be its own (a number that is none, another frame's time, another run's
+/// counter), or when other uniforms, the host's inputs or the state that the run begins with are not the plan's: more than
+/// host_values.h explains, unless ValidateOptions::foreign_host forgives that. A planned run that was not dumped is not
+/// judged. Outputs of Judge::input_only are taken as they are.
 ///
 /// Files that are missing or cannot be what they should be are in PortJudgement::files; the runs that need them are not
 /// judged, all others are. Throws Error(port_files) for a run that the plan does not know.

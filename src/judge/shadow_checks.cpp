@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/difference.h"
+#include "judge/host_values.h"
 #include "judge/rearrange.h"
 
 namespace rainref::judge {
@@ -135,29 +136,89 @@ const PlannedRun* run_with(const ShadowPlan& plan, const std::string& pass, cons
   return nullptr;
 }
 
+/// Whether a count is that of a list which the run took: "drop_count" of the records of drops.
+bool counts_own_list(const capture::PassCase& taken, const Member& m) {
+  constexpr std::string_view ending = "_count";
+  if (m.scalar == scene::Scalar::float32 || m.components != 1 || !m.name.ends_with(ending)) return false;
+  const capture::CaseInput* list = taken.input(m.name.substr(0, m.name.size() - ending.size()) + "s");
+  std::uint32_t count;
+  std::memcpy(&count, taken.uniforms.data() + m.offset, 4);
+  return list && list->array.is_records && count == static_cast<std::uint32_t>(list->array.width);
+}
+
+constexpr const char* remedy = "; a host that chooses otherwise: --foreign-host";
+
 }  // namespace
 
-std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const std::vector<std::byte>& uniforms, Tally& differing) {
+bool HostRules::hangs_on_state(std::string_view name) const {
+  return evaluations && std::find(evaluations->of_state.begin(), evaluations->of_state.end(), name) != evaluations->of_state.end();
+}
+
+std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const capture::PassCase& taken, const HostRules& rules,
+                           HostNotes& notes) {
   const std::string& pass = run.c.pass;
+  const std::vector<std::byte>& uniforms = taken.uniforms;
   const auto declared = std::find_if(plan.passes.begin(), plan.passes.end(), [&](const capture::PackPass& p) { return p.name == pass; });
   std::string why;
   for (const Member& m : declared->block.members) {
     if (m.name.starts_with("padding")) continue;
-    const auto refuse = [&](const std::string& reason) {
-      if (why.empty())
-        why = fmt::format("uniform {} is {}, expected {}{}", m.name, text_of(m, uniforms), text_of(m, run.c.uniforms), reason);
+    const Likeness like = compare_member(m, run.c.uniforms.data(), uniforms.data());
+    if (like == Likeness::same || counts_own_list(taken, m)) continue;
+    const std::string values = fmt::format("{}, expected {}", text_of(m, uniforms), text_of(m, run.c.uniforms));
+    const auto note = [&](Tally& tally, const char* what) {
+      tally.add(fmt::format("uniform {} of {} {} {}'s", m.name, pass, what, plan.source_word()),
+                fmt::format("{}: {}", run.c.folder(), values));
     };
-    if (same(m, run.c.uniforms, uniforms)) continue;
+    if (rules.hangs_on_state(m.name)) {
+      if (!rules.evaluations->doubt) note(notes.of_state, "hangs on the port's own state and is not");
+      continue;
+    }
     const PlannedRun* other = run_with(plan, pass, m, uniforms);
-    const bool counts = m.scalar != scene::Scalar::float32;
-    if (is_time(plan, pass, m) || (counts && other)) {
-      refuse(other ? fmt::format(": it is that of {}", other->c.folder()) : "");
-    } else {
-      differing.add(fmt::format("uniform {} of {} is not the {}", m.name, pass, plan.from_scene ? "scene's" : "manifest's"),
-                    fmt::format("{}: {}, expected {}", run.c.folder(), text_of(m, uniforms), text_of(m, run.c.uniforms)));
+    const bool is_of_another = other && (m.scalar != scene::Scalar::float32 || is_time(plan, pass, m));
+    if (!is_of_another && like == Likeness::rounded) {
+      note(notes.rounded, "differs by rounding from");
+    } else if (!is_of_another && !is_time(plan, pass, m) && rules.is_foreign) {
+      note(notes.foreign, "is not");
+    } else if (why.empty()) {
+      why = fmt::format("uniform {} is {}", m.name, values) + (other && is_of_another ? fmt::format(": it is that of {}", other->c.folder())
+                                                               : is_time(plan, pass, m) ? ""
+                                                                                        : remedy);
     }
   }
   return why;
+}
+
+std::string check_given(const ShadowPlan& plan, const PlannedRun& run, std::size_t i, const Array& given, const std::string& hash,
+                        const HostRules& rules, HostNotes& notes) {
+  const std::string &name = run.c.inputs[i].name, &expected_hash = run.input_hashes[i];
+  if (hash == expected_hash || rules.hangs_on_state(name)) return "";
+  const capture::PackEdge* edge = plan.edge(run.c.pass, name);
+  const bool is_state = edge && edge->from != "host";
+  const auto known = plan.given.find(expected_hash);
+  const Likeness like = known == plan.given.end() ? Likeness::other : compare_arrays(known->second, given);
+  if (like == Likeness::same) return "";
+  const auto note = [&](Tally& tally, const char* what) {
+    tally.add(fmt::format("input {} of {} {} {}'s", name, run.c.pass, what, plan.source_word()), run.c.folder());
+  };
+  if (like == Likeness::rounded) {
+    note(notes.rounded, "differs by rounding from");
+    return "";
+  }
+  if (rules.is_foreign) {
+    note(notes.foreign, "is not");
+    return "";
+  }
+  std::string out =
+      fmt::format("input {}/in.{} is not {}", run.c.folder(), name,
+                  is_state ? fmt::format("the state that {} begins with", plan.source_word()) : fmt::format("{}'s", plan.source_word()));
+  if (known == plan.given.end()) {
+    out += ": of its values the manifest has the hash alone";
+  } else if (!capture::same_shape(known->second, given)) {
+    out += fmt::format(": it has {}, not {}", capture::shape_text(given), capture::shape_text(known->second));
+  } else if (const auto d = capture::first_difference(known->second, given)) {
+    out += fmt::format(": {} of {} values differ, first at {}: expected {}, found {}", d->count, d->of, d->place, d->a, d->b);
+  }
+  return out + remedy;
 }
 
 }  // namespace rainref::judge

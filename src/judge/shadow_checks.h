@@ -5,8 +5,10 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "capture/pass_model.h"
 #include "judge/shadow_plan.h"
 
 namespace rainref::judge {
@@ -44,8 +46,26 @@ class Tally {
   std::vector<Entry> entries_;
 };
 
-/// Compares a run's uniforms with the plan's. What differs goes into `differing`, because a port may set it otherwise; gives
-/// why the uniforms cannot be this run's, or "": another time, a counter of another run.
-std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const std::vector<std::byte>& uniforms, Tally& differing);
+/// What of the host's inputs and uniforms is not the scene's, and no failure.
+struct HostNotes {
+  Tally rounded;   ///< as near as a host in float comes (host_values.h)
+  Tally foreign;   ///< forgiven: the host chose otherwise
+  Tally of_state;  ///< what hangs on the port's own state and nobody checks
+};
+/// How a host is held to the plan.
+struct HostRules {
+  bool is_foreign = false;                                ///< what it chose otherwise is noted
+  const capture::PassEvaluations* evaluations = nullptr;  ///< of the pass; null: none
+
+  bool hangs_on_state(std::string_view name) const;
+};
+
+/// Why the uniforms of a run, which took `taken`, cannot be its own, or "": another time, a counter of another run, or, of a host that is
+/// not foreign, a number that the plan does not say.
+std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const capture::PassCase& taken, const HostRules& rules,
+                           HostNotes& notes);
+/// Why an input of the run cannot be what the host gives, or "". `hash`: content_hash() of `given`.
+std::string check_given(const ShadowPlan& plan, const PlannedRun& run, std::size_t input, const capture::Array& given,
+                        const std::string& hash, const HostRules& rules, HostNotes& notes);
 
 }  // namespace rainref::judge

@@ -121,9 +121,11 @@ ShadowPlan ShadowPlan::of_effect(const capture::EffectInfo& effect, const std::s
 void ShadowPlan::add(const PassCase& from, const capture::EffectInfo& info_of_effect) {
   PlannedRun& run = runs.emplace_back();
   run.c = from;
+  frames.insert(from.frame);
   for (capture::CaseInput& input : run.c.inputs) {
     run.input_hashes.push_back(content_hash(input.array));
     run.input_stems.emplace_back();
+    if (is_given(run, input.name)) given.try_emplace(run.input_hashes.back(), input.array);
     input.array = shape_of(std::move(input.array));
   }
   for (capture::CaseOutput& output : run.c.outputs) {
@@ -133,7 +135,6 @@ void ShadowPlan::add(const PassCase& from, const capture::EffectInfo& info_of_ef
     output.unit = buffer.unit;
     output.color_space = buffer.colour_space;
   }
-  frames.insert(from.frame);
 }
 
 void ShadowPlan::take_files(const ShadowPlan& manifest) {
@@ -163,6 +164,11 @@ const capture::PackEdge* ShadowPlan::edge(std::string_view pass, std::string_vie
   const auto found =
       std::find_if(edges.begin(), edges.end(), [&](const capture::PackEdge& e) { return e.pass == pass && e.input == input; });
   return found == edges.end() ? nullptr : &*found;
+}
+
+bool ShadowPlan::is_given(const PlannedRun& run, std::string_view input) const {
+  const capture::PackEdge* e = edge(run.c.pass, input);
+  return !e || e->from == "host" || (run.c.frame == 0 && !source(run, input));
 }
 
 const PlannedRun* ShadowPlan::source(const PlannedRun& run, std::string_view input, int level) const {

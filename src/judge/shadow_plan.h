@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -35,6 +36,8 @@ struct ShadowPlan {
   std::set<int> frames;          ///< whose runs are all known
   /// Whether `runs` is all that there can be in these frames; else a port may have dumped other frames too.
   bool from_scene = false;
+  /// By content_hash(): the inputs that is_given() names, of a scene. They take no more memory than the port's own on disk.
+  std::map<std::string, capture::Array> given;
 
   /// From a manifest that lies beside the dumps: each of its cases should be there. With `shares_files` inputs and
   /// uniforms may lie where the manifest says, else each run has all of its own.
@@ -51,6 +54,10 @@ struct ShadowPlan {
   const PlannedRun* example(std::string_view pass) const;
   /// Where an input comes from; null for one that the graph does not name.
   const capture::PackEdge* edge(std::string_view pass, std::string_view input) const;
+  /// Whether the host gives an input: no pass writes it, or it is the state that the run begins with.
+  bool is_given(const PlannedRun& run, std::string_view input) const;
+  /// "the scene" or "the manifest": what says what a host is to give.
+  const char* source_word() const { return from_scene ? "the scene" : "the manifest"; }
   /// The run whose output an input is, or null: it is the host's, or the run lies in frames that are not known. A pass that
   /// runs once for each mip level gives each level of its input by a run of its own; `level` asks for one.
   const PlannedRun* source(const PlannedRun& run, std::string_view input, int level = 0) const;

@@ -19,6 +19,7 @@ namespace rainref::judge {
 struct ValidateOptions {
   std::string profile = "vulkan";
   std::vector<std::string> only;  ///< judge these passes alone; empty: all
+  bool foreign_host = false;      ///< shadow: what the host chose otherwise than the scene is a note
   bool partial = false;           ///< a pass without any file of the port is not judged, and its files are not missing
   const parallel::Executor* executor = nullptr;
   std::function<void(int done, int of)> progress;  ///< after each case; may be null

@@ -14,7 +14,7 @@ namespace rainref::judge {
 
 enum class Status : std::uint8_t {
   pass,
-  warn,      ///< inside what the profile allows, but outside what real devices do, or with an open question
+  warn,      ///< inside what the profile allows, but outside what known devices do, or with an open question
   fail,      ///< an element outside, a NaN, a crash
   untested,  ///< nothing was judged, or too much of it was vacuous
   known,     ///< fails, and the baseline says why it may
@@ -78,8 +78,9 @@ struct OutputJudgement {
   std::int64_t differing = 0;              ///< not the reference's bits
   std::int64_t vacuous = 0;                ///< envelope wider than 1/16 of the declared range; of a record's field of its own
   std::int64_t loose = 0;                  ///< wider than 1/256
-  std::int64_t atypical = 0;               ///< inside the profile, as far as it bounds them, but outside what real devices do
-  std::int64_t typical = 0;                ///< of the vacuous: inside what real devices do, which bounds them
+  std::int64_t atypical = 0;               ///< inside the profile, as far as it bounds them, but outside what known devices do
+  std::int64_t beyond = 0;                 ///< of the vacuous: outside what the coarsest device may do (judge/beyond.h)
+  std::int64_t typical = 0;                ///< of the vacuous: inside what known devices do, which bounds them
   std::int64_t unbounded = 0;              ///< of the vacuous: not bounded by that either, or not judged by it
   std::int64_t rearranged = 0;             ///< outside the formula as written, inside the rearrangements that the profile allows
   std::int64_t free = 0;                   ///< declared as not reproducible: held to a range of its own
@@ -109,7 +110,10 @@ struct CaseJudgement {
   std::int64_t gave_up = 0;               ///< invocations with too many alternatives
   std::int64_t rearranged = 0;            ///< invocations that only a rearrangement accepts
   std::uint64_t rearranged_distance = 0;  ///< how far their values lie from the formula as written, at most [codes]
-  std::int64_t expanded = 0;  ///< of the failing: accepted if products of sums were multiplied out, which no compiler is seen to do
+  std::int64_t beyond = 0;                ///< of the failing: with elements that are OutputJudgement::beyond; 0 where these are few
+  /// Of the failing: accepted, and near what the profile's own rearrangements give, if products of sums were multiplied out, which no
+  /// compiler is seen to do.
+  std::int64_t expanded = 0;
   std::vector<OutputJudgement> outputs;
 };
 
@@ -145,7 +149,7 @@ struct PassJudgement {
   std::array<std::int64_t, 3> half_votes{};  ///< failing invocations under rne, rtz, either
   bool half_mode_voted = false;
   std::vector<CaseJudgement> cases;
-  std::vector<Cause> causes;  ///< best first; empty: unknown
+  std::vector<Cause> causes;  ///< best first; empty: unknown. Of a WARN the likely one alone
   bool causes_sought = true;  ///< false: nobody asked for causes
   std::string null_port;      ///< a port that does nothing and passes, which makes the pass UNTESTED: "zeros"; "": none
   std::string where = "";     ///< Explanation::where

@@ -72,6 +72,7 @@ judge::PortJudgement judged(const CaseList& cases, const JudgeOptions& o, const 
   result.scene = cases.scene();
   result.passes = judge::judge_passes(tasks, options);
   judge::conclude(result);
+  if (o.strict) judge::fail_warnings(result);
   return result;
 }
 

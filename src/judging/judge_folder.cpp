@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "faults/diagnose.h"
+#include "judge/conclude.h"
 #include "judge/profiles.h"
 #include "judge/validate.h"
 
@@ -20,6 +21,7 @@ Judged judge_folder(const std::filesystem::path& pack, const std::filesystem::pa
   options.progress = o.progress;
   options.explain = faults::diagnose;
   judge::PortJudgement judged = judge::validate(*opened, port, options);
+  if (o.strict) judge::fail_warnings(judged);
   Verdict verdict = verdict_of(judged);
   return {std::move(judged), reports::page_source(opened, port), std::move(verdict)};
 }

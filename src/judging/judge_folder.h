@@ -14,6 +14,7 @@ struct FolderOptions {
   std::string profile = "vulkan";
   std::vector<std::string> passes{};               ///< judge these alone; empty: all
   bool partial = false;                            ///< a pass without any file of the port is not judged, and its files are not missing
+  bool strict = false;                             ///< each WARN is a FAIL
   std::function<void(int done, int of)> progress;  ///< after each run, by the thread that asked; may be null
 };
 

@@ -33,15 +33,16 @@ std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
 }  // namespace
 
 const std::vector<capture::PassEvaluations>& evaluations() {
-  static const std::vector<capture::PassEvaluations> all{{"raindrops", bind_raindrops, recompute_raindrops},
-                                                         {"wave_step", pass::bind<WaveStepPass, scalar::WaveStepPassText>},
-                                                         {"surface_hit", bind_surface_hit, nullptr, doubt_bounds},
-                                                         {"shade",
-                                                          pass::bind<ShadePass, scalar::ShadePassText>,
-                                                          nullptr,
-                                                          nullptr,
-                                                          {capture::by_other_angles<pass::bind<ShadePass, scalar::ShadePassText>>()}},
-                                                         {"display", pass::bind<DisplayPass, scalar::DisplayPassText>}};
+  static const std::vector<capture::PassEvaluations> all{
+      {"raindrops", bind_raindrops, recompute_raindrops},
+      {"wave_step", pass::bind<WaveStepPass, scalar::WaveStepPassText>},
+      {"surface_hit", bind_surface_hit, nullptr, doubt_bounds, {}, {"bounds", "surface_top", "surface_slope"}},
+      {"shade",
+       pass::bind<ShadePass, scalar::ShadePassText>,
+       nullptr,
+       nullptr,
+       {capture::by_other_angles<pass::bind<ShadePass, scalar::ShadePassText>>()}},
+      {"display", pass::bind<DisplayPass, scalar::DisplayPassText>}};
   return all;
 }
 

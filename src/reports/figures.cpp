@@ -198,14 +198,22 @@ std::string coverage_text(const judge::PassCoverage& c, std::size_t shown) {
   if (c.alternatives == 0) return "";
   std::string out = fmt::format("exercises {} of {} alternatives", c.taken, c.alternatives);
   if (!c.reasons.empty()) out += fmt::format(", {} with a reason not", c.reasons.size());
+  if (shown == 0) return c.never.empty() ? out : fmt::format("{}, {} without one", out, c.never.size());
   for (std::size_t k = 0; k < std::min(shown, c.never.size()); ++k) out += (k == 0 ? "; never: " : "; ") + c.never[k];
   return out + (c.never.size() > shown ? fmt::format(" and {} more", c.never.size() - shown) : "");
 }
 
 const char* cause_word(const Cause& c) { return c.is_likely ? "likely cause" : "may be"; }
-std::string cause_text(const Cause& c) {
-  return fmt::format("{}: {}: {} (gives {} of {} failing {} bit for bit, comes near {})", cause_word(c), c.name, c.sentence, c.explained,
-                     c.of, element_word(c), c.inside);
+std::string cause_text(const Cause& c, std::string_view which) {
+  return fmt::format("{}: {}: {} (gives {} of {} {} {} bit for bit, comes near {})", cause_word(c), c.name, c.sentence, c.explained, c.of,
+                     which, element_word(c), c.inside);
+}
+std::string outside_text(const PassJudgement& p) {
+  std::int64_t outside = 0, beyond = 0;
+  for (const CaseJudgement& c : p.cases)
+    for (const OutputJudgement& o : c.outputs) outside += o.failing, beyond += c.beyond > 0 ? o.beyond : 0;
+  return beyond > 0 && beyond == outside ? fmt::format("is outside what any known device makes of {}", p.formula)
+                                         : fmt::format("is outside the as-written envelope of {}", p.formula);
 }
 
 bool is_broken(const PassJudgement& p) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "judge/verdict.h"
@@ -78,13 +79,15 @@ struct QuantitiesOfOutput {
 std::vector<QuantitiesOfOutput> quantities_of(const judge::PassJudgement& pass);
 
 /// "exercises 41 of 44 alternatives, 2 with a reason not; never: shade.pass.h, refract total reflection: const Vec3<N> bent = ...", at
-/// most `shown` of them; "" where nothing is counted.
+/// most `shown` of them, of 0 their number alone; "" where nothing is counted.
 std::string coverage_text(const judge::PassCoverage& coverage, std::size_t shown);
-constexpr std::size_t shown_alternatives = 3;  // the others are in the JSON report and in the pack's manifest
 /// "likely cause", or "may be".
 const char* cause_word(const judge::Cause& cause);
 /// "likely cause: upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".
-std::string cause_text(const judge::Cause& cause);
+/// `which`: what its texels are.
+std::string cause_text(const judge::Cause& cause, std::string_view which = "failing");
+/// "is outside the as-written envelope of puddle.shade.corrected/2", or what no known device does, where that alone fails.
+std::string outside_text(const judge::PassJudgement& pass);
 
 /// Whether a run of it fails for a reason of its own, which is then the cause: a race, an input that is not the output it
 /// comes from, a uniform.

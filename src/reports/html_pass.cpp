@@ -42,17 +42,17 @@ std::string takes_html(const PassJudgement& p, const PortJudgement& j, const Pag
 }
 
 std::string causes_html(const PassJudgement& p) {
-  if (figures_of(p).outside == 0) return "";
+  if (figures_of(p).outside == 0 && p.causes.empty()) return "";
   std::string out = p.where.empty() ? "" : fmt::format("<p class=\"cause\"><b>Where:</b> {}.</p>\n", marked_up(p.where));
   if (p.causes.empty() && (is_broken(p) || !p.causes_sought)) return out;
   if (p.causes.empty()) return out + "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
   out += fmt::format("<h3>{}</h3>\n<ol class=\"causes\">\n", p.causes[0].is_likely ? "Likely cause" : "What the cause may be");
   for (const Cause& c : p.causes) {
     out += fmt::format(
-        "<li>{} <b>{}</b>: {} <span class=\"dim\">gives {} of {} failing {} bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" "
+        "<li>{} <b>{}</b>: {} <span class=\"dim\">gives {} of {} {} {} bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" "
         "value=\"{}\">{}</meter></li>\n",
-        cause_word(c), marked_up(c.name), marked_up(c.sentence), c.explained, c.of, element_word(c), c.inside, c.of, c.explained,
-        share_text(c.explained, c.of));
+        cause_word(c), marked_up(c.name), marked_up(c.sentence), c.explained, c.of, p.status == Status::warn ? "warned" : "failing",
+        element_word(c), c.inside, c.of, c.explained, share_text(c.explained, c.of));
   }
   return out + "</ol>\n";
 }
@@ -198,8 +198,7 @@ std::string pass_html(const PassJudgement& p, const PortJudgement& j, const Page
   out += broken_html(p);
   out += known_html(p) + takes_html(p, j, source) + causes_html(p);
   if (const std::string half = half_text(p); !half.empty()) out += fmt::format("<p class=\"dim\">S{}.</p>\n", marked_up(half.substr(1)));
-  if (p.coverage.alternatives > 0)
-    out += fmt::format("<p class=\"dim\">The pack {}.</p>\n", marked_up(coverage_text(p.coverage, shown_alternatives)));
+  if (p.coverage.alternatives > 0) out += fmt::format("<p class=\"dim\">The pack {}.</p>\n", marked_up(coverage_text(p.coverage, 0)));
   const Figures f = figures_of(p);
   if (f.other_branch > 0)
     out += fmt::format("<p class=\"dim\">{} of {} ambiguous invocations took another branch than the reference.</p>\n", f.other_branch,

@@ -89,6 +89,7 @@ Json output_json(const OutputJudgement& o) {
   out["vacuous"] = o.vacuous;
   out["loose"] = o.loose;
   out["atypical"] = o.atypical;
+  out["beyond"] = o.beyond;
   out["typical"] = o.typical;
   out["unbounded"] = o.unbounded;
   out["rearranged"] = o.rearranged;
@@ -119,6 +120,7 @@ Json case_json(const CaseJudgement& c) {
            {"rearranged", c.rearranged},
            {"rearranged_distance", c.rearranged_distance},
            {"expanded", c.expanded},
+           {"beyond", c.beyond},
            {"outputs", Json::array()}};
   for (const OutputJudgement& o : c.outputs) out["outputs"].push_back(output_json(o));
   return out;

@@ -38,7 +38,7 @@ struct Suite {
 };
 
 std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
-  std::string out = fmt::format("outside the as-written envelope of {}\n", p.formula);
+  std::string out = outside_text(p).substr(3) + "\n";  // without "is "
   for (std::size_t k = 0; k < std::min(shown_failures, o.worst.size()); ++k) {
     const FailureText t = failure_text(o, o.worst[k]);
     out += t.got.empty() ? fmt::format("{}: {}\n", t.place, t.distance)
@@ -87,6 +87,7 @@ Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgeme
     t.type = "not judged";
   } else if (!c.reason.empty() && c.status != Status::fail) {
     t.text = fmt::format("{}: {}\n", name(c.status), c.reason);
+    for (const Cause& cause : p.causes) t.text += cause_text(cause, "warned") + "\n";
   }
   return t;
 }
@@ -108,6 +109,9 @@ Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome unt
     suite.tests.push_back({outcome, c.id, outcome == Test::passed ? "" : fmt::format("{}: {}", name(c.status), c.reason),
                            outcome == Test::passed ? c.reason : "", "not judged"});
   }
+  // A pass may fail for what is no run's: how its stores round, where a warning is to fail.
+  if (p.status == Status::fail && suite.count(Test::failed) + suite.count(Test::error) == 0)
+    suite.tests.push_back({Test::failed, p.pass, p.reason, p.reason, "broken"});
   const Figures f = figures_of(p);
   suite.remark = fmt::format("{} {}\n", name(p.status), p.reason);
   if (f.elements > 0) {

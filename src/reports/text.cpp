@@ -77,10 +77,11 @@ std::string fields_text(const QuantitiesOfOutput& o) {
   return fmt::format("{}, median width by field: {}{}", o.output, wide, others);
 }
 
-/// What the columns do not say of a pass.
-std::vector<std::string> remarks_on(const PassJudgement& p) {
+/// What the columns do not say of a pass; of one that passes only where everything is asked for.
+std::vector<std::string> remarks_on(const PassJudgement& p, bool is_verbose) {
   const Figures f = figures_of(p);
   std::vector<std::string> out;
+  if (p.status == Status::pass && !is_verbose) return out;
   // A reason that a case has of its own stands below, with the case.
   if (!p.reason.empty() && !is_broken(p)) out.push_back(p.reason);
   std::string open;
@@ -91,10 +92,10 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
   if (count > 0)
     out.push_back(fmt::format("not judged: {}{}", open, count > shown_outputs ? fmt::format(" and {} more", count - shown_outputs) : ""));
   if (f.atypical > 0 && p.status != Status::warn)
-    out.push_back(fmt::format("{} elements inside the profile but outside what real devices do", f.atypical));
+    out.push_back(fmt::format("{} elements inside the profile but outside what known devices do", f.atypical));
   if (f.typical > 0)
     out.push_back(
-        fmt::format("{} elements have no useful bound from the profile; what real devices do bounds {} of them, {} stay unbounded",
+        fmt::format("{} elements have no useful bound from the profile; what known devices do bounds {} of them, {} stay unbounded",
                     f.vacuous, f.typical, f.unbounded));
   if (f.other_branch > 0)
     out.push_back(fmt::format("{} of {} ambiguous invocations took another branch than the reference", f.other_branch, f.ambiguous));
@@ -103,12 +104,14 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
     if (const std::string fields = o.counted == judge::Counted::fields ? fields_text(o) : ""; !fields.empty()) out.push_back(fields);
   if (f.free > 0) out.push_back(fmt::format("{} of {} elements are free: declared as not reproducible", f.free, f.elements));
   if (const std::string half = half_text(p); !half.empty()) out.push_back(half);
-  if (!p.coverage.never.empty()) out.push_back(coverage_text(p.coverage, shown_alternatives));
+  if (p.status == Status::warn)
+    for (const Cause& c : p.causes) out.push_back(cause_text(c, "warned"));
+  if (is_verbose && !p.coverage.never.empty()) out.push_back(coverage_text(p.coverage, p.coverage.never.size()));
   return out;
 }
 
 /// Columns as wide as their widest cell; the first two are words, the others numbers.
-std::string table_text(const PortJudgement& j) {
+std::string table_text(const PortJudgement& j, bool is_verbose) {
   std::vector<std::vector<std::string>> rows{{"", "pass", "outside", "bounded", "median width", "99 %", "ambiguous", "vacuous", "loose"}};
   for (const PassJudgement& p : j.passes) rows.push_back(row_of(p));
   std::vector<std::size_t> widths(rows[0].size(), 0);
@@ -122,7 +125,8 @@ std::string table_text(const PortJudgement& j) {
                     : fmt::format("{:>{}}{}", rows[r][k], widths[k], k + 1 < rows[r].size() ? "  " : "");
     out += line + "\n";
     if (r == 0) continue;
-    for (const std::string& remark : remarks_on(j.passes[r - 1])) out += wrapped(std::string(widths[0] + 2, ' ') + remark, widths[0] + 4);
+    for (const std::string& remark : remarks_on(j.passes[r - 1], is_verbose))
+      out += wrapped(std::string(widths[0] + 2, ' ') + remark, widths[0] + 4);
   }
   return out;
 }
@@ -142,8 +146,7 @@ std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
 }
 
 std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
-  const std::string verdict =
-      figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "";
+  const std::string verdict = figures_of(p).outside > 0 ? fmt::format(" {} under profile {}", outside_text(p), j.profile) : "";
   std::string out = "\n" + wrapped(fmt::format("{} {}{}", name(p.status), p.pass, verdict), 2);
   if (p.pass == j.first_bad_pass)
     out += p.inputs_are_good ? "  first bad pass, its inputs are good\n" : "  first bad pass, its inputs are not good either\n";
@@ -176,8 +179,8 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
 
 }  // namespace
 
-std::string report_text(const PortJudgement& j) {
-  std::string out = j.passes.empty() ? "" : table_text(j);
+std::string report_text(const PortJudgement& j, bool is_verbose) {
+  std::string out = j.passes.empty() ? "" : table_text(j, is_verbose);
   for (const PassJudgement& p : j.passes)
     if ((p.status == Status::fail || p.status == Status::known) && !p.cases.empty()) out += failures_text(p, j);
   for (const std::string& s : j.stale) out += fmt::format("\nbaseline: {}\n", s);

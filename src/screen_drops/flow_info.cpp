@@ -68,7 +68,7 @@ std::vector<capture::BufferInfo> flow_buffers() {
 std::vector<UniformBlock> flow_records() { return drops::records(); }
 
 std::vector<capture::PassEvaluations> flow_evaluations() {
-  return {{"spawn", nullptr, drops::recompute_spawn},
+  return {drops::spawn_evaluations(),
           {"integrate", drops::bind_integrate},
           {"necks", drops::bind_necks},
           {"merge", drops::bind_merge},

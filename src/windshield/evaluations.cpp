@@ -13,7 +13,7 @@ namespace rainref::windshield {
 const std::vector<capture::PassEvaluations>& evaluations() {
   static const std::vector<capture::PassEvaluations> all{
       {"windshield_frame", bind_windshield_frame},
-      {"spawn", nullptr, drops::recompute_spawn},
+      drops::spawn_evaluations(),
       {"integrate", drops::bind_integrate},
       {"wipe_drops", bind_wipe_drops},
       {"necks", drops::bind_necks},

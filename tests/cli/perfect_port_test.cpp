@@ -10,7 +10,7 @@
 namespace rainref::cli {
 namespace {
 
-/// Of a pass: elements without a useful bound by the profile, and by what real devices do either [%].
+/// Of a pass: elements without a useful bound by the profile, and by what known devices do either [%].
 struct Shares {
   double vacuous = 0, unbounded = 0;
 };
@@ -57,7 +57,7 @@ class PerfectPort : public CommandLine {
 };
 
 TEST_F(PerfectPort, OfScreenDropsAsPublishedIsGreen) {
-  // Few cells hold a drop, and WGSL promises nothing of the sines that place them: what real devices do tells a port that draws none.
+  // Few cells hold a drop, and WGSL promises nothing of the sines that place them: what known devices do tells a port that draws none.
   expect_green("screen_drops/as_published.toml",
                {{"vulkan", {0.46, 0.46}}, {"webgpu", {3.31, 0.46}}, {"d3d", {0.46, 0.46}}, {"cuda", {0.46, 0.46}}});
 }

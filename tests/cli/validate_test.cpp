@@ -339,11 +339,64 @@ TEST_F(Validate, TheReferencesOwnRunPassesAsAShadow) {
       EXPECT_THAT(o.out, Not(HasSubstr("FAIL")));
     }
   }
-  // Another scene's uniforms are noted.
-  const Outcome o =
-      validate({"--shadow", "corrected/capture", "corrected.toml", "--set", "puddle.drop_intensity=3", "--set", "display.exposure=1"});
+  // Another scene's uniforms fail, and so say the reports; a host that chose them is forgiven.
+  std::vector<std::string> other{"--shadow", "corrected/capture",  "corrected.toml", "--set", "puddle.drop_intensity=3",
+                                 "--set",    "display.exposure=1", "--junit",        "j.xml"};
+  Outcome o = validate(other);
+  EXPECT_EQ(o.code, 1) << o.out << o.err;
+  EXPECT_THAT(o.out, AllOf(HasSubstr("FAIL display"), HasSubstr("uniform exposure is "), HasSubstr("--foreign-host")));
+  EXPECT_THAT(contents(folder / "j.xml"),
+              AllOf(HasSubstr("failures=\"3\""), HasSubstr("<failure type=\"broken\" message=\"uniform exposure is ")));
+  other.push_back("--foreign-host");
+  o = validate(other);
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_THAT(o.out, HasSubstr("uniform exposure of display is not the scene's in 3 runs"));
+}
+
+// The four mistakes that only a shadow sees, each in a run that is consistent: the whole scene was run so.
+TEST_F(Validate, AHostThatRunsAnotherSceneFails) {
+  for (const char* set : {"puddle.damping=0.9", "camera.target=[0.5, 0, 0]", "run.fps=30"}) {
+    ASSERT_EQ(rainref({"run", "corrected.toml", "--frames", "2", "--every", "1", "--capture", "all", "--image", "none", "--set", set, "-o",
+                       "own"})
+                  .code,
+              0)
+        << set;
+    std::filesystem::remove(folder / "own/capture/manifest.json");
+    const Outcome o = validate({"--shadow", "own/capture", "corrected.toml", "--no-causes"});
+    EXPECT_EQ(o.code, 1) << set << o.out << o.err;
+    EXPECT_THAT(o.out, HasSubstr("--foreign-host")) << set;
+    std::filesystem::remove_all(folder / "own");
+  }
+  EXPECT_EQ(validate({pack, "--port", "port", "--foreign-host"}).code, 2);
+}
+
+// A warning is a failure where that is asked for: in the exit code, in the verdict, in the reports.
+TEST_F(Validate, StrictFailsWarnings) {
+  copy_to("port");
+  // rainref rounds halves to nearest, and Direct3D asks for truncation.
+  const std::vector<std::string> arguments{pack, "--port", "port", "--profile", "d3d", "--junit", "j.xml"};
+  Outcome o = validate(arguments);
+  EXPECT_EQ(o.code, 0) << o.out;
+  EXPECT_THAT(o.out, HasSubstr("WARN"));
+  EXPECT_THAT(contents(folder / "j.xml"), HasSubstr("failures=\"0\""));
+  std::vector<std::string> strict = arguments;
+  strict.push_back("--strict");
+  o = validate(strict);
+  EXPECT_EQ(o.code, 1) << o.out;
+  EXPECT_THAT(o.out, AllOf(HasSubstr("a warning, which is to fail: stores to binary16"), HasSubstr("\nFAIL: port against"),
+                           Not(HasSubstr("WARN"))));
+  EXPECT_THAT(contents(folder / "j.xml"), Not(HasSubstr("failures=\"0\" errors=\"0\"")));
+  EXPECT_EQ(validate({pack, "--port", "port", "--strict"}).code, 0);
+}
+
+// Lines of our source are for who asks.
+TEST_F(Validate, VerboseSaysMore) {
+  copy_to("port");
+  Outcome o = validate({pack, "--port", "port"});
+  EXPECT_THAT(o.out, AllOf(Not(HasSubstr("never:")), Not(HasSubstr("stores to half")), Not(HasSubstr(".pass.h"))));
+  o = validate({pack, "--port", "port", "--verbose"});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_THAT(o.out, AllOf(HasSubstr("exercises "), HasSubstr("never:"), HasSubstr("stores to half")));
 }
 
 // A whole run of each effect: lists of drops, and mip levels that are shared between the runs of a capture.

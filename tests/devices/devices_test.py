@@ -55,10 +55,19 @@ class Devices(unittest.TestCase):
         lines, good = devices.typical(FOUND, PROFILE, devices.KNOWN)
         self.assertTrue(good, "\n".join(lines))
 
+    def test_words_of_reports(self):
+        """A WARN names the devices of the census that lie outside, and in what."""
+        self.assertEqual(PROFILE["known_outside"], devices.known_words())
+
+    def test_coarsest_holds_every_device(self):
+        """What fails for lying outside `coarsest` is done by no device of the census, without exceptions."""
+        lines, good = devices.typical(FOUND, tomllib.loads((ROOT / "src/judge/profiles/coarsest.toml").read_text()), set())
+        self.assertTrue(good, "\n".join(lines))
+
     def test_every_number_is_listed(self):
         listed = "\n".join(devices.typical(FOUND, PROFILE, devices.KNOWN)[0])
         for key in PROFILE:
-            if key not in ("name", "reference"):
+            if key not in ("name", "reference", "about", "known_outside"):
                 self.assertIn(f"\n{key} = ", listed)
 
     def test_derived_numbers(self):

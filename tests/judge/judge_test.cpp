@@ -31,7 +31,7 @@ struct ThirdPass {
   int width = columns, height = rows, values = 2;
   int undecided_row = -1;  ///< the first row with more decisions than anyone follows
   int undecided_rows = 1;
-  float shift = 0;  ///< of row 7: a bound as wide as this, but under what real devices do
+  float shift = 0;  ///< of row 7: a bound as wide as this, but under what known devices do
   template <class N>
   void operator()(int x, int y, N* out) const {
     const N third = (N::index(x) + N(1.0f)) / N(3.0f);
@@ -216,7 +216,7 @@ TEST(Judge, NotANumberFailsEvenWhereAnythingElsePasses) {
   EXPECT_EQ(j.status, Status::fail);
   EXPECT_TRUE(j.outputs[0].worst[0].not_a_number);
 }
-// What a profile leaves without a useful bound is judged by what real devices do; where that bounds less than half, nothing is said.
+// What a profile leaves without a useful bound is judged by what known devices do; where that bounds less than half, nothing is said.
 TEST(Judge, UnboundedElementsAreHeldToWhatDevicesDo) {
   ThirdPass pass;
   pass.shift = 8.0f / 16 / 2.1f;  // just under 1/16 of the range
@@ -248,7 +248,7 @@ TEST(Judge, WhereLessThanHalfIsBoundedItIsUntested) {
   pass.undecided_rows = 5;
   j = Made(pass).judged("vulkan", "typical");
   EXPECT_EQ(j.status, Status::untested);
-  EXPECT_EQ(j.reason, "62.50 % of the elements have no useful bound, neither from the profile nor from what real devices do");
+  EXPECT_EQ(j.reason, "62.50 % of the elements have no useful bound, neither from the profile nor from what known devices do");
   EXPECT_EQ(Made(pass).judged("ieee").status, Status::pass);
 }
 // To the element, and free elements do not count.
@@ -270,6 +270,56 @@ TEST(Judge, TheLimitIsHalf) {
   // What lies outside is worse.
   j.failing = 1;
   EXPECT_EQ(concluded(), Status::fail);
+}
+// Not those of the first alone; and who the known devices are, and which of the census is not among them.
+TEST(Judge, AWarningCountsAllCases) {
+  PassJudgement pass;
+  pass.cases.resize(3);
+  for (CaseJudgement& c : pass.cases) c.outputs.resize(1);
+  pass.cases[0].rearranged = 45;
+  pass.cases[0].rearranged_distance = 28;
+  pass.cases[1].rearranged = 2360;
+  pass.cases[1].rearranged_distance = 40;
+  pass.cases[2].outputs[0].atypical = 3;
+  for (CaseJudgement& c : pass.cases) {
+    c.outputs[0].elements = 5000;
+    conclude(c, profile("vulkan"));
+    EXPECT_EQ(c.status, Status::warn);
+  }
+  conclude(pass, profile("vulkan"));
+  EXPECT_EQ(pass.status, Status::warn);
+  EXPECT_NE(pass.reason.find("2405 invocations lie outside the formula as written, by up to 40 codes, inside its rearrangements"),
+            std::string::npos)
+      << pass.reason;
+  EXPECT_NE(pass.reason.find("3 elements lie inside the profile vulkan but outside what known devices do (typical: two NVIDIA chips, "),
+            std::string::npos)
+      << pass.reason;
+  EXPECT_NE(pass.reason.find("outside it lie SwiftShader (exp2, "), std::string::npos) << pass.reason;
+  // As failures they keep their reasons.
+  PortJudgement port;
+  port.passes = {pass};
+  conclude(port);
+  EXPECT_EQ(port.status, Status::warn);
+  fail_warnings(port);
+  EXPECT_EQ(port.status, Status::fail);
+  EXPECT_EQ(port.passes[0].status, Status::fail);
+  EXPECT_EQ(port.passes[0].reason, "a warning, which is to fail: " + pass.reason);
+  for (const CaseJudgement& c : port.passes[0].cases) EXPECT_TRUE(c.broken && c.status == Status::fail);
+}
+// The reason of a failure that is counted is that of all cases, or none.
+TEST(Judge, AReasonOfOneCaseIsNoneOfAnother) {
+  PassJudgement pass;
+  pass.cases.resize(2);
+  for (CaseJudgement& c : pass.cases) c.failing = c.expanded = 10;
+  const auto concluded = [&] {
+    pass.reason.clear();
+    for (CaseJudgement& c : pass.cases) conclude(c, profile("vulkan"));
+    conclude(pass, profile("vulkan"));
+    return pass.reason;
+  };
+  EXPECT_NE(concluded().find("would explain the 20 invocations outside"), std::string::npos) << pass.reason;
+  pass.cases[1].expanded = 9;
+  EXPECT_EQ(concluded(), "");
 }
 TEST(Judge, HalfStoresAreJudgedByEachRounding) {
   Made m({}, Format::rg16f);

@@ -90,7 +90,7 @@ TEST(NullPorts, EachMustPassEveryCase) {
   EXPECT_EQ(passing({&rests, &copies}), "a copy of its input from");
   EXPECT_EQ(passing({&copies, &clears}), "");
 }
-// WGSL promises nothing of such a sine, so every value lies inside its profile; what real devices do says no.
+// WGSL promises nothing of such a sine, so every value lies inside its profile; what known devices do says no.
 TEST(NullPorts, OneThatAJudgementWouldWarnOfDoesNotPass) {
   const Made sine = Made::sine(300, 1);  // sin 300 = -0.9998
   EXPECT_EQ(passing({&sine}, "webgpu"), "zeros");

@@ -202,6 +202,36 @@ Profile typical() {
   return p;
 }
 
+/// The loosest number of the others, and choices where these promise nothing.
+Profile coarsest() {
+  Profile p = inexact("coarsest");
+  p.basic = BasicRounding::either;
+  p.contraction = true;
+  p.flush = Flush::may;
+  p.division = ulp(2.5);
+  p.inverse_sqrt = {2.5, 0, 0x1p-21, 0};
+  p.sqrt = ulp(10);
+  p.exp = {4, 2, 0x1p-21, 0};
+  p.exp2 = {3, 2, 0x1p-21, 0};
+  p.log = {4, 0, 0x1p-21, 0};
+  p.log2 = {3, 0, 0x1p-21, 0};
+  p.log_near_one = p.log2_near_one = {2, 0, 0, 0x1p-21};
+  p.pow_is_inherited = true;
+  p.sin_cos = {4, 0, 0, 0.0008};
+  p.sin_cos_domain = pi;
+  p.sin_cos_beyond = 0x1p-12;
+  p.atan2 = ulp(4096);
+  p.subtexel_bits = 7;
+  p.coordinate_bits = 20;
+  p.lod_bits = 4;
+  p.unorm_load = ulp(3);
+  p.half_store = StoreRounding::either;
+  p.half_overflow = StoreOverflow::either;
+  p.half_store_flush = true;
+  p.unorm_store_ulp = p.srgb_store_ulp = 1;
+  return p;
+}
+
 /// Exact rules: the defaults.
 Profile ieee() { return {}; }
 
@@ -248,15 +278,15 @@ std::map<std::string, double> figures(const Profile& p) {
 }
 
 const std::map<std::string, Profile (*)()>& specifications() {
-  static const std::map<std::string, Profile (*)()> all{{"ieee", ieee}, {"vulkan", vulkan}, {"webgpu", webgpu},  {"d3d", d3d},
-                                                        {"cuda", cuda}, {"metal", metal},   {"typical", typical}};
+  static const std::map<std::string, Profile (*)()> all{{"ieee", ieee}, {"vulkan", vulkan}, {"webgpu", webgpu},   {"d3d", d3d},
+                                                        {"cuda", cuda}, {"metal", metal},   {"typical", typical}, {"coarsest", coarsest}};
   return all;
 }
 
 TEST(ProfileTables, AreThoseThatAreOffered) {
   std::vector<std::string> names = profile_names(), expected;
   for (const auto& [name, unused] : specifications())
-    if (name != "typical") expected.push_back(name);  // which only warns
+    if (name != "typical" && name != "coarsest") expected.push_back(name);  // which nobody is judged under
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, expected);
 }
@@ -278,6 +308,32 @@ TEST(ProfileTables, EachNumberIsTheSpecifications) {
   }
 }
 
+// What lies outside `coarsest` is to be explained by no rounding that anybody allows.
+TEST(ProfileTables, NothingIsLooserThanTheCoarsest) {
+  const Profile most = profile("coarsest");
+  for (const std::string& name : profile_names()) {
+    const Profile& p = profile(name);
+    if (p.reference) continue;
+    for (const Accuracy Profile::*a :
+         {&Profile::division, &Profile::inverse_sqrt, &Profile::sqrt, &Profile::exp, &Profile::exp2, &Profile::log, &Profile::log2,
+          &Profile::log_near_one, &Profile::log2_near_one, &Profile::sin_cos, &Profile::atan2, &Profile::unorm_load}) {
+      if (a == &Profile::sqrt && p.sqrt_is_inherited) continue;
+      for (const double Accuracy::*part : {&Accuracy::ulp, &Accuracy::ulp_per_x, &Accuracy::relative, &Accuracy::absolute})
+        EXPECT_GE(most.*a.*part, p.*a.*part) << name;
+    }
+    // 1 / inverse_sqrt, where each of both errors may be doubled by a power of two.
+    if (p.sqrt_is_inherited) {
+      EXPECT_GE(most.sqrt.ulp, 2 * p.inverse_sqrt.ulp + 2 * p.division.ulp + 0.5) << name;
+    }
+    EXPECT_GE(most.sin_cos_beyond, p.sin_cos_beyond) << name;
+    for (const int Profile::*bits : {&Profile::subtexel_bits, &Profile::lod_bits}) EXPECT_LE(most.*bits, p.*bits) << name;
+    EXPECT_TRUE(p.coordinate_bits == 0 || most.coordinate_bits <= p.coordinate_bits) << name;
+    EXPECT_GE(most.half_store_flush, p.half_store_flush) << name;
+    EXPECT_GE(most.unorm_store_ulp, p.unorm_store_ulp) << name;
+    EXPECT_GE(most.srgb_store_ulp, p.srgb_store_ulp) << name;
+  }
+}
+
 // No key of a data file escapes the tables above.
 TEST(ProfileTables, EveryKeyIsCompared) {
   const std::map<std::string, double> compared = figures(Profile{});
@@ -287,7 +343,9 @@ TEST(ProfileTables, EveryKeyIsCompared) {
     int keys = 0;
     for (std::string line; std::getline(text, line);) {
       std::smatch found;
-      if (!std::regex_search(line, found, key) || found[1] == "name" || found[1] == "rearrangement_remedy") continue;  // words
+      if (!std::regex_search(line, found, key) || found[1] == "name" || found[1] == "rearrangement_remedy" || found[1] == "about" ||
+          found[1] == "known_outside")
+        continue;  // words
       ++keys;
       EXPECT_TRUE(compared.contains(found[1]) || compared.contains(found[1].str() + ".ulp")) << name << ": " << found[1];
     }
@@ -331,8 +389,8 @@ TEST(ProfileTables, EachEntryNamesDocumentVersionAndSection) {
 // Vulkan, "Floating-Point Format Conversions": one of the representable neighbours. WGSL, "Channel Formats": quantizeToF16, which may
 // flush. Direct3D 11.3, 3.2.2: to the denorm representation. CUDA: IEEE 754. What devices do: none flushes.
 TEST(ProfileTables, AStoreThatFlushesASubnormalHalf) {
-  const std::map<std::string, bool> may{{"ieee", false}, {"vulkan", false}, {"webgpu", true},  {"d3d", false},
-                                        {"cuda", false}, {"metal", true},   {"typical", false}};
+  const std::map<std::string, bool> may{{"ieee", false}, {"vulkan", false}, {"webgpu", true},   {"d3d", false},
+                                        {"cuda", false}, {"metal", true},   {"typical", false}, {"coarsest", true}};
   for (const auto& [name, allowed] : may) {
     const StoreRules rules = store_rules(profile(name));
     for (const float x : {0x1p-24f, 0x1.8p-20f, 0x1.ff8p-15f}) {  // the last is the largest subnormal half

@@ -199,48 +199,115 @@ TEST(RearrangedPort, MistakesStillFail) {
     for (const std::string& p : rearranging) EXPECT_EQ(judged(wave.c, wave.by(r.formula), p).status, Status::fail) << p << ": " << r.name;
 }
 
-// What only multiplying out two sums would explain fails, and says so. A made-up pass: a square of a small difference of large numbers.
+// What only multiplying out two sums would explain fails, and says so. A made-up pass: a square of a difference.
 struct SquaredDifference {
   int width = 64, height = 4, values = 1;
+  float first = 0, second = 0;
   template <class N>
   void operator()(int x, int y, N* out) const {
-    const N a = N(1000.1f) + N::index(x) * N(0.01f), b = N(1000.4f) + N(static_cast<float>(y)) * N(0.1f);
+    const N a = N(first) + N::index(x) * N(0.01f), b = N(second) + N(static_cast<float>(y)) * N(0.1f);
     out[0] = (a - b) * (a - b);
   }
 };
-TEST(RearrangedPort, AProductOfSumsMultipliedOutFailsAndSaysSo) {
-  const auto model = capture::model_of(SquaredDifference());
+/// Of such a pass, by a port that multiplies out.
+struct Squares {
+  std::unique_ptr<capture::PassModel> model;
   PassCase c;
-  c.effect = "made_up";
-  c.pass = "squared";
-  capture::CaseOutput out;
-  out.name = "squares";
-  out.range = {0, 1e6};
-  out.array.format = Format::r32f;
-  out.array.width = 64;
-  out.array.height = 4;
-  out.array.levels.emplace_back(64 * 4 * 4);
-  c.outputs = {out};
-  c.outputs[0].array = reference_outputs(c, *model, test_executor())[0];
-  std::vector<Array> port{c.outputs[0].array};
-  const Slot slot = slots_of(c)[0];
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 64; ++x) {
-      const float a = 1000.1f + static_cast<float>(x) * 0.01f, b = 1000.4f + static_cast<float>(y) * 0.1f;
-      store_value(slot, a * a - (a + a) * b + b * b, Rounding::rne, port[0].levels[0].data() + slot.offset(x, y));
-    }
-  const auto judge_by = [&](const enclosed::Profile& p) {
+  std::vector<Array> port;
+
+  Squares(float first, float second) {
+    SquaredDifference pass;
+    pass.first = first;
+    pass.second = second;
+    model = capture::model_of(pass);
+    c.effect = "made_up";
+    c.pass = "squared";
+    capture::CaseOutput out;
+    out.name = "squares";
+    out.range = {0, 1e6};
+    out.array.format = Format::r32f;
+    out.array.width = 64;
+    out.array.height = 4;
+    out.array.levels.emplace_back(64 * 4 * 4);
+    c.outputs = {out};
+    c.outputs[0].array = reference_outputs(c, *model, test_executor())[0];
+    port = {c.outputs[0].array};
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 64; ++x) {
+        const float a = first + static_cast<float>(x) * 0.01f, b = second + static_cast<float>(y) * 0.1f;
+        put(x, y, a * a - (a + a) * b + b * b);
+      }
+  }
+  void put(int x, int y, float value) {
+    const Slot slot = slots_of(c)[0];
+    store_value(slot, value, Rounding::rne, port[0].levels[0].data() + slot.offset(x, y));
+  }
+  CaseJudgement judged(enclosed::Rearrangement how) const {
+    enclosed::Profile p = profile("vulkan");
+    p.rearrangement = how;
     return judge_case(c, model.get(), port, {&p, nullptr, &test_executor(), std::nullopt}).judgements[0];
-  };
-  enclosed::Profile strict = profile("vulkan");
-  const CaseJudgement j = judge_by(strict);
-  EXPECT_GT(j.failing, 100);
+  }
+};
+TEST(RearrangedPort, AProductOfSumsMultipliedOutFailsAndSaysSo) {
+  Squares squares(3.1f, 1.4f);
+  const CaseJudgement j = squares.judged(enclosed::Rearrangement::distributed);
+  EXPECT_GT(j.failing, 5);
   EXPECT_EQ(j.expanded, j.failing);
-  EXPECT_NE(j.reason.find("multiplying out"), std::string::npos) << j.reason;
-  strict.rearrangement = enclosed::Rearrangement::expanded;
-  EXPECT_EQ(judge_by(strict).failing, 0);
-  strict.rearrangement = enclosed::Rearrangement::none;
-  EXPECT_GT(judge_by(strict).failing, 0);
+  EXPECT_NE(j.reason.find("only multiplying out a product of two sums would explain the"), std::string::npos) << j.reason;
+  EXPECT_EQ(squares.judged(enclosed::Rearrangement::expanded).failing, 0);
+  EXPECT_GT(squares.judged(enclosed::Rearrangement::none).failing, 0);
+  // One element that it does not explain, and it is no reason.
+  squares.put(9, 2, 77);
+  const CaseJudgement other = squares.judged(enclosed::Rearrangement::distributed);
+  EXPECT_EQ(other.status, Status::fail);
+  EXPECT_EQ(other.reason.find("multiplying out"), std::string::npos) << other.reason;
+}
+// Where terms cancel nearly all lies inside: that explains nothing.
+TEST(RearrangedPort, WhatIsFarOffIsNotSaidToBeMultipliedOut) {
+  const Squares squares(1000.1f, 1000.4f);
+  const CaseJudgement j = squares.judged(enclosed::Rearrangement::distributed);
+  EXPECT_GT(j.failing, 100);
+  EXPECT_LT(j.expanded, j.failing);
+  EXPECT_EQ(j.reason.find("multiplying out"), std::string::npos) << j.reason;
+  EXPECT_EQ(squares.judged(enclosed::Rearrangement::expanded).failing, 0);
+}
+// Groups that hold the frame before, a camera that looks elsewhere, a buffer that was not cleared: none of it is a rearrangement.
+TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
+  const auto reasons = [](const std::string& pack, const std::string& pass, auto change) {
+    MiniPort port(pack);
+    change(port);
+    const TemporaryFolder folder;
+    port.run(folder.path());
+    ValidateOptions options;
+    options.only = {pass};
+    options.executor = &test_executor();
+    const PassJudgement j = pass_of(validate(port.pack, folder.path(), options), pass);
+    EXPECT_EQ(j.status, Status::fail) << pass;
+    std::string all = j.reason;
+    for (const CaseJudgement& c : j.cases) all += c.reason;
+    return all;
+  };
+  const std::string stale = reasons("puddle-corrected", "wave_step", [](MiniPort& port) {
+    port.after = [](const PassCase& c, std::vector<Array>& out) {
+      if (c.pass != "wave_step") return;
+      const Array& before = c.input("wave")->array;
+      const std::size_t texel = before.element_bytes(), row = texel * static_cast<std::size_t>(before.width);
+      for (std::size_t y = 0; y < 8; ++y) std::memcpy(&out[0].levels[0][y * row], &before.levels[0][y * row], 8 * texel);
+    };
+  });
+  EXPECT_EQ(stale.find("multiplying out"), std::string::npos) << stale;
+  const std::string camera = reasons("puddle-corrected", "shade", [](MiniPort& port) {
+    port.before = [](PassCase& c) {
+      if (c.pass != "shade") return;
+      for (std::size_t at = 0; at < 16; at += 4) {
+        float value;
+        std::memcpy(&value, c.uniforms.data() + at, 4);
+        value *= 0.95f;
+        std::memcpy(c.uniforms.data() + at, &value, 4);
+      }
+    };
+  });
+  EXPECT_EQ(camera.find("multiplying out"), std::string::npos) << camera;
 }
 
 // ---- integrate -----------------------------------------------------------------------------------------------------

@@ -2,10 +2,12 @@
 #include "judge/shadow.h"
 
 #include "faults/diagnose.h"
+#include "registry/registry.h"
 #include "judge/mini_port.h"
 #include "judge/port_files.h"
 #include "judge/rearrange.h"
 
+#include <cmath>
 #include <cstring>
 
 #include <gmock/gmock.h>
@@ -29,18 +31,80 @@ class ShadowTest : public testing::Test {
     return judge_dump(only);
   }
   PortJudgement judge_dump(const std::vector<std::string>& only = {}) const {
-    const ShadowPlan plan = ShadowPlan::of_manifest(port.pack, false);
+    const ShadowPlan plan = is_of_scene ? of_scene() : ShadowPlan::of_manifest(port.pack, false);
     std::vector<std::string> passes;
     for (const capture::PackPass& p : plan.passes) passes.push_back(p.name);
     ValidateOptions options;
     options.executor = &test_executor();
     options.explain = faults::diagnose;
     options.only = only;
+    options.foreign_host = is_foreign;
     return shadow(plan, folder.path(), dumped_runs(folder.path(), plan.effect, passes), options);
+  }
+  /// The pack's first frame as the scene's first.
+  int first_frame() const { return port.pack.cases.front().frame; }
+  ShadowPlan of_scene() const {
+    const capture::EffectInfo& info = *registry::find(port.pack.effect)->info;
+    ShadowPlan plan = ShadowPlan::of_effect(info, port.pack.variant, "scene.toml");
+    for (const capture::PackCase& entry : port.pack.cases) {
+      PassCase c = port.pack.read(entry);
+      c.frame -= first_frame();
+      plan.add(c, info);
+    }
+    return plan;
   }
   std::filesystem::path file(const std::string& name) const { return folder / name; }
   MiniPort port;
   TemporaryFolder folder;
+  bool is_foreign = false, is_of_scene = false;
+};
+
+/// A port that runs the scene from its first frame on, whose host makes mistakes: what follows from them is right.
+class HostShadowTest : public ShadowTest {
+ protected:
+  explicit HostShadowTest(const std::string& name = "puddle-corrected") : ShadowTest(name) {
+    is_of_scene = true;
+    port.before = [this](PassCase& c) {
+      c.frame -= first_frame();
+      if (mistake) mistake(c);
+    };
+  }
+  std::function<void(PassCase&)> mistake;
+
+  const scene::Member& member(const std::string& pass, const std::string& name) const {
+    const scene::UniformBlock& block = port.pack.pass(pass).block;
+    return *std::find_if(block.members.begin(), block.members.end(), [&](const scene::Member& m) { return m.name == name; });
+  }
+  /// Makes of a float of every run of a pass what `change` gives.
+  void change(const std::string& pass, const std::string& name, const std::function<float(float)>& change, int component = 0) {
+    const std::size_t at = member(pass, name).offset + 4 * static_cast<std::size_t>(component);
+    mistake = [=](PassCase& c) {
+      if (c.pass != pass) return;
+      float value;
+      std::memcpy(&value, c.uniforms.data() + at, 4);
+      value = change(value);
+      std::memcpy(c.uniforms.data() + at, &value, 4);
+    };
+  }
+  /// Fails for the host alone, in that pass first; a foreign host is forgiven with a note.
+  void expect_only_foreign(const std::string& pass, const std::string& reason, const std::string& note) {
+    PortJudgement j = shadow_of();
+    EXPECT_EQ(j.status, Status::fail) << why(j);
+    EXPECT_EQ(j.first_bad_pass, pass) << why(j);
+    EXPECT_THAT(pass_of(j, pass).reason, AllOf(HasSubstr(reason), HasSubstr("--foreign-host")));
+    for (const PassJudgement& p : j.passes)
+      for (const CaseJudgement& c : p.cases) EXPECT_EQ(c.failing, 0) << c.id;
+    is_foreign = true;
+    j = judge_dump();
+    EXPECT_NE(j.status, Status::fail) << why(j);
+    EXPECT_THAT(j.notes, Contains(HasSubstr(note))) << why(j);
+  }
+  /// Is no failure, and told.
+  void expect_noted(const std::string& note) {
+    const PortJudgement j = shadow_of();
+    EXPECT_EQ(j.status, Status::pass) << why(j);
+    EXPECT_THAT(j.notes, Contains(HasSubstr(note))) << why(j);
+  }
 };
 
 // Truncating stores and fused products: after four steps its water is not the reference's, and every step is right.
@@ -182,12 +246,17 @@ TEST_F(ShadowTest, ACounterOfAnotherRunFails) {
               AllOf(HasSubstr("uniform step is 24"), HasSubstr("expected 25"), HasSubstr("it is that of puddle.raindrops/0012.0")));
 }
 
-TEST_F(ShadowTest, AConstantThatThePortChoseIsANote) {
+TEST_F(ShadowTest, AConstantThatThePortChoseFails) {
   port.before = [](PassCase& c) {
     const float exposure = 1.5f;
     if (c.pass == "display") std::memcpy(c.uniforms.data() + 4, &exposure, 4);
   };
-  const PortJudgement j = shadow_of();
+  PortJudgement j = shadow_of();
+  EXPECT_EQ(j.status, Status::fail) << why(j);
+  EXPECT_THAT(pass_of(j, "display").reason,
+              AllOf(HasSubstr("uniform exposure is 1.5 0x3fc00000, expected 1.6245048"), HasSubstr("--foreign-host")));
+  is_foreign = true;
+  j = judge_dump();
   EXPECT_EQ(j.status, Status::pass) << why(j);
   EXPECT_THAT(j.notes, Contains(AllOf(HasSubstr("uniform exposure of display is not the manifest's in 2 runs"),
                                       HasSubstr("1.5 0x3fc00000, expected 1.6245048"))));
@@ -244,6 +313,96 @@ TEST_F(ShadowTest, FoldersOfOtherNamesAreRefused) {
   EXPECT_THAT(text, HasSubstr("did you mean 'puddle.shade'?"));
 }
 
+// ---- the host's mistakes -----------------------------------------------------------------------------------------------
+TEST_F(HostShadowTest, ARightHostHasNoNotes) {
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.status, Status::pass) << why(j);
+  EXPECT_TRUE(j.notes.empty()) << why(j);
+}
+TEST_F(HostShadowTest, AStateThatIsNotResetFails) {
+  mistake = [](PassCase& c) {
+    if (c.folder() == "puddle.wave_step/0000.0") flip_rows(input_of(c, "wave").array);  // of a run before
+  };
+  expect_only_foreign("wave_step", "input puddle.wave_step/0000.0/in.wave is not the state that the scene begins with",
+                      "input wave of wave_step is not the scene's in 1 run");
+}
+TEST_F(HostShadowTest, ABufferClearedToZeroFails) {
+  mistake = [](PassCase& c) {
+    if (c.folder() != "puddle.wave_step/0000.0") return;
+    for (std::byte& b : input_of(c, "wave").array.levels[0]) b = std::byte{0};
+  };
+  expect_only_foreign("wave_step", "is not the state that the scene begins with", "input wave of wave_step");
+}
+TEST_F(HostShadowTest, AnotherDampingFails) {
+  change("wave_step", "damping", [](float d) { return std::sqrt(d); });
+  expect_only_foreign("wave_step", "uniform damping is ", "uniform damping of wave_step is not the scene's in 4 runs");
+}
+TEST_F(HostShadowTest, AnotherCameraFails) {
+  change("surface_hit", "plane_left", [](float left) { return 0.95f * left; });
+  expect_only_foreign("surface_hit", "uniform plane_left is ", "uniform plane_left of surface_hit");
+}
+TEST_F(HostShadowTest, APictureOfTheHostsOwnFails) {
+  mistake = [](PassCase& c) {
+    if (c.pass == "shade") flip_rows(input_of(c, "environment").array);
+  };
+  expect_only_foreign("shade", "in.environment is not the scene's: ", "input environment of shade is not the scene's");
+}
+// Both sides of what a host in floats may give.
+TEST_F(HostShadowTest, ANumberRoundedOtherwiseIsANote) {
+  change("wave_step", "damping", [](float d) { return d * (1 + 0x1p-20f); });
+  expect_noted("uniform damping of wave_step differs by rounding from the scene's in 4 runs");
+  change("wave_step", "damping", [](float d) { return d * (1 + 0x1p-16f); });
+  EXPECT_EQ(shadow_of().status, Status::fail);
+}
+TEST_F(HostShadowTest, APictureRoundedOtherwiseIsANote) {
+  const auto scale = [this](float by) {
+    mistake = [by](PassCase& c) {
+      if (c.pass != "shade") return;
+      std::vector<std::byte>& bytes = input_of(c, "environment").array.levels[0];
+      for (std::size_t at = 0; at < bytes.size(); at += 4) {
+        float value;
+        std::memcpy(&value, &bytes[at], 4);
+        value *= by;
+        std::memcpy(&bytes[at], &value, 4);
+      }
+    };
+  };
+  scale(1 + 0x1p-20f);
+  expect_noted("input environment of shade differs by rounding from the scene's");
+  scale(1 + 0x1p-14f);
+  EXPECT_EQ(shadow_of().status, Status::fail);
+}
+// What the host makes of the port's own water is its own: doubt_bounds() holds it to that.
+TEST_F(HostShadowTest, WhatHangsOnTheStateIsThePortsOwn) {
+  change("surface_hit", "surface_top", [](float top) { return 1.01f * top; });
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.status, Status::pass) << why(j);
+  EXPECT_TRUE(j.notes.empty()) << why(j);
+}
+
+class WindshieldHostShadowTest : public HostShadowTest {
+ protected:
+  WindshieldHostShadowTest() : HostShadowTest("windshield-corrected") {}
+};
+TEST_F(WindshieldHostShadowTest, ADoubledTimeStepFails) {
+  change("integrate", "dt", [](float dt) { return 2 * dt; });
+  expect_only_foreign("integrate", "uniform dt is ", "uniform dt of integrate is not the scene's");
+}
+// Free slots and ids hang on how many drops live, and that on the port's arithmetic.
+TEST_F(WindshieldHostShadowTest, FreeSlotsAreThePortsOwn) {
+  const std::size_t at = member("spawn", "room").offset;
+  mistake = [at](PassCase& c) {
+    if (c.pass != "spawn") return;
+    std::uint32_t room;
+    std::memcpy(&room, c.uniforms.data() + at, 4);
+    --room;
+    std::memcpy(c.uniforms.data() + at, &room, 4);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_NE(j.status, Status::fail) << why(j);
+  EXPECT_THAT(j.notes, Contains(HasSubstr("uniform room of spawn hangs on the port's own state and is not the scene's")));
+}
+
 class PublishedShadowTest : public ShadowTest {
  protected:
   PublishedShadowTest() : ShadowTest("puddle-as-published") {}
@@ -292,7 +451,7 @@ class EdgeSplashShadowTest : public ShadowTest {
   EdgeSplashShadowTest() : ShadowTest("edge_splash-corrected") {}
 };
 
-/// Of a device that truncates and fuses; a port may be asked to warn of what real devices do not do.
+/// Of a device that truncates and fuses; a port may be asked to warn of what known devices do not do.
 void expect_good(const PortJudgement& j) {
   EXPECT_TRUE(j.status == Status::pass || j.status == Status::warn) << why(j);
   for (const PassJudgement& p : j.passes) EXPECT_TRUE(p.status == Status::pass || p.status == Status::warn) << p.pass;

@@ -375,5 +375,41 @@ TEST_F(Files, AnUnreadableFileIsMoreSeriousThanAMissingOne) {
   EXPECT_EQ(refusal().first, ExitCode::io);
 }
 
+// Under webgpu a store may flush a subnormal half, and no known device does: a warning. Its cause is asked for, and told where it is
+// likely.
+TEST(Validate, ACauseIsSoughtOfAWarningToo) {
+  MiniPort port("puddle-corrected");
+  port.after = [](const capture::PassCase& c, std::vector<Array>& out) {
+    if (c.pass != "wave_step") return;
+    for (std::size_t at = 0; at < out[0].levels[0].size(); at += 2) {
+      std::uint16_t bits;
+      std::memcpy(&bits, &out[0].levels[0][at], 2);
+      if ((bits & 0x7c00u) == 0) std::memset(&out[0].levels[0][at], 0, 2);
+    }
+  };
+  const TemporaryFolder folder;
+  port.run(folder.path());
+  ValidateOptions options;
+  options.profile = "webgpu";
+  options.only = {"wave_step"};
+  options.executor = &test_executor();
+  int asked = 0;
+  options.explain = [&](const FailedRun& f) {
+    ++asked;
+    EXPECT_TRUE(f.is_warned);
+    EXPECT_GT(f.judgement.failing, 0);
+    EXPECT_EQ(std::count(f.judgement.outputs[0].map.begin(), f.judgement.outputs[0].map.end(), 2), 0);
+    EXPECT_EQ(std::count(f.judgement.outputs[0].map.begin(), f.judgement.outputs[0].map.end(), 3), f.judgement.failing);
+    return Explanation{{{"flushed", "subnormal halves are 0", 9, 9, 9, false, true}, {"another", "what may be", 9, 9, 9}}, "somewhere"};
+  };
+  const PassJudgement j = pass_of(validate(port.pack, folder.path(), options), "wave_step");
+  EXPECT_EQ(j.status, Status::warn) << j.reason;
+  EXPECT_EQ(asked, 1);
+  ASSERT_EQ(j.causes.size(), 1u);
+  EXPECT_EQ(j.causes[0].name, "flushed");
+  EXPECT_EQ(j.where, "");
+  EXPECT_EQ(std::count(j.cases[0].outputs[0].map.begin(), j.cases[0].outputs[0].map.end(), 3), 0);  // it stays a warning
+}
+
 }  // namespace
 }  // namespace rainref::judge

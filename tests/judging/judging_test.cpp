@@ -111,6 +111,19 @@ TEST_F(Judging, TheReferencesOwnOutputsPassAndDifferNowhere) {
   }
 }
 
+// rainref rounds halves to nearest, and Direct3D asks for truncation.
+TEST_F(Judging, AWarningFailsWhereThatIsAskedFor) {
+  take({"wave_step"});
+  give_all([](auto&&...) {});
+  EXPECT_EQ(cases.judge(executor, {.profile = "d3d"}).verdict().status, "WARN");
+  const Judgement strict = cases.judge(executor, {.profile = "d3d", .strict = true});
+  EXPECT_EQ(strict.verdict().status, "FAIL");
+  EXPECT_FALSE(strict.verdict().is_good());
+  EXPECT_EQ(strict.verdict().first_bad_pass, "wave_step");
+  EXPECT_THAT(strict.verdict().passes[0].reason, HasSubstr("a warning, which is to fail: stores to binary16"));
+  EXPECT_THAT(strict.json(), HasSubstr("\"exit_code\": 1"));
+}
+
 TEST_F(Judging, AMistakeIsNamedWithItsPlaceAndItsCause) {
   take({"wave_step", "display"});
   give_all([](const CaseInfo& about, const std::string&, std::vector<std::byte>& bytes) {

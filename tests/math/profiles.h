@@ -15,7 +15,7 @@
 namespace rainref::test {
 
 inline const std::vector<std::string>& profile_names() {
-  static const std::vector<std::string> names{"ieee", "vulkan", "webgpu", "d3d", "cuda", "metal", "typical"};
+  static const std::vector<std::string> names{"ieee", "vulkan", "webgpu", "d3d", "cuda", "metal", "typical", "coarsest"};
   return names;
 }
 
@@ -63,7 +63,9 @@ inline enclosed::Profile read_profile(const std::string& name) {
   std::map<std::string, int> seen;
   for (std::string line; std::getline(file, line);) {
     std::smatch m;
-    if (line.empty() || line[0] == '#' || line.starts_with("rearrangement_remedy = ")) continue;
+    if (line.empty() || line[0] == '#' || line.starts_with("rearrangement_remedy = ") || line.starts_with("about = ") ||
+        line.starts_with("known_outside = "))
+      continue;
     if (std::regex_match(line, m, top)) {
       if (m[1] == "name")
         p.name = m[2].str().substr(1, m[2].length() - 2);

@@ -43,7 +43,7 @@ def test_a_port_that_does_nothing_fails(puddle):
 
 def test_a_port_of_a_pack():
     pack = ROOT / "tests/packs/puddle-corrected"
-    assert rr.judge(pack, ports.right).status == "PASS"
+    assert rr.judge(pack, ports.right, strict=True).status == "PASS"
     assert rr.judge(str(pack), ports.levels_exchanged).status == "FAIL"
     with pytest.raises(ValueError, match="ports of puddle, found one of edge_splash.display"):
         rr.judge(pack, rr.Port("edge_splash", "display", lambda i, u: 0))
@@ -55,6 +55,10 @@ def test_files_of_a_port(tmp_path):
     pack, port = ROOT / "tests/packs/puddle-corrected", tmp_path / "port"
     shutil.copytree(pack, port)
     assert rr.judge_folder(pack, port).status == "PASS"
+    # rainref rounds halves to nearest, and Direct3D asks for truncation.
+    assert rr.judge_folder(pack, port, "d3d", passes=["wave_step"]).status == "WARN"
+    strict = rr.judge_folder(pack, port, "d3d", passes=["wave_step"], strict=True)
+    assert strict.status == "FAIL" and not strict.ok and "a warning, which is to fail" in strict["wave_step"].reason
     # One pass fails, and of another the files are gone.
     for file in port.glob("puddle.display/*/out.*.npy"):
         numpy_file = np.load(file)

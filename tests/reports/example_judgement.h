@@ -68,7 +68,7 @@ inline judge::PortJudgement example_judgement() {
   hit.loose = 2;
   hit.map = {0, 2, 2, 0, 0, 0, 0, 1};
   judge::CaseJudgement warned = example_case("rain.hit/0000.0", judge::Status::warn, hit);
-  warned.reason = "2 elements lie inside the profile but outside what real devices do";
+  warned.reason = "2 elements lie inside the profile but outside what known devices do";
   warned.ambiguous = 4;
   warned.other_branch = 1;
   j.passes.push_back(example_pass("hit", judge::Status::warn, {warned}));

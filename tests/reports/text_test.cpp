@@ -13,6 +13,7 @@ namespace {
 
 using namespace judge;
 
+using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
@@ -237,11 +238,18 @@ TEST(ReportFigures, WhatAPackExercises) {
   EXPECT_EQ(coverage_text({6, 9, {"b"}, {{"c", "a guard"}, {"d", "a guard"}}}, 3),
             "exercises 6 of 9 alternatives, 2 with a reason not; never: b");
   EXPECT_EQ(coverage_text({}, 3), "");
+  EXPECT_EQ(coverage_text(c, 0), "exercises 5 of 9 alternatives, 4 without one");
+  EXPECT_EQ(coverage_text({6, 9, {"b"}, {{"c", "a guard"}, {"d", "a guard"}}}, 0),
+            "exercises 6 of 9 alternatives, 2 with a reason not, 1 without one");
+  EXPECT_EQ(coverage_text({9, 9, {}}, 0), "exercises 9 of 9 alternatives");
+  // Lines of our source stand where they are asked for.
   PortJudgement j = example_judgement();
-  j.passes[0].coverage = c;
+  j.passes[0].coverage = j.passes[1].coverage = c;
   j.passes[3].coverage = {9, 9, {}};
-  const std::string text = report_text(j);
+  EXPECT_THAT(report_text(j), Not(HasSubstr("exercises")));
+  const std::string text = report_text(j, true);
   EXPECT_THAT(text, HasSubstr("exercises 5 of 9 alternatives; never: a.pass.h, min the second: x; a.pass.h, clamp below: y"));
+  EXPECT_THAT(text, HasSubstr("a.pass.h, select the first: z"));  // all of them
   EXPECT_THAT(text, Not(HasSubstr("9 of 9")));
 }
 
@@ -286,9 +294,44 @@ TEST(ReportText, TheFieldsOfAListHaveWidthsInTheirUnits) {
   o.quantities = {quantity("velocity.x", "m/s", 12, 1.5e-6), quantity("mass", "mg", 0, 0), quantity("life", "s", 40, 0.5)};
   o.quantities[2].vacuous = 3;
   o.quantities[2].loose = 7;
-  EXPECT_THAT(report_text(j),
+  EXPECT_THAT(report_text(j, true),
               HasSubstr("\n          drops, median width by field: velocity.x 1.5e-06, 99 % 1.5e-06 m/s; life 0.5, 99 % vacuous, "
                         "3 vacuous, 4\n            loose; the other 1: one value each\n"));
+}
+
+// Whatever is known of it.
+TEST(ReportText, APassingPassIsOneLine) {
+  PortJudgement j = example_judgement();
+  j.passes.erase(j.passes.begin() + 1, j.passes.end());
+  PassJudgement& wave = j.passes[0];
+  wave.half_mode_voted = true;
+  wave.coverage = {5, 9, {"a.pass.h, min the second: x"}};
+  wave.cases[0].ambiguous = 4;
+  wave.cases[0].other_branch = wave.cases[0].gave_up = 1;
+  wave.cases[0].outputs[0].typical = 3;
+  wave.cases[0].outputs[0].free = 1;
+  const std::string text = report_text(j);
+  const std::size_t at = text.find("PASS  wave");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_THAT(text.substr(text.find('\n', at)), testing::StartsWith("\nnote: ")) << text;
+  EXPECT_THAT(report_text(j, true),
+              AllOf(HasSubstr("took another branch"), HasSubstr("known devices do bounds 3"), HasSubstr("exercises")));
+}
+
+// Where a device may be the reason, it is not called the cause of failures.
+TEST(ReportText, AWarningsLikelyCauseStandsBelowIt) {
+  PortJudgement j = example_judgement();
+  j.passes[1].causes.push_back({"10 bits", "the viewport has 10 bits", 2, 2, 2, false, true});
+  EXPECT_THAT(report_text(j), HasSubstr("likely cause: 10 bits: the viewport has 10 bits (gives 2 of 2 warned texels bit for bit"));
+}
+
+// What fails only because no known device does it is not said to be outside the envelope.
+TEST(ReportText, WhatNoDeviceDoesIsSaidSo) {
+  PortJudgement j = example_judgement();
+  CaseJudgement& c = j.passes[3].cases[0];
+  c.beyond = c.failing;
+  c.outputs[0].beyond = c.outputs[0].failing;
+  EXPECT_THAT(report_text(j), HasSubstr("FAIL shade is outside what any known device makes of rain.shade/1 under profile vulkan"));
 }
 
 // A port in progress, and one whose files are bad: what was not judged stands with the verdict.

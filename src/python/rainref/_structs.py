@@ -54,11 +54,11 @@ class Sampling(Struct):
 
 
 class JudgeOptions(Struct):
-    _fields_ = _members("profile:text port:text half:text threads:i32")
+    _fields_ = _members("profile:text port:text half:text threads:i32 strict:i32")
 
 
 class FolderOptions(Struct):
-    _fields_ = _members("profile:text passes:texts pass_count:size partial:i32 threads:i32 progress:pointer user:pointer")
+    _fields_ = _members("profile:text passes:texts pass_count:size partial:i32 threads:i32 progress:pointer user:pointer strict:i32")
 
 
 class VerdictInfo(Struct):

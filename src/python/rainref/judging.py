@@ -162,11 +162,11 @@ def _run(ports: Iterable[Port], cases: Cases) -> None:
 
 
 def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port], frames: Iterable[int] = (0, 1), profile: str = "vulkan", *,
-          half: str | None = None, threads: int = 0) -> Verdict:
+          half: str | None = None, threads: int = 0, strict: bool = False) -> Verdict:
     """Runs ports on the cases of a simulation or of a pack's folder, and judges what they give.
 
     A simulation runs on to the last of `frames`; none of them may lie behind it. `half` says how the ports round stores to binary16 ("rne",
-    "rtz"); None: it is found out where the profile leaves it open. Raises Error for what cannot be judged.
+    "rtz"); None: it is found out where the profile leaves it open. With `strict` each WARN is a FAIL. Raises Error for what cannot be judged.
     """
     ports = [ports] if isinstance(ports, Port) else list(ports)
     for p in ports:
@@ -193,18 +193,19 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
         for other in (p for p in ports if len(cases) and p.effect != cases[0].effect):
             raise Error(f"ports: expected ports of {cases[0].effect}, found one of {other.effect}.{other.name}")
     _run(ports, cases)
-    options = s.JudgeOptions.new(profile=encoded(profile), half=encoded(half) if half is not None else None, threads=threads,
+    options = s.JudgeOptions.new(profile=encoded(profile), half=encoded(half) if half is not None else None, threads=threads, strict=strict,
                                  port=", ".join(getattr(p.function, "__name__", p.name) for p in ports).encode())
     return Verdict(Handle("free_judgement", "judge", cases.handle, c.byref(options)))
 
 
 def judge_folder(pack: str | os.PathLike[str], port: str | os.PathLike[str], profile: str = "vulkan", *, passes: Iterable[str] = (),
-                 partial: bool = False, threads: int = 0) -> Verdict:
+                 partial: bool = False, threads: int = 0, strict: bool = False) -> Verdict:
     """Judges the files that a port wrote for the cases of a pack, as `rainref validate PACK --port PORT` does.
 
-    `passes` are judged alone; none named: every one. With `partial` a pass without any file is NOT JUDGED. Files that are missing or cannot
-    be used stand in the verdict's `json()["files"]`. `html` reads both folders again. Raises Error for what cannot be judged.
+    `passes` are judged alone; none named: every one. With `partial` a pass without any file is NOT JUDGED, with `strict` each WARN is a FAIL.
+    Files that are missing or cannot be used stand in the verdict's `json()["files"]`. `html` reads both folders again. Raises Error for what
+    cannot be judged.
     """
     many, count = texts(passes)
-    options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads)
+    options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads, strict=strict)
     return Verdict(Handle("free_judgement", "judge_folder", encoded(pack), encoded(port), c.byref(options)))
