@@ -73,7 +73,7 @@ def picture_of(name):
 def render(program, name, folder):
     """Its JPEG, and beside it what the page says of its parameters: the scene in the picture, for later runs too."""
     out = folder / name
-    words = [program, *command(name)[1:], "-o", out]
+    words = [program, *command(name)[1:], "-o", out, "--overwrite"]
     subprocess.run(words, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     newest = max(out.glob("*.png"), key=lambda p: p.stat().st_mtime)
     ffmpeg("-i", newest, "-vf", f"scale={WIDTH}:-2:flags=area+accurate_rnd+full_chroma_int", "-q:v", QUALITY, "-map_metadata", "-1",

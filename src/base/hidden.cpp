@@ -39,7 +39,7 @@ int lock_leftover(const fs::path& path) {
   return -1;
 }
 
-bool is_hidden_name(std::string_view name, std::string_view end) {
+bool has_hidden_form(std::string_view name, std::string_view end) {
   if (name.size() != prefix.size() + digits + end.size() || !name.starts_with(prefix) || !name.ends_with(end)) return false;
   return name.substr(prefix.size(), digits).find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
@@ -140,13 +140,15 @@ void Hidden::replace(const fs::path& target) {
   path_.clear();
 }
 
+bool is_hidden_name(std::string_view name) { return has_hidden_form(name, making); }
+
 void remove_leftovers(const fs::path& folder) noexcept {
   try {
     std::vector<fs::path> found;
     std::error_code error;
     for (fs::directory_iterator i(folder.empty() ? fs::path(".") : folder, error), end; !error && i != end; i.increment(error)) {
       const std::string name = i->path().filename().string();
-      if (is_hidden_name(name, making) || is_hidden_name(name, replaced)) found.push_back(i->path());
+      if (has_hidden_form(name, making) || has_hidden_form(name, replaced)) found.push_back(i->path());
     }
     for (const fs::path& path : found) {
       const int descriptor = lock_leftover(path);

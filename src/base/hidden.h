@@ -49,6 +49,8 @@ class Hidden {
   std::optional<Undo> undo_;
 };
 
+/// Whether a name is one of Hidden's.
+bool is_hidden_name(std::string_view name);
 /// Removes what killed processes of this user left in a folder, and puts folders back that they were replacing. What cannot
 /// be removed stays, silently: it is in nobody's way.
 void remove_leftovers(const std::filesystem::path& folder) noexcept;

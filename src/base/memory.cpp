@@ -3,26 +3,23 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <fstream>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "base/process_memory.h"
 #include "rainref/error.h"
 
 namespace rainref {
 namespace {
 
-/// The number that a file begins with; none where there is no such file, or a word like "max".
+/// The number that a file's first line is; none where there is no such file, or a word like "max".
 std::optional<std::uint64_t> number_in(const std::filesystem::path& file) {
   std::string text;
   std::getline(std::ifstream(file), text);
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end == text.data()) return std::nullopt;
-  return value;
+  return whole_from<std::uint64_t>(text);
 }
 
 void lower(MemoryLimit& least, std::uint64_t bytes, const std::string& owner) {

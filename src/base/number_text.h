@@ -1,7 +1,9 @@
-// Numbers in texts that users write. Not std::from_chars, which LLVM's library has for no floating-point number before version 20, and not
-// std::strtod alone, which reads by the locale of the process.
+// Numbers in texts that others write: the only place that reads them. For floating-point numbers not std::from_chars, which LLVM's library
+// has for none before version 20, and not std::strtod alone, which reads by the locale of the process.
 #pragma once
 
+#include <charconv>
+#include <concepts>
 #include <optional>
 #include <string_view>
 
@@ -12,6 +14,17 @@ namespace rainref {
 /// that it would become infinite, or zero without being zero. T is float or double.
 template <class T>
 std::optional<T> number_from(std::string_view text);
+
+/// The value of the whole text, [-]digits without a minus sign for a T that has none. Nothing for any other text, and for a number that T
+/// cannot hold. T is an integer type; `base` from 2 to 36, without a prefix.
+template <std::integral T>
+std::optional<T> whole_from(std::string_view text, int base = 10) {
+  T value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, base);
+  if (text.empty() || error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
 
 extern template std::optional<float> number_from(std::string_view);
 extern template std::optional<double> number_from(std::string_view);

@@ -23,7 +23,9 @@ namespace {
 
 }  // namespace
 
-std::vector<std::byte> read_file(const std::filesystem::path& path) {
+std::vector<std::byte> read_file(const std::filesystem::path& path) { return read_file(path, {UINT64_MAX, ExitCode::io}); }
+
+std::vector<std::byte> read_file(const std::filesystem::path& path, const MostBytes& most) {
   struct Descriptor {
     int number;
     ~Descriptor() {
@@ -36,6 +38,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
   if (!S_ISREG(status.st_mode)) fail(path, "not a regular file");
   const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (size > most.bytes) throw Error(most.code, fmt::format("'{}': {} bytes; expected at most {}", path.string(), size, most.bytes));
   if (const MemoryLimit limit = memory_limit(); size > limit.bytes)
     fail(path, fmt::format("its {} are too many; {} {} of memory", memory_text(size), limit.owner, memory_text(limit.bytes)));
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));

@@ -1,14 +1,17 @@
 #include "cache/kept_images.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "base/hash.h"
 #include "base/hidden.h"
@@ -71,13 +74,31 @@ Head head_of(const std::string& recipe, const std::vector<Image>& images) {
   return head;
 }
 
-/// A file that is read from the front, its bytes hashed.
+/// A file that is read from the front, its bytes hashed. One that another user owns or may write was not written by this program: its hash
+/// proves nothing, for anybody can make one. That makes the folder's rights of no account.
 class Reader {
  public:
-  explicit Reader(const fs::path& path) : file_(path, std::ios::binary), left_(fs::file_size(path)) {}
+  explicit Reader(const fs::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {
+    struct stat status {};
+    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) return;
+    is_own_ = S_ISREG(status.st_mode) && status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+    left_ = static_cast<std::uintmax_t>(status.st_size);
+  }
+  ~Reader() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  bool is_own() const { return is_own_; }
   std::uintmax_t left() const { return left_; }
   bool read(std::span<std::byte> to) {
-    if (to.size() > left_ || !file_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()))) return false;
+    if (to.size() > left_) return false;
+    for (std::size_t done = 0; done < to.size();) {
+      const ssize_t count = ::read(descriptor_, to.data() + done, to.size() - done);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      done += static_cast<std::size_t>(count);
+    }
     hasher_->add(to);
     left_ -= to.size();
     return true;
@@ -90,8 +111,9 @@ class Reader {
   Hash128 hash() const { return hasher_->finish(); }
 
  private:
-  std::ifstream file_;
-  std::uintmax_t left_;
+  int descriptor_;
+  bool is_own_ = false;
+  std::uintmax_t left_ = 0;
   std::optional<Hasher> hasher_{std::in_place, 0};
 };
 /// To touch memory for the first time takes longer than to read a file into it, and any number of threads may.
@@ -102,21 +124,27 @@ void touch(Image& image, const Rows& rows) {
       for (std::size_t at = 0; at < row_bytes(image); at += page) image.row_bytes(y)[at] = std::byte{0};
   });
 }
-/// None where it is not of this recipe, or not whole.
-std::optional<std::vector<Image>> read(const fs::path& path, const std::string& recipe, const Rows& rows) {
+bool has(const ImageHead& image, const Shape& shape) {
+  return image.format == static_cast<std::uint32_t>(shape.format) && (shape.width == 0 || std::cmp_equal(image.width, shape.width)) &&
+         (shape.height == 0 || std::cmp_equal(image.height, shape.height));
+}
+/// None where it is not this user's, not of this recipe, not of these shapes, or not whole.
+std::optional<std::vector<Image>> read(const fs::path& path, const std::string& recipe, const std::vector<Shape>& shapes,
+                                       const Rows& rows) {
   Reader file(path);
   Head head;
-  if (!file.read(head) || std::memcmp(head.magic, magic, sizeof magic) != 0 || head.recipe_bytes != recipe.size()) return {};
+  if (!file.is_own() || !file.read(head) || std::memcmp(head.magic, magic, sizeof magic) != 0 || head.recipe_bytes != recipe.size())
+    return {};
   file.hash_from_here();
   std::string read_recipe(recipe.size(), '\0');
   if (!file.read(std::as_writable_bytes(std::span(read_recipe))) || read_recipe != recipe) return {};
   // Sizes are held to the file's before anything is allocated for them.
-  if (head.images > file.left() / sizeof(ImageHead)) return {};
-  std::vector<ImageHead> heads(head.images);
+  if (head.images != shapes.size()) return {};
+  std::vector<ImageHead> heads(shapes.size());
   std::uintmax_t expected = 0;
-  for (ImageHead& image : heads) {
-    if (!file.read(image) || image.format > static_cast<std::uint32_t>(Format::r32ui) || image.width > 65536 || image.height > 65536)
-      return {};
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    ImageHead& image = heads[i];
+    if (!file.read(image) || !has(image, shapes[i]) || image.width > 65536 || image.height > 65536) return {};
     expected += std::uintmax_t{image.width} * image.height * info(static_cast<Format>(image.format)).texel_bytes();
   }
   if (expected != file.left()) return {};
@@ -131,11 +159,12 @@ std::optional<std::vector<Image>> read(const fs::path& path, const std::string& 
   if (file.hash() != Hash128{head.high, head.low}) return {};
   return images;
 }
-std::optional<std::vector<Image>> found(const fs::path& path, const std::string& recipe, const Rows& rows) {
+std::optional<std::vector<Image>> found(const fs::path& path, const std::string& recipe, const std::vector<Shape>& shapes,
+                                        const Rows& rows) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return {};
   try {
-    std::optional<std::vector<Image>> images = read(path, recipe, rows);
+    std::optional<std::vector<Image>> images = read(path, recipe, shapes, rows);
     if (images)
       fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // used last
     else
@@ -183,9 +212,11 @@ void make_room(const Folder& in) {
 }
 void keep(const Folder& in, const fs::path& path, const std::string& recipe, const std::vector<Image>& images) {
   try {
-    fs::create_directories(in.path);
+    if (fs::create_directories(in.path)) fs::permissions(in.path, fs::perms::owner_all);
     remove_leftovers(in.path);
     Hidden file(in.path, Hidden::Kind::file);
+    // Whatever the umask: what others may write is not read.
+    if (::fchmod(file.descriptor(), S_IRUSR | S_IWUSR) != 0) throw std::system_error(errno, std::generic_category());
     write_all(file.descriptor(), bytes_of(head_of(recipe, images)));
     std::vector<std::byte> gathered;
     pieces(recipe, images, [&](std::span<const std::byte> bytes) {
@@ -237,13 +268,14 @@ fs::path folder_of_user() {
 
 namespace {
 
-std::vector<Image> kept_or_made(const Recipe& recipe, const std::function<std::vector<Image>()>& make, const Rows& rows) {
+std::vector<Image> kept_or_made(const Recipe& recipe, const std::vector<Shape>& shapes, const std::function<std::vector<Image>()>& make,
+                                const Rows& rows) {
   const Folder& in = folder();
   const std::optional<Hash128> program = in.path.empty() ? std::nullopt : program_hash();
   if (!program) return make();
   const std::string whole = program->text() + recipe.text();
   const fs::path path = in.path / (file_hash(std::as_bytes(std::span(whole))).text() + std::string(suffix));
-  if (std::optional<std::vector<Image>> kept = found(path, whole, rows)) return std::move(*kept);
+  if (std::optional<std::vector<Image>> kept = found(path, whole, shapes, rows)) return std::move(*kept);
   std::vector<Image> made = make();
   keep(in, path, whole, made);
   return made;
@@ -251,7 +283,8 @@ std::vector<Image> kept_or_made(const Recipe& recipe, const std::function<std::v
 
 }  // namespace
 
-std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make, const Rows& rows) {
+std::vector<Image> images(const Recipe& recipe, const std::vector<Shape>& shapes, const std::function<std::vector<Image>()>& make,
+                          const Rows& rows) {
   static Remembered<std::vector<Image>>& remembered = *new Remembered<std::vector<Image>>;
   const auto copies = [](const std::vector<Image>& all) {
     std::vector<Image> copied;
@@ -259,7 +292,7 @@ std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<
     return copied;
   };
   if (const auto known = remembered.find(recipe.text())) return copies(*known);
-  std::vector<Image> all = kept_or_made(recipe, make, rows);
+  std::vector<Image> all = kept_or_made(recipe, shapes, make, rows);
   if (remembered_bytes() == 0) return all;
   std::size_t bytes = 0;
   for (const Image& image : all) bytes += Image::memory_bytes(image.format(), image.width(), image.height());
@@ -267,13 +300,13 @@ std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<
   return all;
 }
 
-Image image(const Recipe& recipe, const std::function<Image()>& make, const Rows& rows) {
+Image image(const Recipe& recipe, const Shape& shape, const std::function<Image()>& make, const Rows& rows) {
   const auto one = [&] {
     std::vector<Image> all;
     all.push_back(make());
     return all;
   };
-  return std::move(images(recipe, one, rows)[0]);
+  return std::move(images(recipe, {shape}, one, rows)[0]);
 }
 
 }  // namespace rainref::cache

@@ -1,5 +1,5 @@
 // Images that take long to make and are the same in every run, kept in a folder of the user's. Never needed: what is not there, is
-// damaged, or cannot be written is made anew, silently.
+// damaged, another user's or of another shape than its maker expects, or cannot be written is made anew, silently.
 #pragma once
 
 #include <cstdint>
@@ -30,17 +30,24 @@ class Recipe {
   std::string text_;
 };
 
+/// What an image is, as its maker knows it before it is made.
+struct Shape {
+  Format format;
+  int width, height;  ///< 0: any
+};
+
 /// From here on images are kept in this folder, which is made when the first is; an empty path: nowhere, as at the start. At most
 /// `most_bytes` of them, those used last. From the thread that starts the others.
 void keep_in(std::filesystem::path folder, std::uintmax_t most_bytes = std::uintmax_t{2} << 30);
 /// $XDG_CACHE_HOME/rainref, or ~/.cache/rainref; empty where neither variable says an absolute path.
 std::filesystem::path folder_of_user();
 
-/// The images of make(). Read instead where they were kept by this very program (its file's bytes count) for this recipe, and their
-/// hash says that they are whole; or a copy of what this process remembers (cache/remembered.h). rows: who makes the memory that they
-/// are read into ready.
-std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make, const Rows& rows = rows_here);
+/// The images of make(), which have these shapes. Read instead where they were kept by this very program (its file's bytes count) for this
+/// recipe, in a file that belongs to this user and that nobody else may write, their hash says that they are whole, and they have the
+/// shapes; or a copy of what this process remembers (cache/remembered.h). rows: who makes the memory that they are read into ready.
+std::vector<Image> images(const Recipe& recipe, const std::vector<Shape>& shapes, const std::function<std::vector<Image>()>& make,
+                          const Rows& rows = rows_here);
 /// The same of one image.
-Image image(const Recipe& recipe, const std::function<Image()>& make, const Rows& rows = rows_here);
+Image image(const Recipe& recipe, const Shape& shape, const std::function<Image()>& make, const Rows& rows = rows_here);
 
 }  // namespace rainref::cache

@@ -1,10 +1,12 @@
 #include "cache/program.h"
 
-#include <charconv>
 #include <fstream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "base/number_text.h"
 
 namespace rainref::cache {
 namespace {
@@ -14,11 +16,11 @@ std::string mapped_file(const void* address) {
   const auto wanted = reinterpret_cast<std::uintptr_t>(address);
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
-    std::uintptr_t begin = 0, end = 0;
-    const char* const stop = line.data() + line.size();
-    const auto first = std::from_chars(line.data(), stop, begin, 16);
-    if (first.ec != std::errc() || first.ptr == stop || *first.ptr != '-') continue;
-    if (std::from_chars(first.ptr + 1, stop, end, 16).ec != std::errc() || wanted < begin || wanted >= end) continue;
+    const std::size_t dash = line.find('-'), space = line.find(' ');
+    if (dash == std::string::npos || space == std::string::npos || dash > space) continue;
+    const std::string_view range = std::string_view(line).substr(0, space);
+    const auto begin = whole_from<std::uintptr_t>(range.substr(0, dash), 16), end = whole_from<std::uintptr_t>(range.substr(dash + 1), 16);
+    if (!begin || !end || wanted < *begin || wanted >= *end) continue;
     const std::size_t path = line.find('/');
     return path == std::string::npos ? std::string() : line.substr(path);
   }

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "capture/difference.h"
 #include "capture/manifest_write.h"
 #include "capture/record_format.h"
@@ -145,7 +146,7 @@ std::uint32_t read_bits(const JsonField& field) {
   const std::string bits = field.text();
   if (bits.size() != 10 || !bits.starts_with("0x") || bits.find_first_not_of("0123456789abcdef", 2) != std::string::npos)
     field.fail("eight hexadecimal digits behind 0x");
-  return static_cast<std::uint32_t>(std::stoul(bits, nullptr, 16));
+  return *whole_from<std::uint32_t>(std::string_view(bits).substr(2), 16);
 }
 
 /// The value that stands beside the bits is for people, who must not be told another one. Null stands for what JSON cannot hold.

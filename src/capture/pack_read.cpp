@@ -13,6 +13,7 @@
 
 #include "base/memory.h"
 #include "capture/difference.h"
+#include "capture/json_read.h"
 #include "capture/manifest_read.h"
 #include "capture/manifest_write.h"
 #include "capture/npy_read.h"
@@ -26,26 +27,6 @@ namespace {
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
   throw Error(ExitCode::port_files, fmt::format("{}: {}", file.string(), why));
-}
-
-// Far above what a manifest needs, which names some files a line.
-constexpr std::uintmax_t largest_manifest = std::uintmax_t{256} << 20;
-constexpr int deepest_manifest = 16;
-
-/// The library takes any depth, and what walks the result then runs out of stack.
-nlohmann::ordered_json parse_manifest(const fs::path& path, const std::vector<std::byte>& bytes) {
-  using Json = nlohmann::ordered_json;
-  const auto watch = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > deepest_manifest) refuse(path, fmt::format("nested deeper than {}", deepest_manifest));
-    return true;
-  };
-  const char* text = reinterpret_cast<const char*>(bytes.data());
-  try {
-    return Json::parse(text, text + bytes.size(), watch);
-  } catch (const nlohmann::json::exception& e) {
-    const std::string why = e.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
-    refuse(path, fmt::format("no JSON: {}", why.substr(std::min(why.size(), why.find("] ") + 2))));
-  }
 }
 
 std::vector<std::byte> whole_file(const fs::path& path, std::uintmax_t bytes) {
@@ -126,9 +107,7 @@ Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
     refuse(folder_, fmt::format("no pack: there is no {}{}", manifest_name,
                                 fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", inner.string()) : ""));
   }
-  const std::uintmax_t size = fs::file_size(path);
-  if (size > largest_manifest) refuse(path, fmt::format("{} bytes; expected at most {}", size, largest_manifest));
-  const nlohmann::ordered_json json = parse_manifest(path, whole_file(path, size));
+  const nlohmann::ordered_json json = read_json(path, path.string(), large_json);
   read_manifest(JsonField(json, path.string()), *this);
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/read_file.h"
+#include "capture/json_read.h"
 #include "rainref/error.h"
 #include "state/file.h"
 
@@ -36,13 +37,14 @@ RunSoFar Checkpoint::resume(simulation::Opened& opened, nlohmann::ordered_json& 
   const auto fail = [&](const std::string& why) { throw Error(ExitCode::usage, fmt::format("{}: {}", path_.string(), why)); };
   RunSoFar so_far;
   const nlohmann::ordered_json wanted = asked();
-  nlohmann::ordered_json note, so_compared;
+  const capture::JsonLimits limits{capture::large_json.bytes, capture::large_json.depth, ExitCode::usage};
+  nlohmann::ordered_json so_compared;
   try {
-    note = nlohmann::ordered_json::parse(saved.note());
+    const nlohmann::ordered_json note = capture::parse_json(saved.note(), path_.string() + ": note", limits);
     so_far.seconds = note.at("seconds").get<double>();
     for (const auto& t : note.at("passes"))
       so_far.times.push_back({t.at("name").get<std::string>(), t.at("seconds").get<double>(), t.at("calls").get<int>()});
-    so_compared = note.at("truth");
+    so_compared = note.at("truth").get<nlohmann::ordered_json::array_t>();
     for (const auto& [option, value] : wanted.items()) {
       const auto& before = note.at("asked").at(option);
       if (before != value) fail(fmt::format("of a run with {} {}: expected the same, found {}", option, before.dump(), value.dump()));

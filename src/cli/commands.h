@@ -25,6 +25,7 @@ struct RunOptions {
   int first = 0;                 ///< frames before it are simulated and not rendered
   int every = 0;                 ///< 0: the last frame only
   int checkpoint_every = 0;      ///< frames between states that a killed run can go on from; 0: none
+  bool overwrite = false;        ///< what an earlier run left in the folder goes
   bool resume = false;           ///< from such a state, where there is one
   bool png = true, exr = false;
   bool json = false;

@@ -20,6 +20,7 @@
 #include "base/folders.h"
 #include "base/hidden.h"
 #include "base/interruption.h"
+#include "base/program_path.h"
 #include "base/signals.h"
 #include "cli/command_end.h"
 #include "cli/film_command.h"

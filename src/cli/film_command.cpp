@@ -1,11 +1,7 @@
 #include "cli/film_command.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -68,20 +64,6 @@ const FilmFormat& format_of(const fs::path& film, FilmRate rate) {
 }
 
 }  // namespace
-
-fs::path program_in_path(const std::string& name) {
-  const char* const variable = std::getenv("PATH");
-  const std::string all = variable ? variable : "/usr/local/bin:/usr/bin:/bin";
-  for (std::size_t begin = 0; begin <= all.size();) {
-    const std::size_t end = std::min(all.find(':', begin), all.size());
-    const std::string folder = all.substr(begin, end - begin);
-    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
-    std::error_code none;
-    if (fs::is_regular_file(program, none) && ::access(program.c_str(), X_OK) == 0) return program;
-    begin = end + 1;
-  }
-  return {};
-}
 
 std::vector<std::string> film_arguments(const fs::path& film, int width, int height, FilmRate rate, const fs::path& output) {
   const FilmFormat& f = format_of(film, rate);

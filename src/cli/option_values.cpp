@@ -1,26 +1,20 @@
 #include "cli/option_values.h"
 
 #include <algorithm>
-#include <exception>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
 
 int whole_number(const std::string& text, const char* option, int low, int high) {
-  std::size_t used = 0;
-  long value = 0;
-  try {
-    value = std::stol(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used != text.size() || text.empty() || value < low || value > high) {
+  const std::optional<int> value = whole_from<int>(text);
+  if (!value || *value < low || *value > high)
     throw Error(ExitCode::usage, fmt::format("{}: expected a whole number from {} to {}, found '{}'", option, low, high, text));
-  }
-  return static_cast<int>(value);
+  return *value;
 }
 
 std::vector<std::string> list_of(const std::string& text) {

@@ -9,9 +9,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "base/interruption.h"
+#include "base/number_text.h"
 #include "base/signals.h"
 #include "cli/command_end.h"
 #include "cli/process_control.h"
@@ -44,8 +45,8 @@ std::set<pid_t> children() {
   std::error_code error;
   for (fs::directory_iterator i("/proc", error), end; !error && i != end; i.increment(error)) {
     const std::string name = i->path().filename().string();
-    pid_t id = 0, parent = 0;
-    if (std::from_chars(name.data(), name.data() + name.size(), id).ec != std::errc()) continue;
+    const std::optional<pid_t> id = whole_from<pid_t>(name);
+    if (!id) continue;
     std::ifstream in(i->path() / "stat");
     // Of a process that has just ended the file opens and cannot be read: an iterator over its bytes throws, getline does not.
     std::string text;
@@ -53,8 +54,8 @@ std::set<pid_t> children() {
     // "17 (a name) S 1 ...": the name may hold anything.
     const std::size_t after = text.rfind(") ");
     if (after == std::string::npos || after + 4 > text.size()) continue;
-    std::from_chars(text.data() + after + 4, text.data() + text.size(), parent);
-    if (parent == ::getpid()) found.insert(id);
+    const std::string_view rest = std::string_view(text).substr(after + 4);
+    if (whole_from<pid_t>(rest.substr(0, rest.find(' '))) == ::getpid()) found.insert(*id);
   }
   return found;
 }

@@ -5,16 +5,12 @@
 #include <fstream>
 #include <functional>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
-#include "base/file_lock.h"
-#include "base/folders.h"
-#include "base/hidden.h"
 #include "cache/kept_images.h"
 #include "capture/capture_recorder.h"
 #include "capture/hashing.h"
@@ -23,6 +19,7 @@
 #include "cli/commands.h"
 #include "cli/film.h"
 #include "cli/json_text.h"
+#include "cli/output_folder.h"
 #include "cli/progress.h"
 #include "cli/differences.h"
 #include "cli/scene_file.h"
@@ -37,49 +34,6 @@
 
 namespace rainref::cli {
 namespace {
-
-/// The folder of the results, made before the work: an unwritable place should not cost a run. Unless keep() is called,
-/// the folders that were made go again, if nothing lies in them. While it lives no other run writes there.
-class OutputFolder {
- public:
-  explicit OutputFolder(const std::filesystem::path& folder) : summary_(folder / "summary.json") {
-    const auto fail = [&](const std::string& why) { throw Error(ExitCode::io, fmt::format("{}: {}", folder.string(), why)); };
-    try {
-      made_.emplace(followed(folder));
-    } catch (const std::system_error& e) {
-      std::error_code ignored;
-      const bool is_file = std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored);
-      fail(fmt::format("cannot make this folder: {}", is_file ? "a file of that name exists" : e.code().message()));
-    }
-    try {
-      lock_.emplace(folder);
-    } catch (const std::system_error& e) {
-      if (e.code() == std::errc::operation_would_block) fail("another run writes to this folder");
-      fail(fmt::format("cannot write there: {}", e.code().message()));
-    }
-    remove_leftovers(folder);
-  }
-  void keep() { made_->keep(); }
-  const std::filesystem::path& summary() const { return summary_; }
-  /// To be called before each result is written: the summary of an older run must not stand beside it, nor its checkpoint where this run
-  /// does not go on from it.
-  void forget_older_run(const Checkpoint& checkpoint, bool goes_on) {
-    if (std::exchange(is_new_, true)) return;
-    if (!goes_on) checkpoint.remove();
-    try {
-      const std::filesystem::path older = followed(summary_);
-      if (std::filesystem::is_regular_file(older)) std::filesystem::remove(older);
-    } catch (const std::system_error& e) {
-      throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", summary_.string(), e.code().message()));
-    }
-  }
-
- private:
-  std::filesystem::path summary_;
-  std::optional<MadeFolders> made_;
-  std::optional<FolderLock> lock_;
-  bool is_new_ = false;
-};
 
 /// The passes' buffers of the frames that are written, in a folder of their own.
 struct Capture {
@@ -110,6 +64,8 @@ std::size_t most_memory() {
 void check(const RunOptions& options, int frames) {
   if (options.first >= frames)
     throw Error(ExitCode::usage, fmt::format("--first {}: expected a frame before run.frames {}", options.first, frames));
+  if (options.overwrite && options.resume)
+    throw Error(ExitCode::usage, "--overwrite: expected no --resume beside it: one begins anew, the other goes on");
   if (options.capture != RunOptions::none && (options.checkpoint_every > 0 || options.resume))
     throw Error(ExitCode::usage,
                 "--capture: expected neither --checkpoint-every nor --resume beside it: its folder appears whole, at the end");
@@ -174,6 +130,15 @@ int run(const RunOptions& options) {
   OutputFolder made(folder);
   const Checkpoint checkpoint(folder, options);
   const std::optional<std::uintmax_t> left = options.resume ? checkpoint.bytes() : std::nullopt;
+  const auto written = [&](std::int64_t frame) {
+    return frame >= options.first && frame < frames && (options.every > 0 ? frame % options.every == 0 : frame == frames - 1);
+  };
+  made.require_one_run(options, checkpoint, left.has_value(), [&](const RunPicture& p) {
+    const bool is_wanted = p.kind == RunPicture::Kind::png   ? options.png
+                           : p.kind == RunPicture::Kind::exr ? options.exr
+                                                             : options.compare_truth;
+    return is_wanted && p.effect == config.effect() && written(p.frame);
+  });
 
   effect::RunMemory memory = simulation::memory_of(config);
   add_pictures(memory, options.png || !options.film.empty(), options.exr);
@@ -194,9 +159,6 @@ int run(const RunOptions& options) {
                                              "and screen_drops have one, and with the street windshield and corrected panes of rainy_glass",
                                              config.effect(), config.variant()));
   }
-  const auto written = [&](int frame) {
-    return frame >= options.first && (options.every > 0 ? frame % options.every == 0 : frame == frames - 1);
-  };
   const auto filmed = [&](int frame) { return !options.film.empty() && frame >= options.first && frame % std::max(options.every, 1) == 0; };
   std::optional<Film> film;
   if (!options.film.empty()) {

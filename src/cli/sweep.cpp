@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/memory.h"
 #include "base/number_text.h"
@@ -13,6 +14,7 @@
 #include "cli/progress.h"
 #include "cli/terminal.h"
 #include "rainref/error.h"
+#include "sweep/command_files.h"
 #include "sweep/rubbish.h"
 #include "sweep/table.h"
 
@@ -77,8 +79,21 @@ std::string counts_text(const Standing& s) {
 
 }  // namespace
 
+sweep::Planned planning_progress() {
+  // Fewer take no time that anybody waits for.
+  constexpr std::int64_t worth_showing = 5000;
+  return [progress = std::shared_ptr<Progress>()](std::int64_t done, std::int64_t all) mutable {
+    if (all < worth_showing) return;
+    if (!progress) progress = std::make_shared<Progress>("planning", static_cast<int>(all), "cells");
+    progress->advance();
+    if (done == all) progress.reset();
+  };
+}
+
 OpenPlan::OpenPlan(const fs::path& file, const fs::path& out)
-    : plan(std::make_unique<sweep::Plan>(sweep::read_plan(file))), cells(*plan), store(fs::absolute(out).lexically_normal()) {}
+    : plan(std::make_unique<sweep::Plan>(sweep::read_plan(file))),
+      cells(*plan, planning_progress()),
+      store(fs::absolute(out).lexically_normal()) {}
 
 int sweep_plan(const SweepOptions& options) {
   const OpenPlan open(options.plan, options.out);
@@ -93,6 +108,12 @@ int sweep_plan(const SweepOptions& options) {
   if (options.is_listing) {
     for (std::size_t i = 0; i < open.cells.all().size(); ++i)
       say("{} {} {}\n", i, open.cells.all()[i].id, open.cells.words(open.cells.all()[i]));
+  }
+  if (const std::string& exec = open.plan->judging.exec; !exec.empty()) {
+    std::vector<std::string> files;
+    for (const fs::path& file : sweep::files_named_by(exec)) files.push_back(file.string());
+    say("exec: {}; a verdict of what else it runs stays until label changes, or run --again\n",
+        files.empty() ? "names no file whose content would count" : fmt::format("the content of {} counts", fmt::join(files, ", ")));
   }
   const Standing standing = standing_of(open);
   const auto total = static_cast<double>(open.cells.all().size());
@@ -126,7 +147,7 @@ int sweep_gc(const SweepOptions& options) {
   files.insert(files.end(), options.others.begin(), options.others.end());
   for (const fs::path& file : files) {
     plans.push_back(std::make_unique<sweep::Plan>(sweep::read_plan(file)));
-    cells.emplace_back(*plans.back());
+    cells.emplace_back(*plans.back(), planning_progress());
   }
   std::size_t bytes = 0;
   const std::vector<sweep::Rubbish> found = sweep::rubbish_of(sweep::Store(options.out), cells, options.damaged);

@@ -26,6 +26,9 @@ struct OpenPlan {
   std::filesystem::path tables() const { return store.root() / "plans" / plan->name(); }
 };
 
+/// A bar on the terminal while a large plan's cells are checked.
+sweep::Planned planning_progress();
+
 struct SweepOptions {
   std::filesystem::path plan, out;
   bool is_listing = false, is_trial = false;  ///< of plan

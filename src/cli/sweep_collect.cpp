@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/folders.h"
+#include "base/hidden.h"
 #include "cli/film.h"
 #include "cli/progress.h"
 #include "cli/sweep.h"
@@ -83,6 +84,7 @@ int sweep_collect(const SweepOptions& options) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error(ExitCode::io, fmt::format("{}: cannot make this folder: {}", folder.string(), error.message()));
+  remove_leftovers(folder);
   write_file(folder / "table.csv", sweep::table_csv(open.cells, table));
   sweep::write_database(folder / "table.sqlite", open.cells, table);
   write_file(folder / "films.csv", sweep::films_csv(table));

@@ -64,7 +64,7 @@ Action run_action(CLI::App& verb, Flags& f) {
                   "Of N processes number K, from 0 on; auto: as the array of Slurm, Grid Engine, PBS, Kubernetes or MPI says")
       ->type_name("K/N");
   add_threads(action, f, "Threads; the result does not depend on them");
-  action.add_flag("--again", f.options.again, "Try cells again that failed for good");
+  action.add_flag("--again", f.options.again, "Try cells again that failed for good, and judge those of a port's command (exec) anew");
   action.footer("Example: rainref sweep run examples/sweeps/rates.toml --shard 0/2 --threads 1");
   return {&action, sweep_run};
 }
@@ -86,7 +86,8 @@ Action gc_action(CLI::App& verb, Flags& f) {
   CLI::App& action = *verb.add_subcommand("gc", "List what no plan named needs");
   add_common(action, f, false);
   action.add_option("PLAN", f.plans, "Plans whose results stay")->type_name("FILE")->required();
-  action.add_flag("--remove", f.options.removes, "Remove it");
+  action.add_flag("--remove", f.options.removes,
+                  "Remove it: nothing but what bears the name of a cell, a state or a failure, in a folder that `sweep run` has marked");
   action.add_flag("--damaged", f.options.damaged, "Cells too whose files are not what their hashes say: a run makes them again");
   action.footer("Example: rainref sweep gc examples/sweeps/rates.toml --remove");
   return {&action, sweep_gc};

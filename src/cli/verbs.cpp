@@ -74,6 +74,8 @@ Verb run_verb(CLI::App& app) {
       ->type_name("K");
   verb.add_flag("--resume", f->options.resume,
                 "Go on from DIR/checkpoint.state, where a killed run left one; from the beginning otherwise. Pictures are the same");
+  verb.add_flag("--overwrite", f->options.overwrite,
+                "Remove what an earlier run left in DIR. Without it DIR may hold no results of one that this run does not write anew");
   verb.add_option("--capture", f->captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)")
       ->type_name("passes|all");
   verb.add_flag("--compare-truth", f->options.compare_truth,

@@ -252,7 +252,7 @@ ShapesView render_shapes(const scene::Camera& camera, int width, int height, dou
   recipe.add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
   for (const Vec& v : {camera.position, camera.target, camera.up}) recipe.add({v.x, v.y, v.z});
   recipe.add({camera.vertical_fov_deg, far});
-  std::vector<Image> images = cache::images(recipe, [&] {
+  std::vector<Image> images = cache::images(recipe, {{Format::rgba32f, width, height}, {Format::r32f, width, height}}, [&] {
     ShapesView view = rendered(camera, width, height, far, executor);
     std::vector<Image> all;
     for (Image* image : {&view.colour, &view.depth}) all.push_back(std::move(*image));

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/hash.h"
+#include "base/number_text.h"
 #include "base/read_file.h"
 #include "effect/npy_picture.h"
 #include "scene/check.h"
@@ -52,7 +53,7 @@ Parsed parsed(const std::string& name) {
       continue;
     }
     const std::string digits = name.substr(i + 1, end - i - 1);
-    p = {text, "", digits.empty() ? 0 : std::stoi(digits), digits.starts_with('0')};
+    p = {text, "", whole_from<int>(digits).value_or(0), digits.starts_with('0')};
     text.clear();
     ++out.numbers;
     i = end;

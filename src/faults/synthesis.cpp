@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "faults/substitution_faults.h"
 #include "faults/targets.h"
 
@@ -366,7 +367,7 @@ class Search {
       if (!suits(places)) continue;
       for (int digits = 1; digits < 6; ++digits) {
         std::vector<Substitution> rounded = places;
-        const float nice = std::strtof(fmt::format("{:.{}g}", number, digits).c_str(), nullptr);
+        const float nice = number_from<float>(fmt::format("{:.{}g}", number, digits)).value_or(number);
         for (Substitution& place : rounded) place.number = nice;
         if (suits(rounded)) {
           places = rounded;

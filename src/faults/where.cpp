@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "capture/bound_texture.h"
 #include "faults/failing_texels.h"
 #include "judge/invocation_judge.h"
@@ -202,7 +203,7 @@ std::string runs_text(const FailedRun& failed) {
   std::vector<char> fails;
   for (const CaseJudgement& c : failed.judged.cases) {
     const std::size_t dot = c.id.rfind(".L");
-    const int level = dot == std::string::npos ? -1 : std::atoi(c.id.c_str() + dot + 2);
+    const int level = dot == std::string::npos ? -1 : whole_from<int>(std::string_view(c.id).substr(dot + 2)).value_or(-1);
     levels.insert(level);
     if (c.failing > 0) failing_levels.insert(level);
     fails.push_back(c.failing > 0);

@@ -56,11 +56,11 @@ capture::Array PortFiles::read(const fs::path& run, const std::string& stem, con
   return array;
 }
 
-void require_apart(const fs::path& pack, const fs::path& port) {
+void require_apart(const fs::path& pack, const fs::path& port, ExitCode code) {
   std::error_code error;
   if (!fs::equivalent(pack, port, error)) return;
   throw Error(
-      ExitCode::usage,
+      code,
       fmt::format("{}: expected what the port itself wrote, found the pack's own '{}': its expected outputs would be judged by themselves",
                   port.string(), pack.string()));
 }

@@ -58,8 +58,8 @@ class PortFiles {
   std::vector<std::string> notes_;
 };
 
-/// Throws Error(usage) when two paths lead to one folder or file: a pack's expected outputs are never judged by
-/// themselves.
-void require_apart(const std::filesystem::path& pack, const std::filesystem::path& port);
+/// Throws Error(code) when two paths lead to one folder or file: a pack's expected outputs are never judged by themselves. A folder was
+/// asked for (usage); a file is the port's (port_files).
+void require_apart(const std::filesystem::path& pack, const std::filesystem::path& port, ExitCode code);
 
 }  // namespace rainref::judge

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/read_file.h"
 #include "capture/check_case.h"
 #include "judge/conclude.h"
 #include "judge/evaluations.h"
@@ -140,8 +139,8 @@ class Shadow {
     if (!fs::exists(path, ignored) && run.plan && !run.plan->uniform_file.empty()) path = files_.folder() / run.plan->uniform_file;
     if (!fs::exists(path, ignored))
       throw Error(ExitCode::port_files, fmt::format("'{}' is missing: the uniform block that the run took", path.string()));
-    std::vector<std::byte> bytes = read_file(path);
     const std::size_t size = run.like->c.uniforms.size();
+    std::vector<std::byte> bytes = port_dump::read_port_file(path, std::max(size, std::size_t{1} << 20));
     if (bytes.size() != size)
       throw Error(ExitCode::port_files,
                   fmt::format("'{}': expected the {} bytes of the uniform block, found {}", path.string(), size, bytes.size()));

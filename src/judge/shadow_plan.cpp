@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/number_text.h"
 #include "capture/npy_write.h"
 #include "judge/check_pack.h"
 #include "rainref/error.h"
@@ -38,7 +39,7 @@ bool parse_run(const std::string& name, DumpedRun& run) {
     const std::size_t begin = at;
     while (at < name.size() && std::isdigit(static_cast<unsigned char>(name[at])) && at - begin < 9) ++at;
     if (at - begin < least) return false;
-    out = std::stoi(name.substr(begin, at - begin));
+    out = whole_from<int>(std::string_view(name).substr(begin, at - begin)).value_or(0);
     return true;
   };
   if (!number(4, run.frame) || at >= name.size() || name[at++] != '.' || !number(1, run.step)) return false;

@@ -91,7 +91,8 @@ FoundFiles check_files(const Pack& pack, const ValidateOptions& options, PortFil
       shape.levels.resize(output.levels.size());
       const std::string stem = "out." + output.name;
       found.faults.attempt(entry.pass, entry.id, stem, [&] {
-        require_apart(pack.folder() / output.levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, stem).path);
+        require_apart(pack.folder() / output.levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, stem).path,
+                      ExitCode::port_files);
         port.read(entry.id, stem, shape);
       });
     }
@@ -128,7 +129,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   if (!pack.with_inputs)
     throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
   check_pack(pack);
-  require_apart(pack.folder(), folder);
+  require_apart(pack.folder(), folder, ExitCode::usage);
   PortFiles port(folder);
   const FoundFiles found = check_files(pack, options, port);
 

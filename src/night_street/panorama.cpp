@@ -31,7 +31,7 @@ Image Street::panorama(int width, int height, const scene::Vector3& eye, const p
   recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
   recipe.add({eye.x, eye.y, eye.z});
   return cache::image(
-      recipe, [&] { return traced(width, height, eye, executor); }, parallel::rows_of(executor));
+      recipe, {Format::rgba32f, width, height}, [&] { return traced(width, height, eye, executor); }, parallel::rows_of(executor));
 }
 
 Image Street::traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const {

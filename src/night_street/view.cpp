@@ -19,13 +19,14 @@ Street::View Street::view(const scene::Camera& camera, int width, int height, do
   recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
   for (const scene::Vector3& v : {camera.position, camera.target, camera.up}) recipe.add({v.x, v.y, v.z});
   recipe.add({camera.vertical_fov_deg, far});
+  const std::vector<cache::Shape> shapes{{Format::rgba32f, width, height}, {Format::r32f, width, height}, {Format::rgba32f, width, height}};
   const auto make = [&] {
     View view = rendered(camera, width, height, far, executor, parts);
     std::vector<Image> all;
     for (Image* image : {&view.colour, &view.depth, &view.normal}) all.push_back(std::move(*image));
     return all;
   };
-  std::vector<Image> images = cache::images(recipe, make, parallel::rows_of(executor));
+  std::vector<Image> images = cache::images(recipe, shapes, make, parallel::rows_of(executor));
   return {std::move(images[0]), std::move(images[1]), std::move(images[2])};
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/read_file.h"
 #include "rainref/error.h"
 
 namespace rainref::port_dump {
@@ -94,6 +95,19 @@ DumpFile find_dump_file(const fs::path& folder, std::string_view stem_view) {
     refuse(fmt::format("'{}' describes raw bytes, but the buffer is {}; keep one", sidecar.string(), out.quoted()));
   }
   return out;
+}
+
+std::vector<std::byte> read_port_file(const fs::path& path, std::uint64_t most) {
+  std::error_code error;
+  const fs::file_type type = fs::status(path, error).type();
+  const char* const found = type == fs::file_type::directory   ? "a folder"
+                            : type == fs::file_type::fifo      ? "a pipe"
+                            : type == fs::file_type::socket    ? "a socket"
+                            : type == fs::file_type::character ? "a device"
+                            : type == fs::file_type::block     ? "a device"
+                                                               : nullptr;
+  if (found) refuse(fmt::format("'{}': expected a file, found {}", path.string(), found));
+  return read_file(path, {most, ExitCode::port_files});
 }
 
 }  // namespace rainref::port_dump

@@ -2,52 +2,21 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "capture/json_read.h"
 #include "rainref/error.h"
 
 namespace rainref::port_dump {
 namespace {
 
-using Json = nlohmann::json;
-
-constexpr std::size_t largest_file = 1 << 20;
-constexpr int deepest = 8;
+using Json = nlohmann::ordered_json;
 
 [[noreturn]] void fail(const std::string& message) { throw Error(ExitCode::port_files, message); }
-
-// "line 3, column 7: unexpected ','; expected ..." out of the library's message, which says more about itself.
-std::string reason(std::string text) {
-  if (const std::size_t at = text.find("parse error at "); at != std::string::npos) text.erase(0, at + 15);
-  if (const std::size_t at = text.find("syntax error while parsing"); at != std::string::npos) {
-    if (const std::size_t dash = text.find(" - ", at); dash != std::string::npos) text.erase(at, dash + 3 - at);
-  }
-  return text.substr(0, 160);
-}
-
-// The library keeps the last of several equal keys without a word, and takes any depth.
-Json parse(std::string_view text, const std::string& file) {
-  std::vector<std::set<std::string>> keys;
-  const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    if (depth > deepest) fail(fmt::format("{}: nested deeper than {}", file, deepest));
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
-      fail(fmt::format("{}: key '{}' appears twice", file, parsed.get<std::string>().substr(0, 40)));
-    }
-    return true;
-  };
-  try {
-    return Json::parse(text, watch);
-  } catch (const Json::exception& error) {
-    fail(fmt::format("{}: not JSON: {}", file, reason(error.what())));
-  }
-}
 
 std::string shown(const Json& value) {
   if (value.is_array()) return "a list";
@@ -59,8 +28,7 @@ std::string shown(const Json& value) {
 }  // namespace
 
 JsonObject::JsonObject(std::string_view text, std::string file, std::span<const std::string> known_keys) : file_(std::move(file)) {
-  if (text.size() > largest_file) fail(fmt::format("{}: {} bytes; expected at most {}", file_, text.size(), largest_file));
-  object_ = std::make_unique<const Json>(parse(text, file_));
+  object_ = std::make_unique<const Json>(capture::parse_json(text, file_, capture::small_json));
   if (!object_->is_object()) fail(fmt::format("{}: expected an object {{...}}, found {}", file_, shown(*object_)));
   for (const auto& [key, value] : object_->items()) {
     if (std::ranges::find(known_keys, key) != known_keys.end()) continue;
@@ -99,7 +67,7 @@ std::optional<bool> JsonObject::boolean(const std::string& key) const {
   return value->get<bool>();
 }
 
-std::size_t JsonObject::count_of(const std::string& key, const nlohmann::json& value) const {
+std::size_t JsonObject::count_of(const std::string& key, const Json& value) const {
   if (!value.is_number_unsigned() || !std::in_range<std::size_t>(value.get<std::uint64_t>())) {
     refuse_value(key, "a whole number, at least 0", value);
   }
@@ -134,6 +102,7 @@ std::optional<std::vector<std::pair<std::string, std::size_t>>> JsonObject::coun
   for (const auto& [name, number] : value->items()) {
     out.emplace_back(name, count_of(key + "." + name.substr(0, 40), number));
   }
+  std::ranges::sort(out);
   return out;
 }
 

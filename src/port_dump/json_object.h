@@ -39,13 +39,13 @@ class JsonObject {
   const std::string& file() const { return file_; }
 
  private:
-  const nlohmann::json* find(const std::string& key) const;
+  const nlohmann::ordered_json* find(const std::string& key) const;
   /// The value as a whole number that std::size_t holds.
-  std::size_t count_of(const std::string& key, const nlohmann::json& value) const;
-  [[noreturn]] void refuse_value(const std::string& key, const std::string& expected, const nlohmann::json& found) const;
+  std::size_t count_of(const std::string& key, const nlohmann::ordered_json& value) const;
+  [[noreturn]] void refuse_value(const std::string& key, const std::string& expected, const nlohmann::ordered_json& found) const;
 
   std::string file_;
-  std::unique_ptr<const nlohmann::json> object_;
+  std::unique_ptr<const nlohmann::ordered_json> object_;
 };
 
 }  // namespace rainref::port_dump

@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "base/read_file.h"
+#include "capture/json_read.h"
+#include "port_dump/dump_file.h"
 #include "port_dump/json_object.h"
 
 namespace rainref::port_dump {
@@ -31,7 +32,7 @@ PortInfo read_port_info(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "port.json";
   std::error_code ignored;
   if (std::filesystem::symlink_status(path, ignored).type() == std::filesystem::file_type::not_found) return {};
-  const std::vector<std::byte> bytes = read_file(path);
+  const std::vector<std::byte> bytes = read_port_file(path, capture::small_json.bytes);
   return parse_port_info({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, fmt::format("'{}'", path.string()));
 }
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/read_file.h"
+#include "capture/json_read.h"
 #include "capture/npy_read.h"
 #include "image_io/evidence.h"
 #include "port_dump/dds.h"
@@ -112,8 +112,8 @@ struct LoadedFile {
       throw Error(ExitCode::port_files, fmt::format("{}: {} bytes are too many for {}x{} texels of {}", file.quoted(), size, expected.width,
                                                     expected.height, info(expected.format).name));
     }
-    bytes = read_file(file.path);
-    if (!file.sidecar.empty()) sidecar = read_file(file.sidecar);
+    bytes = read_port_file(file.path, longest_file(expected));
+    if (!file.sidecar.empty()) sidecar = read_port_file(file.sidecar, capture::small_json.bytes);
   }
   FileBytes view() const {
     return {file.type,

@@ -58,10 +58,14 @@ double fractal(std::span<Noise> octaves, double x, double y) {
   return sum;
 }
 
+int bed_rows(const Settings& s) {
+  const double half_x = 0.5 * s.grid[0] * s.cell_size, half_z = 0.5 * s.grid[1] * s.cell_size;
+  return std::max(1, static_cast<int>(s.bed_columns * half_z / half_x));
+}
 /// The depths of a natural shape [m].
 Image natural_bed(const Settings& s) {
   const double half_x = 0.5 * s.grid[0] * s.cell_size, half_z = 0.5 * s.grid[1] * s.cell_size;
-  const int width = s.bed_columns, height = std::max(1, static_cast<int>(width * half_z / half_x));
+  const int width = s.bed_columns, height = bed_rows(s);
   Image depth(Format::r32f, width, height);
   std::array<Noise, 5> octaves{{{s.seed, 0}, {s.seed, 1}, {s.seed, 2}, {s.seed, 3}, {s.seed, 4}}};
   Noise grains(s.seed, 77);
@@ -79,8 +83,9 @@ Image natural_bed(const Settings& s) {
   }
   return depth;
 }
+constexpr int asphalt_texels = 512;  // a side
 Image asphalt(std::uint64_t seed) {
-  constexpr int size = 512, cells = 80;
+  constexpr int size = asphalt_texels, cells = 80;
   Image tile(Format::rgba32f, size, size);
   // Stones: one jittered point in each cell, the tile joined at its edges.
   std::vector<random::Block> stones;
@@ -130,13 +135,15 @@ TextureData make_bed(const Settings& s) {
   cache::Recipe recipe("puddle depths");
   recipe.add(s.seed).add(
       {static_cast<double>(s.grid[0]), static_cast<double>(s.grid[1]), s.cell_size, s.puddle_depth, static_cast<double>(s.bed_columns)});
-  TextureData bed(cache::image(recipe, [&] { return natural_bed(s); }), Address::border, Address::border);
+  TextureData bed(cache::image(recipe, {Format::r32f, s.bed_columns, bed_rows(s)}, [&] { return natural_bed(s); }), Address::border,
+                  Address::border);
   bed.set_border(static_cast<float>(-s.puddle_depth), 0, 0, 0);
   return bed;
 }
 
 Image make_asphalt(std::uint64_t seed) {
-  return cache::image(cache::Recipe("puddle asphalt").add(seed), [&] { return asphalt(seed); });
+  return cache::image(cache::Recipe("puddle asphalt").add(seed), {Format::rgba32f, asphalt_texels, asphalt_texels},
+                      [&] { return asphalt(seed); });
 }
 
 Image make_shore(const Settings& s, const Texture& bed) {

@@ -99,7 +99,7 @@ Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, co
     for (const Vector3& v : {eye.position, eye.target, eye.up}) recipe.add({v.x, v.y, v.z});
     recipe.add({eye.vertical_fov_deg, radius});
     // Both at once: in focus the street is needed no more.
-    std::vector<Image> kept = cache::images(recipe, [&] {
+    std::vector<Image> kept = cache::images(recipe, {{Format::rgba32f, s.width, s.height}, {Format::r32f, s.width, s.height}}, [&] {
       night_street::Street::View view = street.view(eye, s.width, s.height, backdrop_far, executor);
       std::vector<Image> both;
       both.push_back(defocused(view.colour, radius, executor));
@@ -115,6 +115,7 @@ Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, co
     for (int y = 0; y < s.height; ++y) std::fill_n(around.depth.row<float>(y), s.width, static_cast<float>(backdrop_far));
     if (s.use_probe) around.probe = copy_of(panorama);
     around.colour = cache::image(cache::Recipe("rainy_glass defocused").add({radius}).add(around.colour),
+                                 {Format::rgba32f, around.colour.width(), around.colour.height()},
                                  [&] { return defocused(around.colour, radius, executor); });
   }
   if (s.shape == Shape::pane && options.bar_spacing > 0) add_bars(s, options, around, parallel::rows_of(executor));

@@ -57,7 +57,7 @@ std::string Baseline::Entry::text() const {
 }
 
 Baseline Baseline::read(const std::filesystem::path& file) {
-  const std::vector<std::byte> bytes = read_file(file);
+  const std::vector<std::byte> bytes = read_file(file, {std::uint64_t{1} << 20, ExitCode::usage});
   return parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 

@@ -1,10 +1,22 @@
 #include "scene/config.h"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "scene/value_text.h"
 
 namespace rainref::scene {
+namespace {
+
+void require_accepted(const Parameter& p, const Value& value) {
+  if (accepts(p, value)) return;
+  throw Error(ExitCode::internal, fmt::format("configuration: '{}' expects {}, found {}", p.key, expectation(p), value_text(value)));
+}
+
+}  // namespace
 
 std::string Origin::text() const {
   if (kind == file || !at.file.empty()) return at.text();
@@ -13,20 +25,30 @@ std::string Origin::text() const {
 
 Config::Config(std::vector<Entry> entries, std::filesystem::path directory)
     : entries_(std::move(entries)), directory_(std::move(directory)) {
-  for (const Entry& e : entries_) {
-    if (accepts(e.parameter, e.value)) continue;
-    throw Error(ExitCode::internal,
-                fmt::format("configuration: '{}' expects {}, found {}", e.parameter.key, expectation(e.parameter), value_text(e.value)));
-  }
+  for (const Entry& e : entries_) require_accepted(e.parameter, e.value);
+  by_key_.resize(entries_.size());
+  std::iota(by_key_.begin(), by_key_.end(), 0u);
+  std::stable_sort(by_key_.begin(), by_key_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return entries_[a].parameter.key < entries_[b].parameter.key; });
   text("effect");
   text("variant");
 }
 
-const Config::Entry& Config::entry(std::string_view key) const {
-  for (const Entry& e : entries_) {
-    if (e.parameter.key == key) return e;
-  }
-  throw Error(ExitCode::internal, fmt::format("configuration: no parameter '{}' here", key));
+std::size_t Config::place_of(std::string_view key) const {
+  const auto at = std::lower_bound(by_key_.begin(), by_key_.end(), key,
+                                   [&](std::uint32_t e, std::string_view k) { return entries_[e].parameter.key < k; });
+  if (at == by_key_.end() || entries_[*at].parameter.key != key)
+    throw Error(ExitCode::internal, fmt::format("configuration: no parameter '{}' here", key));
+  return *at;
+}
+
+const Config::Entry& Config::entry(std::string_view key) const { return entries_[place_of(key)]; }
+
+void Config::set(std::string_view key, Value value, Origin origin) {
+  Entry& e = entries_[place_of(key)];
+  require_accepted(e.parameter, value);
+  e.value = std::move(value);
+  e.origin = std::move(origin);
 }
 
 template <class T>

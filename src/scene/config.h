@@ -1,6 +1,8 @@
 // The effective configuration of a scene: each parameter that its variant uses, with its value and where it came from.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -51,6 +53,10 @@ class Config {
   /// In the order of declaration: effect, variant, seed, run.*, then the effect's own.
   const std::vector<Entry>& entries() const { return entries_; }
 
+  /// Another value of a key, for plans of many runs. Throws Error(internal) for a key that is not here and a value that its parameter does
+  /// not accept.
+  void set(std::string_view key, Value value, Origin origin);
+
   /// The folder of the scene file, which relative file names in it refer to; "" for the current folder.
   const std::filesystem::path& directory() const { return directory_; }
 
@@ -62,7 +68,10 @@ class Config {
   template <class T>
   const T& get(std::string_view key, const char* asked) const;
 
+  std::size_t place_of(std::string_view key) const;
+
   std::vector<Entry> entries_;
+  std::vector<std::uint32_t> by_key_;  ///< places of the entries, sorted by their keys
   std::filesystem::path directory_;
 };
 

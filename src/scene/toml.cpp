@@ -217,6 +217,11 @@ Config parse(const std::vector<RawEntry>& entries, const std::filesystem::path& 
   return assembly.finish(file);
 }
 
+void give(Config& config, const Override& override) {
+  const FloatingPointGuard guard;
+  config.set(override.key, checked(override, config.entry(override.key).parameter), origin_of(override));
+}
+
 Config parse(const SceneText& scene, const EffectTable& effects) {
   const FloatingPointGuard guard;
   const std::vector<RawEntry> entries = read_toml(scene.toml, scene.file);

@@ -41,6 +41,10 @@ struct Override {
 Config parse(const std::vector<RawEntry>& scene, const std::filesystem::path& file, const std::vector<Override>& overrides,
              const EffectTable& effects);
 
+/// The value of a key anew, as parse() takes it from a later override. Not of `effect` and `variant`, on which the other keys hang. Throws
+/// as parse(); Error(internal) for a key that the configuration has not.
+void give(Config& config, const Override& override);
+
 /// The same of a text that may leave out `effect` and `variant`, for a caller who hands in the pictures himself: the keys `pictures`,
 /// which name some, must be empty.
 Config parse(const SceneText& scene, const Effect& effect, std::span<const char* const> pictures);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cache/kept_images.h"
+#include "rainref/error.h"
 #include "state/file.h"
 #include "state/load.h"
 
@@ -53,7 +54,7 @@ std::vector<std::byte> written(const state::Items& items) {
 
 void warm_up_once(const FlowSettings& settings, const std::function<state::Items()>& list, const std::function<void()>& warm_up) {
   bool is_done = false;
-  const Image kept = cache::image(recipe_of(settings), [&] {
+  const Image kept = cache::image(recipe_of(settings), {Format::r8, bytes_in_row, 0}, [&] {
     warm_up();
     is_done = true;
     return as_image(written(list()));
@@ -63,11 +64,15 @@ void warm_up_once(const FlowSettings& settings, const std::function<state::Items
   for (int y = 0; y < kept.height(); ++y) bytes.insert(bytes.end(), kept.row_bytes(y), kept.row_bytes(y) + kept.width());
   Count count;
   std::memcpy(&count, bytes.data(), sizeof count);
-  const std::span<const std::byte> all = bytes;
-  const state::Saved saved(all.subspan(sizeof count, static_cast<std::size_t>(count)), "the cache");
-  const state::Items items = list();
-  state::require_fit(saved, items);
-  state::load(saved, items);
+  const std::span<const std::byte> all = std::span(bytes).subspan(sizeof count);
+  try {
+    const state::Saved saved(all.first(static_cast<std::size_t>(std::min<Count>(count, all.size()))), "the cache");
+    const state::Items items = list();
+    state::require_fit(saved, items);
+    state::load(saved, items);
+  } catch (const Error&) {  // nothing has changed
+    warm_up();
+  }
 }
 
 }  // namespace rainref::screen_drops

@@ -65,7 +65,10 @@ scene::Config config_of_passes(const scene::Config& config) {
 }
 
 effect::RunMemory memory_of(const scene::Config& scene) {
-  const scene::Config config = config_at_pass_size(scene);
+  // A plan asks this of every cell, and a copy takes longer than the answer.
+  std::optional<scene::Config> larger;
+  if (scene.integer("run.supersample") > 1) larger = config_at_pass_size(scene);
+  const scene::Config& config = larger ? *larger : scene;
   effect::RunMemory memory = registry::find(config.effect())->memory(config);
   if (const truth::EffectTracing* tracing = truth::tracing_of(config.effect())) tracing->hold(memory, config);
   const std::uint64_t n = static_cast<std::uint64_t>(scene.integer("run.supersample"));

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,18 +12,17 @@ namespace rainref::simulation {
 
 scene::Config config_at_pass_size(const scene::Config& config) {
   const std::int64_t n = config.integer("run.supersample");
-  std::vector<scene::Config::Entry> entries = config.entries();
-  for (scene::Config::Entry& e : entries) {
-    if (e.parameter.key != "run.size") continue;
-    scene::Integer2& size = std::get<scene::Integer2>(e.value);
-    for (std::int64_t& side : size) {
-      side *= n;
-      if (static_cast<double>(side) > e.parameter.maximum)
-        throw Error(ExitCode::usage, fmt::format("run.supersample: expected at most {:.0f} texels a side of run.size times it, found {}",
-                                                 e.parameter.maximum, side));
-    }
+  const scene::Config::Entry& e = config.entry("run.size");
+  scene::Integer2 size = config.integer2("run.size");
+  for (std::int64_t& side : size) {
+    side *= n;
+    if (static_cast<double>(side) > e.parameter.maximum)
+      throw Error(ExitCode::usage, fmt::format("run.supersample: expected at most {:.0f} texels a side of run.size times it, found {}",
+                                               e.parameter.maximum, side));
   }
-  return scene::Config(std::move(entries), config.directory());
+  scene::Config larger = config;
+  larger.set("run.size", size, e.origin);
+  return larger;
 }
 
 Image tent_mean(const Image& picture, int n, const parallel::Executor& executor) {

@@ -157,4 +157,13 @@ Saved::Saved(std::span<const std::byte> bytes, std::string origin) : origin_(std
   if (!body.at_end()) body.fail("bytes follow the last item");
 }
 
+std::optional<std::int64_t> Saved::frame() const {
+  for (const Stored& item : items_) {
+    if (item.name != "frame" || !item.shape.empty()) continue;
+    if (item.type == Type::i32) return Reader(item.bytes, origin_).take<std::int32_t>();
+    if (item.type == Type::i64) return Reader(item.bytes, origin_).take<std::int64_t>();
+  }
+  return std::nullopt;
+}
+
 }  // namespace rainref::state

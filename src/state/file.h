@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,6 +46,8 @@ class Saved {
   std::string_view inputs() const { return inputs_; }
   std::string_view note() const { return note_; }
   const std::vector<Stored>& items() const { return items_; }
+  /// Frames behind it: the item `frame`, which every effect has; nothing where there is none.
+  std::optional<std::int64_t> frame() const;
 
  private:
   std::string origin_;

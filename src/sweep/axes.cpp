@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -13,6 +16,9 @@ namespace {
 
 using scene::RawEntry;
 using scene::RawValue;
+
+/// Of a file of cases, in bytes.
+constexpr std::uint64_t longest_cases = std::uint64_t{256} << 20;
 
 [[noreturn]] void refuse(const SourceLocation& at, const std::string& key, const std::string& message) {
   throw Error(ExitCode::usage, at, fmt::format("axes.{}: {}", key, message));
@@ -34,7 +40,9 @@ Axis list_axis(const std::string& key, const RawValue& list) {
 struct RangeKeys {
   std::optional<RawValue> from, to, count;
 };
-Axis range_axis(const std::string& key, const RangeKeys& said, const SourceLocation& at) {
+/// Asked with the rows of an axis before they are made: refuses more cells than a plan may have.
+using Grow = std::function<void(std::int64_t rows, const SourceLocation& at)>;
+Axis range_axis(const std::string& key, const RangeKeys& said, const SourceLocation& at, const Grow& grow) {
   if (!said.from) refuse(at, key, "expected 'from' beside 'count', found none");
   if (!said.count) refuse(at, key, "expected 'count' beside 'from', found none");
   for (const auto& [word, value] : {std::pair{"from", &*said.from}, std::pair{"to", said.to ? &*said.to : nullptr}}) {
@@ -55,6 +63,7 @@ Axis range_axis(const std::string& key, const RangeKeys& said, const SourceLocat
   } else {
     refuse(at, key, "expected 'to' beside a 'from' that is no whole number, found none");
   }
+  grow(*count, at);
   Axis axis{{key}, {}};
   for (const RawValue& v : range(*said.from, to, *count)) axis.rows.push_back({{key, v, said.from->at}});
   return axis;
@@ -85,8 +94,8 @@ std::vector<std::string> fields(std::string_view line, const SourceLocation& at)
   return out;
 }
 
-Axis cases_axis(const std::filesystem::path& file) {
-  const std::vector<std::byte> bytes = read_file(file);
+Axis cases_axis(const std::filesystem::path& file, std::int64_t most_rows) {
+  const std::vector<std::byte> bytes = read_file(file, {longest_cases, ExitCode::usage});
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
   Axis axis;
@@ -100,16 +109,18 @@ Axis cases_axis(const std::filesystem::path& file) {
     const std::vector<std::string> found = fields(line, at);
     if (axis.keys.empty()) {
       axis.keys = found;
-      for (auto key = found.begin(); key != found.end(); ++key) {
-        if (key->empty()) throw Error(ExitCode::usage, at, "expected a key as the head of each column, found ''");
-        if (std::find(found.begin(), key, *key) != key) throw Error(ExitCode::usage, at, fmt::format("{}: is there twice", *key));
+      std::set<std::string> heads;
+      for (const std::string& key : found) {
+        if (key.empty()) throw Error(ExitCode::usage, at, "expected a key as the head of each column, found ''");
+        if (!heads.insert(key).second) throw Error(ExitCode::usage, at, fmt::format("{}: is there twice", key));
       }
       continue;
     }
     if (found.size() != axis.keys.size())
       throw Error(ExitCode::usage, at, fmt::format("expected {} fields as the head has, found {}", axis.keys.size(), found.size()));
-    if (static_cast<std::int64_t>(axis.rows.size()) == most_cells)
-      throw Error(ExitCode::usage, at, fmt::format("expected at most {} cases, found more", most_cells));
+    if (static_cast<std::int64_t>(axis.rows.size()) == most_rows)
+      throw Error(ExitCode::usage, at,
+                  fmt::format("expected at most {} cases, for a plan has at most {} cells, found more", most_rows, most_cells));
     std::vector<scene::Override>& row = axis.rows.emplace_back();
     for (std::size_t i = 0; i < found.size(); ++i) row.push_back({axis.keys[i], found[i], at});
   }
@@ -148,12 +159,17 @@ std::vector<RawValue> range(const RawValue& from, const RawValue& to, std::int64
 
 std::vector<Axis> axes_from(std::span<const RawEntry> entries, const std::filesystem::path& folder) {
   std::vector<Axis> axes;
+  std::set<std::string> keys;
   const auto add = [&](Axis axis, const SourceLocation& at) {
-    for (const std::string& key : axis.keys) {
-      const auto has_it = [&](const Axis& a) { return std::find(a.keys.begin(), a.keys.end(), key) != a.keys.end(); };
-      if (std::any_of(axes.begin(), axes.end(), has_it)) refuse(at, key, "is there twice");
-    }
+    for (const std::string& key : axis.keys)
+      if (!keys.insert(key).second) refuse(at, key, "is there twice");
     axes.push_back(std::move(axis));
+  };
+  std::int64_t cells = 1;  // of the axes so far
+  const Grow grow = [&](std::int64_t rows, const SourceLocation& at) {
+    if (rows > most_cells / cells)
+      throw Error(ExitCode::usage, at, fmt::format("axes: expected at most {} cells, found {}", most_cells, cells * rows));
+    cells *= rows;
   };
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const RawEntry& e = entries[i];
@@ -161,9 +177,12 @@ std::vector<Axis> axes_from(std::span<const RawEntry> entries, const std::filesy
     if (key == "cases") {
       const auto* name = std::get_if<std::string>(&e.value.data);
       if (!name) refuse(e.value.at, key, "expected the name of a CSV file, found " + e.value.text());
-      add(cases_axis(folder / *name), e.at);
+      Axis axis = cases_axis(folder / *name, most_cells / cells);
+      grow(static_cast<std::int64_t>(axis.rows.size()), e.at);
+      add(std::move(axis), e.at);
     } else if (const auto* values = std::get_if<std::vector<RawValue>>(&e.value.data)) {
       if (values->empty()) refuse(e.value.at, key, "expected a value or more, found []");
+      grow(static_cast<std::int64_t>(values->size()), e.at);
       add(list_axis(key, e.value), e.at);
     } else {
       const std::size_t dot = key.rfind('.');
@@ -188,7 +207,7 @@ std::vector<Axis> axes_from(std::span<const RawEntry> entries, const std::filesy
                            dot == std::string::npos ? "" : did_you_mean(word, words)));
       }
       while (i + 1 < entries.size() && take(entries[i + 1])) ++i;
-      add(range_axis(of, said, e.at), e.at);
+      add(range_axis(of, said, e.at, grow), e.at);
     }
   }
   return axes;

@@ -1,5 +1,7 @@
 #include "sweep/cell_record.h"
 
+#include <algorithm>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -7,6 +9,8 @@
 
 #include "base/hash.h"
 #include "base/read_file.h"
+#include "capture/json_field.h"
+#include "capture/json_read.h"
 #include "rainref/error.h"
 
 namespace rainref::sweep {
@@ -14,8 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* record_name = "cell.json";
+constexpr std::int64_t most_frame = 1'000'000;
 
 std::string hash_text(std::span<const std::byte> bytes) { return file_hash(bytes).text(); }
+bool lies_inside(const fs::path& path) {
+  return !path.empty() && path.is_relative() && std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
+}
 
 }  // namespace
 
@@ -48,34 +56,56 @@ bool CellWriter::finish(nlohmann::ordered_json record, std::vector<fs::path>& na
   return folder_.commit_if_first(of_others);
 }
 
-nlohmann::ordered_json read_record(const fs::path& cell) {
-  const std::vector<std::byte> bytes = read_file(cell / record_name);
+CellRecord read_record(const fs::path& cell) {
+  const fs::path path = cell / record_name;
+  const std::vector<std::byte> bytes = read_file(path, {capture::large_json.bytes, capture::large_json.code});
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string_view body = text.substr(std::min(text.find('\n'), text.size() - !text.empty()) + !text.empty());
-  nlohmann::ordered_json record = nlohmann::ordered_json::parse(text, nullptr, false);
-  const bool is_whole = record.is_object() && record.contains("xxh3") && record["xxh3"] == hash_text(std::as_bytes(std::span(body)));
-  if (!is_whole) throw Error(ExitCode::port_files, fmt::format("{}: is damaged", (cell / record_name).string()));
+  const nlohmann::ordered_json json = capture::parse_json(text, path.string(), capture::large_json);
+  const capture::JsonField from(json, path.string());
+  if (from["xxh3"].text() != hash_text(std::as_bytes(std::span(body)))) from.refuse("is damaged");
+  if (from["cell"].text() != cell.filename().string()) from["cell"].fail(cell.filename().string());
+  CellRecord record;
+  std::set<std::string> names;
+  const auto new_name = [&](const capture::JsonField& field, const std::string& name) {
+    if (!names.insert(name).second) field.refuse(fmt::format("'{}' is there twice", name));
+    return name;
+  };
+  if (from.has("verdict")) record.verdict = from["verdict"].text();
+  if (from.has("last_frame")) {
+    const std::int64_t last = from["end"].whole(1, most_frame) - 1;
+    for (const capture::JsonField& line : from["last_frame"].elements()) {
+      // Made from another frame's state, under this one's name.
+      if (line["frame"].whole(0, most_frame) != last) line["frame"].fail(fmt::format("{}, the one before its end", last));
+      record.last_frame.emplace_back(new_name(line, line["pass"].text() + "." + line["buffer"].text()), line["xxh3"].text());
+    }
+  }
+  names.clear();
+  for (const capture::JsonField& f : from["files"].elements()) {
+    KeptFile& file = record.files.emplace_back();
+    file.path = new_name(f, f["path"].text());
+    if (!lies_inside(file.path)) f["path"].fail("a path in the cell's folder");
+    file.bytes = static_cast<std::uintmax_t>(f["bytes"].whole(0, INT64_MAX));
+    file.hash = f["xxh3"].text();
+  }
   return record;
 }
 
-std::vector<KeptFile> files_of(const nlohmann::ordered_json& record) {
-  std::vector<KeptFile> files;
-  for (const auto& f : record.at("files"))
-    files.push_back({f.at("path").get<std::string>(), f.at("bytes").get<std::uintmax_t>(), f.at("xxh3").get<std::string>()});
-  return files;
-}
-
-std::string damage_of(const fs::path& cell) {
+std::string damage_of(const fs::path& cell, CellRecord& record) {
   try {
-    for (const KeptFile& f : files_of(read_record(cell))) {
-      const std::vector<std::byte> bytes = read_file(cell / f.path);
-      const std::string found = hash_text(bytes);
+    record = read_record(cell);
+    for (const KeptFile& f : record.files) {
+      const std::string found = hash_text(read_file(cell / f.path, {f.bytes, ExitCode::port_files}));
       if (found != f.hash) return fmt::format("{}: expected hash {}, found {}", (cell / f.path).string(), f.hash, found);
     }
   } catch (const Error& e) {
     return e.what();
   }
   return "";
+}
+std::string damage_of(const fs::path& cell) {
+  CellRecord record;
+  return damage_of(cell, record);
 }
 
 }  // namespace rainref::sweep

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -38,10 +39,17 @@ class CellWriter {
   std::vector<KeptFile> files_;
 };
 
-/// The record of a finished cell. Throws Error(io) where it cannot be read; Error(port_files) where it is damaged.
-nlohmann::ordered_json read_record(const std::filesystem::path& cell);
-std::vector<KeptFile> files_of(const nlohmann::ordered_json& record);
-/// Why a cell is not what its record says, or "": reads all its files.
+/// What a finished cell's record says.
+struct CellRecord {
+  std::string verdict;                                          ///< of a judged cell
+  std::vector<std::pair<std::string, std::string>> last_frame;  ///< "pass.buffer", and its hash
+  std::vector<KeptFile> files;
+};
+/// The record of a finished cell. Throws Error(io) where it cannot be read; Error(port_files) where it is damaged: its hash is not its own,
+/// a value is not of its kind, it is of another cell, a file lies elsewhere, or its last frame is not the one before its end.
+CellRecord read_record(const std::filesystem::path& cell);
+/// Why a cell is not what its record says, or "": reads all its files. `record` is what it says.
+std::string damage_of(const std::filesystem::path& cell, CellRecord& record);
 std::string damage_of(const std::filesystem::path& cell);
 
 }  // namespace rainref::sweep

@@ -1,6 +1,7 @@
 #include "sweep/cells.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,6 +16,7 @@
 #include "simulation/opened.h"
 #include "simulation/picture_notes.h"
 #include "sweep/axes.h"
+#include "sweep/command_files.h"
 
 namespace rainref::sweep {
 namespace {
@@ -69,11 +71,13 @@ std::string kept_text(const Plan& plan, const Cell& cell) {
 
 }  // namespace
 
-Cells::Cells(const Plan& plan) : plan_(plan) {
+Cells::Cells(const Plan& plan, const Planned& planned) : plan_(plan) {
   const bool is_judging = plan.verb == Verb::validate || plan.verb == Verb::mutate;
   for (const Placed& file : plan.scenes) {
     try {
-      scenes_.push_back(scene::read_toml(simulation::scene_text(file.text), file.text));
+      const std::string text = simulation::scene_text(file.text);
+      scenes_.push_back(scene::read_toml(text, file.text));
+      scene_ids_.push_back(id_of(text));
     } catch (const Error& e) {
       if (e.code() != ExitCode::io) throw;
       throw Error(e.code(), file.at, fmt::format("scene: {}", e.what()));
@@ -89,12 +93,31 @@ Cells::Cells(const Plan& plan) : plan_(plan) {
   if (cells > static_cast<double>(most_cells))
     throw Error(ExitCode::usage, SourceLocation{plan.file.string()},
                 fmt::format("axes: expected at most {} cells, found {:.0f}", most_cells, cells));
+  const auto points = static_cast<std::int64_t>(cells);
+  std::int64_t done = 0;
+  std::optional<scene::Config> config;  // of the point before
+  Cell before;
+  const bool has_keys_anew = std::any_of(plan.axes.begin(), plan.axes.end(), [](const Axis& axis) {
+    return std::any_of(axis.keys.begin(), axis.keys.end(), [](const std::string& key) { return key == "effect" || key == "variant"; });
+  });
   Cell point;
   for (const std::uint32_t scenes = static_cast<std::uint32_t>(is_judging ? plan.judging.packs.size() : plan.scenes.size());
        point.scene < scenes; ++point.scene) {
     point.rows.assign(counts.size(), 0);
     for (bool has_more = true; has_more;) {
-      is_judging ? add_judged(point) : add_simulated(point);
+      if (is_judging) {
+        add_judged(point);
+      } else {
+        if (config && !has_keys_anew && before.scene == point.scene) {
+          change(*config, before, point);
+        } else {
+          config = this->config(point);
+          check_keep(plan_, *config);
+        }
+        add_simulated(point, *config);
+        before = point;
+      }
+      if (planned) planned(++done, points);
       has_more = false;
       for (std::size_t i = counts.size(); i-- > 0 && !has_more;) {  // the last axis is the fastest
         has_more = ++point.rows[i] < counts[i];
@@ -116,6 +139,17 @@ std::vector<scene::Override> Cells::said(const Cell& cell) const {
 
 scene::Config Cells::config(const Cell& cell) const {
   return scene::parse(scenes_[cell.scene], plan_.scenes[cell.scene].text, said(cell), simulation::effect_table());
+}
+
+void Cells::change(scene::Config& config, const Cell& from, const Cell& to) const {
+  for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
+    if (from.rows[i] == to.rows[i]) continue;
+    for (scene::Override o : plan_.axes[i].rows[to.rows[i]]) {
+      if (o.key == label) continue;
+      place(o, plan_.file.parent_path());
+      scene::give(config, o);
+    }
+  }
 }
 
 std::vector<std::string> Cells::overrides(const Cell& cell) const {
@@ -152,10 +186,8 @@ std::string Cells::words(const Cell& cell) const {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void Cells::add_simulated(Cell point) {
-  const scene::Config config = this->config(point);
+void Cells::add_simulated(Cell point, const scene::Config& config) {
   simulation::memory_of(config);  // which reads the settings, and so refuses what keys say together
-  check_keep(plan_, config);
   point.frames = config.integer("run.frames");
   if (plan_.first >= point.frames)
     throw Error(ExitCode::usage, SourceLocation{plan_.file.string()},
@@ -164,8 +196,7 @@ void Cells::add_simulated(Cell point) {
   if (plan_.verb == Verb::pack) {
     text +=
         fmt::format("scene {} {}\nframes {}\nat {}\npasses {}\n", std::filesystem::path(plan_.scenes[point.scene].text).filename().string(),
-                    id_of(simulation::scene_text(plan_.scenes[point.scene].text)), point.frames, fmt::join(plan_.pack.at, " "),
-                    fmt::join(plan_.pack.passes, " "));
+                    scene_ids_[point.scene], point.frames, fmt::join(plan_.pack.at, " "), fmt::join(plan_.pack.passes, " "));
     point.end = point.frames;
     point.id = id_of("pack\n" + text);
     return add(point);
@@ -188,9 +219,11 @@ void Cells::add_judged(Cell point) {
   std::string text =
       fmt::format("rainref cell 1\nbits {}\nverb {}\npack {}\nprofile {}\nonly {}\nlabel {}\n", golden_hash(), name(plan_.verb),
                   inputs_.folder_hash(pack.text), j.profiles[point.rows[0]].text, fmt::join(j.only, " "), j.label);
-  if (plan_.verb == Verb::validate)
+  if (plan_.verb == Verb::validate) {
     text += fmt::format("exec {}\nrepeat {}\nport {}\n", j.exec, j.repeat,
                         j.port.empty() || !j.exec.empty() ? j.port : inputs_.folder_hash(j.port));
+    for (const std::filesystem::path& file : files_named_by(j.exec)) text += fmt::format("exec holds {}\n", inputs_.bytes_hash(file));
+  }
   point.id = id_of(text);
   add(point);
 }

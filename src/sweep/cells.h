@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,11 +23,14 @@ struct Cell {
   std::int64_t frames = 0;          ///< of the whole run
 };
 
+/// Hears of each point of a plan's axes that was checked, and of how many.
+using Planned = std::function<void(std::int64_t done, std::int64_t all)>;
+
 class Cells {
  public:
   /// Parses the configuration of every cell. Throws Error(usage) for the first one that a scene refuses, for two that are the same, and for
   /// more than most_cells; Error(io) where a file cannot be read. The plan must outlive it.
-  explicit Cells(const Plan& plan);
+  explicit Cells(const Plan& plan, const Planned& planned = {});
 
   const Plan& plan() const { return plan_; }
   const std::vector<Cell>& all() const { return cells_; }
@@ -39,13 +44,16 @@ class Cells {
   std::string words(const Cell& cell) const;
 
  private:
-  void add_simulated(Cell point);
+  /// The configuration of one point into that of the next, of the same scene.
+  void change(scene::Config& config, const Cell& from, const Cell& to) const;
+  void add_simulated(Cell point, const scene::Config& config);
   void add_judged(Cell point);
   void add(Cell cell);
   std::vector<scene::Override> said(const Cell& cell) const;
 
   const Plan& plan_;
   std::vector<std::vector<scene::RawEntry>> scenes_;  ///< each read once
+  std::vector<std::string> scene_ids_;                ///< of their texts
   std::vector<Cell> cells_;
   std::map<std::string, std::size_t> by_id_;
   Inputs inputs_;

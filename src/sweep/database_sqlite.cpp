@@ -1,8 +1,8 @@
 #include "sweep/database.h"
 
-#include <charconv>
 #include <memory>
 #include <optional>
+#include <set>
 #include <variant>
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 #include "base/number_text.h"
 #include "base/read_file.h"
 #include "rainref/error.h"
+#include "simulation/opened.h"
 
 namespace rainref::sweep {
 namespace {
@@ -28,11 +29,17 @@ BEGIN)";
 
 using Value = std::variant<std::int64_t, double, std::string>;
 
+/// Keys whose values are numbers. What is a label, a name of a file or a word stays text, whatever it looks like.
+std::set<std::string> numeric_keys() {
+  std::set<std::string> keys;
+  for (const scene::Effect& effect : simulation::effect_table().effects)
+    for (const scene::Parameter& p : scene::scene_parameters(effect, simulation::effect_table()))
+      if (p.type == scene::Type::integer || p.type == scene::Type::real) keys.insert(p.key);
+  return keys;
+}
 /// A number where the text is one.
 Value typed(const std::string& text) {
-  const char* const end = text.data() + text.size();
-  std::int64_t whole = 0;
-  if (!text.empty() && std::from_chars(text.data(), end, whole).ptr == end) return whole;
+  if (const std::optional<std::int64_t> whole = whole_from<std::int64_t>(text)) return *whole;
   if (const std::optional<double> real = number_from<double>(text)) return *real;
   return text;
 }
@@ -89,6 +96,7 @@ class Database {
 
 void fill(Database& to, const Cells& cells, const Table& table) {
   const auto number = [](std::size_t i) { return static_cast<std::int64_t>(i); };
+  const std::set<std::string> numeric = numeric_keys();
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Cell& cell = cells.all()[i];
     const Row& row = table.rows[i];
@@ -96,7 +104,7 @@ void fill(Database& to, const Cells& cells, const Table& table) {
   }
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     for (const auto& [key, value] : table.rows[i].values)
-      to.insert("INSERT INTO parameters VALUES (?, ?, ?)", {number(i), key, typed(value)});
+      to.insert("INSERT INTO parameters VALUES (?, ?, ?)", {number(i), key, numeric.contains(key) ? typed(value) : Value(value)});
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     for (const auto& [key, hash] : table.rows[i].hashes)
       to.insert("INSERT INTO hashes VALUES (?, ?, ?, ?)", {number(i), key.substr(0, key.find('.')), key.substr(key.find('.') + 1), hash});

@@ -1,6 +1,6 @@
 #include "sweep/frames.h"
 
-#include <optional>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -46,24 +46,34 @@ void require_memory_here(const scene::Config& config) {
   }
 }
 
+struct Begun {
+  std::int64_t frame = 0;
+  std::set<std::int64_t> wrong;  ///< frames whose states are damaged, or of another scene or frame than their names say
+};
 /// The newest state before the cell, where one fits. What does not fit is passed over: the run then begins earlier.
-std::int64_t begin_from_state(simulation::Opened& opened, const Store& store, const Cell& cell) {
+Begun begin_from_state(simulation::Opened& opened, const Store& store, const Cell& cell) {
+  Begun begun;
   for (std::int64_t frame = store.newest_state(cell.film, cell.first); frame > 0; frame = store.newest_state(cell.film, frame - 1)) {
     try {
       const fs::path path = store.state(cell.film, frame);
       const std::vector<std::byte> bytes = read_file(path);
-      opened.load(state::Saved(bytes, path.string()));
-      return frame;
+      const state::Saved saved(bytes, path.string());
+      if (saved.frame() == frame) {
+        opened.load(saved);
+        begun.frame = frame;
+        return begun;
+      }
     } catch (const Error&) {
-      continue;
     }
+    begun.wrong.insert(frame);
   }
-  return 0;
+  return begun;
 }
-void leave_state(const simulation::Opened& opened, const Store& store, const Cell& cell, std::int64_t frame) {
+/// Unless a good one lies there.
+void leave_state(const simulation::Opened& opened, const Store& store, const Cell& cell, const Begun& begun, std::int64_t frame) {
   const fs::path path = store.state(cell.film, frame);
   std::error_code error;
-  if (fs::exists(path, error)) return;
+  if (fs::exists(path, error) && !begun.wrong.contains(frame)) return;
   fs::create_directories(path.parent_path(), error);
   AtomicFile file(path);
   opened.save("", [&](std::span<const std::byte> bytes) { file.write(bytes); });
@@ -162,8 +172,10 @@ Made make_frames(const Cells& cells, const Cell& cell, const Store& store, const
   require_memory_here(config);
   simulation::Opened opened(std::move(config), executor);
   for (const std::string& warning : opened.inputs().warnings) warn(warning);
+  Begun begun;
+  if (cell.first > 0) begun = begin_from_state(opened, store, cell);
   Made made;
-  if (cell.first > 0) made.begun_at = begin_from_state(opened, store, cell);
+  made.begun_at = begun.frame;
   Keeping keeping(cells, cell, opened, store);
   const std::int64_t every = cells.plan().state_every;
   for (std::int64_t frame = made.begun_at; frame < cell.end; ++frame) {
@@ -176,7 +188,8 @@ Made make_frames(const Cells& cells, const Cell& cell, const Store& store, const
       opened.render(keeping.recorder());
     keeping.after(frame);
     const std::int64_t done = frame + 1;
-    if (done < cell.frames && (done == cell.end || (every > 0 && done % every == 0))) leave_state(opened, store, cell, done);
+    const bool has_state = done == cell.end || (every > 0 && done % every == 0) || begun.wrong.contains(done);
+    if (done < cell.frames && has_state) leave_state(opened, store, cell, begun, done);
   }
   made.bytes = keeping.writer().bytes();
   made.was_first = keeping.finish(names);

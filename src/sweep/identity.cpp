@@ -1,6 +1,9 @@
 #include "sweep/identity.h"
 
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +23,20 @@ namespace fs = std::filesystem;
 bool has(const scene::Config& config, std::string_view key) {
   const auto& all = config.entries();
   return std::any_of(all.begin(), all.end(), [&](const scene::Config::Entry& e) { return e.parameter.key == key; });
+}
+
+/// To the bit: 0 and -0 are other texts.
+bool is_same(const scene::Value& a, const scene::Value& b) {
+  if (a.index() != b.index()) return false;
+  return std::visit(
+      [&]<class T>(const T& x) {
+        const T& y = *std::get_if<T>(&b);
+        if constexpr (std::is_same_v<T, std::string>)
+          return x == y;
+        else
+          return std::memcmp(&x, &y, sizeof(T)) == 0;
+      },
+      a);
 }
 
 }  // namespace
@@ -52,17 +69,37 @@ std::string Inputs::hash_of(const scene::Config& config, const std::string& key)
 }
 
 std::string Inputs::text_of(const scene::Config& config) {
+  const std::vector<scene::Config::Entry>& entries = config.entries();
+  const auto is_line = [](const scene::Config::Entry& e, const Line& line) { return e.parameter.key == line.key; };
+  const bool is_like_before =
+      directory_ == config.directory() && std::equal(entries.begin(), entries.end(), lines_.begin(), lines_.end(), is_line);
+  // What a name leads to hangs on the folder, and of a sequence on further keys.
+  bool is_same_sequence = is_like_before;
+  for (std::size_t i = 0; i < entries.size() && is_same_sequence; ++i)
+    is_same_sequence =
+        is_same(lines_[i].value, entries[i].value) || !(lines_[i].key == "run.frames" || lines_[i].key.starts_with("sequence."));
+  if (!is_like_before) lines_.assign(entries.size(), {});
+  directory_ = config.directory();
   std::string out;
-  for (const scene::Config::Entry& e : config.entries()) {
-    const std::string& key = e.parameter.key;
-    if (key == "run.frames") continue;
-    const auto* text = std::get_if<std::string>(&e.value);
-    if (text && !text->empty() && e.parameter.type == scene::Type::text && effect::names_files(key))
-      out += fmt::format("{} holds {}\n", key, hash_of(config, key));
-    else
-      out += fmt::format("{} = {}\n", key, scene::value_text(e.value));
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const scene::Config::Entry& e = entries[i];
+    Line& line = lines_[i];
+    if (line.text.empty() || !is_same(line.value, e.value) || (line.is_of_file && !is_same_sequence)) {
+      const std::string& key = e.parameter.key;
+      const auto* text = std::get_if<std::string>(&e.value);
+      line = {key, e.value, "", text && !text->empty() && e.parameter.type == scene::Type::text && effect::names_files(key)};
+      line.text = line.is_of_file ? fmt::format("{} holds {}\n", key, hash_of(config, key))
+                                  : fmt::format("{} = {}\n", key, scene::value_text(e.value));
+    }
+    if (line.key != "run.frames") out += line.text;
   }
   return out;
+}
+
+std::string Inputs::bytes_hash(const fs::path& file) {
+  std::string& hash = known_[fs::absolute(file).lexically_normal().string() + "/bytes"];
+  if (hash.empty()) hash = file_hash(read_file(file)).text();
+  return hash;
 }
 
 std::string Inputs::folder_hash(const fs::path& folder) {

@@ -1,11 +1,12 @@
 #include "sweep/keep.h"
 
 #include <array>
-#include <charconv>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "base/number_text.h"
 
 namespace rainref::sweep {
 namespace {
@@ -46,9 +47,8 @@ Keep keep_from(const std::string& text, const SourceLocation& at) {
     keep.every = 1;
   } else {
     const std::string_view number = frames.starts_with("every=") ? std::string_view(frames).substr(6) : std::string_view();
-    const auto end = number.data() + number.size();
-    const auto [stop, error] = std::from_chars(number.data(), end, keep.every);
-    if (number.empty() || error != std::errc() || stop != end || keep.every < 1 || keep.every > 1000000) refuse(text, at);
+    keep.every = whole_from<std::int64_t>(number).value_or(0);
+    if (keep.every < 1 || keep.every > 1000000) refuse(text, at);
   }
   return keep;
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <functional>
 #include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/number_text.h"
 #include "judge/profiles.h"
 #include "sweep/axes.h"
 
@@ -66,14 +66,15 @@ void take_frames(const RawEntry& e, Plan& plan) {
   std::int64_t frames = 0;
   if (const auto* text = std::get_if<std::string>(&e.value.data)) {
     const std::size_t dots = text->find("..");
-    const char* const begin = text->data();
-    const char* const end = begin + text->size();
-    std::int64_t last = 0;
-    const bool is_range = dots != std::string::npos && std::from_chars(begin, begin + dots, plan.first).ptr == begin + dots &&
-                          std::from_chars(begin + dots + 2, end, last).ptr == end && dots > 0 && text->size() > dots + 2;
-    if (!is_range || plan.first < 0 || last < plan.first || last >= most_frames)
+    const auto number = [&](std::size_t from, std::size_t count) {
+      return whole_from<std::int64_t>(std::string_view(*text).substr(from, count));
+    };
+    const auto first = dots == std::string::npos ? std::nullopt : number(0, dots),
+               last = first ? number(dots + 2, text->npos) : std::nullopt;
+    if (!last || *first < 0 || *last < *first || *last >= most_frames)
       expected(e, fmt::format("a number of frames from 1 to {}, or \"FIRST..LAST\"", most_frames));
-    frames = last + 1;
+    plan.first = *first;
+    frames = *last + 1;
   } else {
     frames = whole_of(e.value, e, 1, most_frames);
   }
@@ -89,9 +90,8 @@ void take_size(const RawEntry& e, Plan& plan) {
   std::array<std::int64_t, 2> size{};
   const std::size_t x = text ? text->find('x') : std::string::npos;
   const auto number = [&](std::size_t from, std::size_t to, std::int64_t& n) {
-    const char* const begin = text->data() + from;
-    const char* const end = text->data() + to;
-    return begin != end && std::from_chars(begin, end, n).ptr == end && n >= 1 && n <= 65536;
+    n = whole_from<std::int64_t>(std::string_view(*text).substr(from, to - from)).value_or(0);
+    return n >= 1 && n <= 65536;
   };
   if (x == std::string::npos || !number(0, x, size[0]) || !number(x + 1, text->size(), size[1])) expected(e, "WxH such as \"640x360\"");
   RawValue value;
@@ -215,6 +215,9 @@ Plan read_plan(const std::filesystem::path& file) {
   const std::vector<RawEntry> entries = scene::read_toml(scene::read_scene(file), file.string());
   Plan plan;
   plan.file = file;
+  if (const std::string name = plan.name(); name == "." || name == "..")
+    throw Error(ExitCode::usage, SourceLocation{file.string()},
+                fmt::format("expected a file whose name without .toml is that of a folder, found '{}'", name));
   plan.verb = verb_of(entries, file);
   std::vector<RawEntry> axes;
   for (const RawEntry& e : entries) {

@@ -4,7 +4,10 @@
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "base/hidden.h"
+#include "rainref/error.h"
 #include "sweep/cell_record.h"
 
 namespace rainref::sweep {
@@ -20,19 +23,30 @@ std::uintmax_t bytes_below(const fs::path& path) {
     if (i->is_regular_file(error)) all += i->file_size(error);
   return all;
 }
-/// What a folder holds, sorted; hidden names are results in the making.
-std::vector<fs::path> entries(const fs::path& folder) {
+/// Names of this type in a folder, sorted. Neither the folder nor they may be links; hidden names are results in the making.
+std::vector<fs::path> entries(const fs::path& folder, fs::file_type type) {
   std::vector<fs::path> found;
   std::error_code error;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error))
-    if (!i->path().filename().string().starts_with(".")) found.push_back(i->path());
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return found;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+    std::error_code gone;
+    if (i->symlink_status(gone).type() == type && !i->path().filename().string().starts_with(".")) found.push_back(i->path());
+  }
   std::sort(found.begin(), found.end());
   return found;
 }
+std::vector<fs::path> folders(const fs::path& folder) { return entries(folder, fs::file_type::directory); }
+std::vector<fs::path> files(const fs::path& folder) { return entries(folder, fs::file_type::regular); }
 
 }  // namespace
 
 std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& plans, bool damaged) {
+  std::error_code error;
+  if (fs::exists(store.root(), error) && !store.is_marked())
+    throw Error(ExitCode::usage,
+                fmt::format("{}: expected a folder that `rainref sweep run` marked by its file rainref-store, found none; the "
+                            "next `sweep run` into a folder of an older version marks it",
+                            store.root().string()));
   std::set<std::string> ids, unfinished;
   for (const Cells& cells : plans) {
     for (const Cell& cell : cells.all()) {
@@ -42,22 +56,34 @@ std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& pl
   }
   std::vector<Rubbish> found;
   const auto add = [&](const fs::path& path, const char* why) { found.push_back({path, why, bytes_below(path)}); };
-  for (const fs::path& folder : entries(store.root() / "cells")) {
-    remove_leftovers(folder);
-    for (const fs::path& cell : entries(folder)) {
-      if (!ids.contains(cell.filename().string()))
+  for (const fs::path& folder : folders(store.root() / "cells")) {
+    const std::string begin = folder.filename().string();
+    if (begin.size() == 2) remove_leftovers(folder);
+    for (const fs::path& cell : folders(folder)) {
+      const std::string id = cell.filename().string();
+      if (!is_id(id) || id.substr(0, 2) != begin) continue;
+      if (!ids.contains(id))
         add(cell, "a cell of no plan");
       else if (damaged && !damage_of(cell).empty())
         add(cell, "a damaged cell");
     }
   }
-  for (const fs::path& failure : entries(store.root() / "failed"))
-    if (!ids.contains(failure.stem().string())) add(failure, "a failure of no plan");
-  for (const fs::path& film : entries(store.root() / "states"))
-    if (!unfinished.contains(film.filename().string())) add(film, "states that no cell waits for");
-  for (const fs::path& left : entries(store.root() / "tries"))
-    if (const std::string id = left.filename().string().substr(0, 32); !ids.contains(id) && store.tries(id).dead > 0)
+  remove_leftovers(store.root() / "failed");
+  for (const fs::path& tables : folders(store.root() / "plans")) remove_leftovers(tables);
+  for (const fs::path& failure : files(store.root() / "failed"))
+    if (is_id(failure.stem().string()) && failure.extension() == ".json" && !ids.contains(failure.stem().string()))
+      add(failure, "a failure of no plan");
+  for (const fs::path& film : folders(store.root() / "states")) {
+    const std::string id = film.filename().string();
+    if (!is_id(id)) continue;
+    remove_leftovers(film);
+    if (!unfinished.contains(id)) add(film, "states that no cell waits for");
+  }
+  for (const fs::path& left : files(store.root() / "tries")) {
+    const std::string name = left.filename().string(), id = name.substr(0, 32);
+    if (is_id(id) && is_hidden_name(name.substr(32)) && !ids.contains(id) && store.tries(id).dead > 0)
       add(left, "left by a killed process");
+  }
   return found;
 }
 

@@ -16,8 +16,9 @@ struct Rubbish {
   std::uintmax_t bytes = 0;
 };
 
-/// Cells and failures of no plan, states of films that no plan has or whose cells are all there, leftovers of killed processes; with
-/// `damaged` also cells whose files are not what their records say. Cells that are being made are none of it.
+/// By the names that rainref gives alone, and no link: cells and failures of no plan, states of films that no plan has or whose cells are
+/// all there, leftovers of killed processes; with `damaged` also cells whose files are not what their records say. Cells that are being
+/// made are none of it. Throws Error(usage) for a folder that is there and is no store.
 std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& plans, bool damaged);
 
 }  // namespace rainref::sweep

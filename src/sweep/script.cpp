@@ -1,10 +1,14 @@
 #include "sweep/script.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "rainref/error.h"
 
 namespace rainref::sweep {
@@ -17,6 +21,27 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+/// As one value of YAML, which takes the texts of JSON.
+std::string yaml(const std::string& text) { return nlohmann::json(text).dump(-1, ' ', true); }
+
+/// A script is lines, and what engines put in for braces they put into paths too.
+void require_plain(const ScriptAsked& asked) {
+  const std::pair<const char*, std::string> texts[] = {
+      {"program", asked.program.string()}, {"PLAN", asked.plan.string()}, {"--output", asked.out.string()}, {"--image", asked.image}};
+  for (const auto& [name, text] : texts) {
+    const auto refuse = [&](const char* expected) {
+      throw Error(ExitCode::usage, fmt::format("{}: expected {}, found '{}'", name, expected, printable(text)));
+    };
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (std::any_of(text.begin(), text.end(), is_control)) refuse("a text without line ends and other control characters");
+    if (asked.engine == "parallel" && text.find_first_of("{}") != std::string::npos)
+      refuse("a text without braces, for which GNU parallel puts in its arguments");
+    std::string_view rest = text;
+    while (!rest.empty() && utf8_length(rest) > 0) rest.remove_prefix(utf8_length(rest));
+    if (asked.engine == "kubernetes" && !rest.empty()) refuse("a text in UTF-8, as YAML wants it");
+  }
+}
+
 std::string sweep(const ScriptAsked& a, const char* action, const std::string& more) {
   return fmt::format("{} sweep {} {} -o {}{}", quoted(a.program.string()), action, quoted(a.plan.string()), quoted(a.out.string()), more);
 }
@@ -24,24 +49,23 @@ std::string run(const ScriptAsked& a, const std::string& shard) {
   return sweep(a, "run", fmt::format(" --shard {} --threads {}", shard, a.threads));
 }
 
+/// The line of a job's script, as one word of the script that submits it.
+std::string job(const std::string& command) { return quoted("exec " + command); }
+
 // A dead node's task starts anew by --requeue; which cells are there already it sees itself.
 std::string slurm(const ScriptAsked& a) {
   return fmt::format(R"(#!/bin/sh
 # sh THIS [sbatch options, such as --partition=X --constraint=Y]: an array of {0} shards, and collect when the last one has ended.
 set -eu
 mkdir -p {1}
-id=$(sbatch --parsable --job-name=rainref-sweep --requeue --open-mode=append --array=0-{2} --cpus-per-task={3} --output={1}/%A_%a.txt "$@" <<'JOB'
-#!/bin/sh
-exec {4}
-JOB
-)
+id=$(printf '#!/bin/sh\n%s\n' {4} |
+  sbatch --parsable --job-name=rainref-sweep --requeue --open-mode=append --array=0-{2} --cpus-per-task={3} --output={1}/%A_%a.txt "$@")
 id=${{id%%;*}}
-sbatch --parsable --job-name=rainref-collect --dependency=afterany:"$id" --open-mode=append --output={1}/collect_%j.txt "$@" <<'JOB'
-#!/bin/sh
-exec {5}
-JOB
+printf '#!/bin/sh\n%s\n' {5} |
+  sbatch --parsable --job-name=rainref-collect --dependency=afterany:"$id" --open-mode=append --output={1}/collect_%j.txt "$@"
 )",
-                     a.shards, quoted((a.out / "slurm").string()), a.shards - 1, a.threads, run(a, "auto"), sweep(a, "collect", ""));
+                     a.shards, quoted((a.out / "slurm").string()), a.shards - 1, a.threads, job(run(a, "auto")),
+                     job(sweep(a, "collect", "")));
 }
 
 std::string parallel(const ScriptAsked& a) {
@@ -62,17 +86,10 @@ std::string sge(const ScriptAsked& a) {
 # sh THIS [qsub options]: an array of {0} shards, and collect when the last one has ended.
 set -eu
 mkdir -p {1}
-id=$(qsub -terse -N rainref-sweep -r y -t 1-{0} -j y -o {1} "$@" <<'JOB'
-#!/bin/sh
-exec {2}
-JOB
-)
-qsub -N rainref-collect -hold_jid "${{id%%.*}}" -j y -o {1} "$@" <<'JOB'
-#!/bin/sh
-exec {3}
-JOB
+id=$(printf '#!/bin/sh\n%s\n' {2} | qsub -terse -N rainref-sweep -r y -t 1-{0} -j y -o {1} "$@")
+printf '#!/bin/sh\n%s\n' {3} | qsub -N rainref-collect -hold_jid "${{id%%.*}}" -j y -o {1} "$@"
 )",
-                     a.shards, quoted((a.out / "sge").string()), run(a, "auto"), sweep(a, "collect", ""));
+                     a.shards, quoted((a.out / "sge").string()), job(run(a, "auto")), job(sweep(a, "collect", "")));
 }
 
 std::string kubernetes(const ScriptAsked& a) {
@@ -99,14 +116,15 @@ spec:
         - |
           exec {3}
         volumeMounts:
-        - {{name: results, mountPath: "{5}"}}
+        - {{name: results, mountPath: {5}}}
         resources:
           requests: {{cpu: "{6}"}}
       volumes:
       - name: results
         persistentVolumeClaim: {{claimName: rainref-sweep}}
 )",
-                     a.shards, 3 * a.shards, a.image, run(a, "auto/" + shards), sweep(a, "collect", ""), a.out.string(), a.threads);
+                     a.shards, 3 * a.shards, yaml(a.image), run(a, "auto/" + shards), sweep(a, "collect", ""), yaml(a.out.string()),
+                     a.threads);
 }
 
 }  // namespace
@@ -114,6 +132,7 @@ spec:
 std::vector<std::string> engines() { return {"slurm", "parallel", "sge", "kubernetes"}; }
 
 std::string script(const ScriptAsked& asked) {
+  require_plain(asked);
   if (asked.engine == "slurm") return slurm(asked);
   if (asked.engine == "parallel") return parallel(asked);
   if (asked.engine == "sge") return sge(asked);

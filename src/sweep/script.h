@@ -17,7 +17,9 @@ struct ScriptAsked {
 };
 std::vector<std::string> engines();
 
-/// A shell script, or the manifest of an indexed job; with collect after the last shard. Throws Error(usage) for another engine.
+/// A shell script, or the manifest of an indexed job; with collect after the last shard. Throws Error(usage) for another engine, and for
+/// paths that its script could not hold as they are: with line ends or other control characters, with braces for GNU parallel, not UTF-8
+/// for kubernetes.
 std::string script(const ScriptAsked& asked);
 
 }  // namespace rainref::sweep

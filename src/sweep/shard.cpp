@@ -1,10 +1,10 @@
 #include "sweep/shard.h"
 
-#include <charconv>
 #include <cstdlib>
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "rainref/error.h"
 
 namespace rainref::sweep {
@@ -15,11 +15,8 @@ constexpr std::int64_t most = 10'000'000;
 [[noreturn]] void refuse(const std::string& message) { throw Error(ExitCode::usage, "--shard: " + message); }
 
 std::optional<std::int64_t> number(const std::string& text) {
-  std::int64_t n = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, n);
-  if (error != std::errc() || stop != end || text.empty() || n < 0 || n > most) return {};
-  return n;
+  const std::optional<std::int64_t> n = whole_from<std::int64_t>(text);
+  return n && *n >= 0 && *n <= most ? n : std::nullopt;
 }
 
 /// An engine's names for an index, for the first index, for the step, and for the count or else the last index. A null pointer: it has

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,13 +10,16 @@
 
 #include "base/atomic_file.h"
 #include "base/file_lock.h"
-#include "base/read_file.h"
+#include "base/number_text.h"
+#include "capture/json_field.h"
+#include "capture/json_read.h"
 #include "rainref/error.h"
 
 namespace rainref::sweep {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr const char* marker = "rainref-store";
 
 /// Names in a folder that begin with this; none where there is no folder.
 std::vector<fs::path> beginning_with(const fs::path& folder, const std::string& begin) {
@@ -42,6 +44,13 @@ Maker maker_of(const fs::path& path) {
 
 }  // namespace
 
+bool is_id(std::string_view name) { return name.size() == 32 && name.find_first_not_of("0123456789abcdef") == name.npos; }
+
+bool Store::is_marked() const {
+  std::error_code error;
+  return fs::is_regular_file(fs::symlink_status(root_ / marker, error));
+}
+
 bool Store::has(const std::string& id) const {
   std::error_code error;
   return fs::exists(cell(id) / "cell.json", error);
@@ -52,11 +61,11 @@ std::optional<Failure> Store::failure(const std::string& id) const {
   std::error_code error;
   if (!fs::exists(path, error)) return {};
   try {
-    const std::vector<std::byte> bytes = read_file(path);
-    const auto json =
-        nlohmann::json::parse(reinterpret_cast<const char*>(bytes.data()), reinterpret_cast<const char*>(bytes.data()) + bytes.size());
-    return Failure{json.at("code").get<int>(), json.at("sentence").get<std::string>()};
-  } catch (const nlohmann::json::exception&) {
+    const nlohmann::ordered_json json = capture::read_json(path, path.string(), capture::small_json);
+    const capture::JsonField from(json, path.string());
+    return Failure{static_cast<int>(from["code"].whole(0, 5)), from["sentence"].text()};
+  } catch (const Error& e) {
+    if (e.code() != ExitCode::port_files) throw;
     return {};  // not ours: the cell is tried
   }
 }
@@ -71,6 +80,13 @@ void Store::forget(const std::string& id) const {
   fs::remove(root_ / "failed" / (id + ".json"), ignored);
   for (const fs::path& path : beginning_with(root_ / "tries", id))
     if (maker_of(path) == Maker::dead) fs::remove(path, ignored);
+}
+
+void Store::remove_cell(const std::string& id) const {
+  std::error_code error;
+  fs::remove(cell(id) / "cell.json", error);  // first: from here on it is no finished cell
+  if (!error) fs::remove_all(cell(id), error);
+  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", cell(id).string(), error.message()));
 }
 
 Store::Tries Store::tries(const std::string& id) const {
@@ -96,10 +112,8 @@ fs::path Store::state(const std::string& film, std::int64_t frame) const { retur
 std::int64_t Store::newest_state(const std::string& film, std::int64_t frame) const {
   std::int64_t newest = 0;
   for (const fs::path& path : beginning_with(states(film), "")) {
-    const std::string stem = path.stem().string();
-    std::int64_t of = 0;
-    const bool is_number = std::from_chars(stem.data(), stem.data() + stem.size(), of).ptr == stem.data() + stem.size();
-    if (path.extension() == ".state" && is_number && of <= frame && of > newest) newest = of;
+    const std::int64_t of = path.extension() == ".state" ? whole_from<std::int64_t>(path.stem().string()).value_or(0) : 0;
+    if (of <= frame) newest = std::max(newest, of);
   }
   return newest;
 }
@@ -110,6 +124,8 @@ void Store::make() const {
     fs::create_directories(root_ / folder, error);
     if (error) throw Error(ExitCode::io, fmt::format("{}: cannot make this folder: {}", (root_ / folder).string(), error.message()));
   }
+  if (!is_marked())
+    write_file(root_ / marker, "Results of `rainref sweep`. `rainref sweep gc` removes files in folders that hold this one.\n");
 }
 
 }  // namespace rainref::sweep

@@ -1,5 +1,6 @@
 // Where the results of sweeps lie: a folder that any number of plans and machines share.
 //
+//   rainref-store         that this folder is one: written by every run, asked for before anything is removed
 //   cells/ab/ab12...      a cell's files, and cell.json, which says what they are; whole or not there
 //   failed/ab12....json   why a cell has none
 //   states/<film>/N.state what a run holds before frame N, so that a chunk may begin there
@@ -11,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/hidden.h"
@@ -24,10 +26,15 @@ struct Failure {
   bool is_final() const { return code == 0 || code == 2; }
 };
 
+/// Whether a name is that of a cell or of a film: 32 hexadecimal digits.
+bool is_id(std::string_view name);
+
 class Store {
  public:
   explicit Store(std::filesystem::path root) : root_(std::move(root)) {}
   const std::filesystem::path& root() const { return root_; }
+  /// Whether a run has marked the folder.
+  bool is_marked() const;
 
   std::filesystem::path cell(const std::string& id) const { return root_ / "cells" / id.substr(0, 2) / id; }
   bool has(const std::string& id) const;
@@ -37,6 +44,8 @@ class Store {
   void record(const std::string& id, const std::string& words, const Failure& failure) const;
   /// Failure and deaths.
   void forget(const std::string& id) const;
+  /// The finished cell, so that it is made again. Throws Error(io).
+  void remove_cell(const std::string& id) const;
 
   /// The processes that died while they made the cell, and those that are making it now.
   struct Tries {
@@ -51,7 +60,7 @@ class Store {
   /// The last frame at or before this one that has a state; none: 0.
   std::int64_t newest_state(const std::string& film, std::int64_t frame) const;
 
-  /// Makes the folders. Throws Error(io).
+  /// Makes the folders, and marks the store. Throws Error(io).
   void make() const;
 
  private:

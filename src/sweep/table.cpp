@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,18 +47,15 @@ std::string value_of(const std::vector<std::pair<std::string, std::string>>& pai
 void read_row(const Cell& cell, const Store& store, Row& row) {
   row.state = state_of(cell, store, row.sentence);
   if (row.state != State::done) return;
-  const std::string damage = damage_of(store.cell(cell.id));
-  if (!damage.empty()) {
+  CellRecord record;
+  row.sentence = damage_of(store.cell(cell.id), record);
+  if (!row.sentence.empty()) {
     row.state = State::damaged;
-    row.sentence = damage;
     return;
   }
-  const nlohmann::ordered_json record = read_record(store.cell(cell.id));
-  row.files = files_of(record);
-  if (record.contains("verdict")) row.sentence = record["verdict"].get<std::string>();
-  if (!record.contains("last_frame")) return;
-  for (const auto& line : record["last_frame"])
-    row.hashes.emplace_back(line["pass"].get<std::string>() + "." + line["buffer"].get<std::string>(), line["xxh3"].get<std::string>());
+  row.files = std::move(record.files);
+  row.hashes = std::move(record.last_frame);
+  row.sentence = std::move(record.verdict);
 }
 
 /// Hash lines of consecutive cells, as long as none is missing.

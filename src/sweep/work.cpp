@@ -48,7 +48,10 @@ class Shift {
   bool is_elsewhere(const Cell& cell) const { return !store_.has(cell.id) && store_.tries(cell.id).alive > 0; }
 
   Outcome take(const Cell& cell, std::string& sentence) {
-    if (store_.has(cell.id)) return Outcome::had;
+    if (store_.has(cell.id)) {
+      if (!options_.again || cells_.plan().judging.exec.empty()) return Outcome::had;
+      store_.remove_cell(cell.id);
+    }
     if (options_.again) store_.forget(cell.id);
     const std::optional<Failure> known = store_.failure(cell.id);
     if (known && known->is_final()) {

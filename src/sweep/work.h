@@ -13,7 +13,7 @@ namespace rainref::sweep {
 
 struct WorkOptions {
   Shard shard;
-  bool again = false;  ///< cells that failed for good, too
+  bool again = false;  ///< cells that failed for good, too; and finished ones of a port's command, which hang on more than their names say
 };
 /// What became of a cell.
 enum class Outcome : std::uint8_t {

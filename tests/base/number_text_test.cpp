@@ -103,5 +103,21 @@ TEST(NumberText, NoLocaleAndNoRoundingOfTheCallerBearOnIt) {
   }
 }
 
+TEST(WholeText, ReadsWhatTheTypeHoldsAndNothingElse) {
+  EXPECT_EQ(whole_from<int>("0"), 0);
+  EXPECT_EQ(whole_from<int>("007"), 7);
+  EXPECT_EQ(whole_from<int>("-12"), -12);
+  EXPECT_EQ(whole_from<std::int64_t>("9223372036854775807"), INT64_MAX);
+  EXPECT_EQ(whole_from<std::uint32_t>("ffffffff", 16), 0xffffffffu);
+  EXPECT_EQ(whole_from<int>(std::string_view("15", 1)), 1) << "not beyond the end";
+  // The library's reader comes to the end of a number that is too large, too.
+  for (const char* text : {"9223372036854775808", "99999999999999999999", "-9223372036854775809"})
+    EXPECT_EQ(whole_from<std::int64_t>(text), std::nullopt) << text;
+  EXPECT_EQ(whole_from<std::uint32_t>("100000000", 16), std::nullopt);
+  for (const char* text : {"", "-", "+1", " 1", "1 ", "1x", "0x10", "1.0", "1e3", "--1"})
+    EXPECT_EQ(whole_from<int>(text), std::nullopt) << text;
+  EXPECT_EQ(whole_from<unsigned>("-1"), std::nullopt);
+}
+
 }  // namespace
 }  // namespace rainref

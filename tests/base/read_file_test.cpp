@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
 #include "rainref/error.h"
 
@@ -50,6 +51,16 @@ TEST(ReadFile, AHoleLargerThanMemory) {
   std::filesystem::resize_file(folder / "a", std::uintmax_t{1} << 43, error);  // 8 TiB
   if (error) GTEST_SKIP() << "this file system has no such large files";
   EXPECT_THAT(refusal(folder / "a"), HasSubstr("are too many; this machine has"));
+}
+
+TEST(ReadFile, ALongerFileThanExpectedIsRefusedBeforeItIsRead) {
+  const TemporaryFolder folder;
+  put(folder / "x", "12345");
+  EXPECT_EQ(read_file(folder / "x", {5, ExitCode::usage}).size(), 5u);
+  EXPECT_EQ(error_of([&] {
+              read_file(folder / "x", {4, ExitCode::usage});
+            }),
+            "2 '" + (folder / "x").string() + "': 5 bytes; expected at most 4");
 }
 
 }  // namespace

@@ -9,15 +9,18 @@
 
 #include <gtest/gtest.h>
 
+#include "base/hash.h"
 #include "base/read_file.h"
 #include "base/temporary_folder.h"
 #include "cache/program.h"
+#include "image/flipped.h"
 
 namespace rainref::cache {
 namespace {
 
 namespace fs = std::filesystem;
 
+const std::vector<Shape> shapes{{Format::rgba32f, 33, 7}, {Format::r16f, 33, 7}, {Format::r8, 33, 0}};
 std::vector<Image> pattern(int shift) {
   std::vector<Image> all;
   for (const Format format : {Format::rgba32f, Format::r16f, Format::r8}) {
@@ -43,7 +46,7 @@ class KeptImages : public testing::Test {
   KeptImages() { keep_in(folder / "kept"); }
   ~KeptImages() override { keep_in({}); }
   std::vector<Image> get(double number) {
-    return images(Recipe("pattern").add({number}), [&] {
+    return images(Recipe("pattern").add({number}), shapes, [&] {
       ++made;
       return pattern(static_cast<int>(number));
     });
@@ -65,7 +68,7 @@ TEST_F(KeptImages, AreReadWhoeverMakesTheirMemoryReady) {
     for (int y = count; y-- > 0;) asked.push_back(y), body(y, y + 1);
   };
   const std::vector<Image> read = images(
-      Recipe("pattern").add({1.0}), [&] { return pattern(++made); }, one_by_one);
+      Recipe("pattern").add({1.0}), shapes, [&] { return pattern(++made); }, one_by_one);
   EXPECT_TRUE(same(read, pattern(1)));
   EXPECT_EQ(made, 1);
   EXPECT_EQ(asked.size(), 3u * 7u);
@@ -86,7 +89,7 @@ TEST_F(KeptImages, AreMadeOnceAndReadAfterwards) {
 TEST_F(KeptImages, AnotherRecipeIsAnotherFile) {
   ASSERT_TRUE(same(get(1), pattern(1)));
   ASSERT_TRUE(same(get(2), pattern(2)));
-  ASSERT_TRUE(same(images(Recipe("other").add({1.0}), [] { return pattern(9); }), pattern(9)));
+  ASSERT_TRUE(same(images(Recipe("other").add({1.0}), shapes, [] { return pattern(9); }), pattern(9)));
   // Numbers do not run into the name or into one another.
   EXPECT_NE(Recipe("a").add({1.0, 2.0}).text(), Recipe("a").add({2.0, 1.0}).text());
   EXPECT_NE(Recipe("ab").text(), Recipe("a").text() + "b");
@@ -120,6 +123,84 @@ TEST_F(KeptImages, ADamagedFileIsMadeAnew) {
   for (const std::size_t bytes : {std::size_t{0}, std::size_t{1}, std::size_t{39}, std::size_t{40}, std::size_t{100}, whole.size() - 1})
     expect_anew(whole.substr(0, bytes), std::to_string(bytes) + " bytes");
   expect_anew(whole + "x", "one byte more");
+}
+// Who may write a file may give it a hash that fits. So only files that this user alone may write count.
+TEST_F(KeptImages, OfOthersAreMadeAnew) {
+  get(1);
+  const fs::path file = files().at(0);
+  const auto mode = [&] { return fs::status(file).permissions(); };
+  EXPECT_EQ(mode(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(fs::status(folder / "kept").permissions(), fs::perms::owner_all);
+  for (const fs::perms others : {fs::perms::group_write, fs::perms::others_write}) {
+    fs::permissions(file, others, fs::perm_options::add);
+    const int before = made;
+    ASSERT_TRUE(same(get(1), pattern(1)));
+    EXPECT_EQ(made, before + 1);
+    EXPECT_EQ(mode(), fs::perms::owner_read | fs::perms::owner_write) << "made anew";
+  }
+  fs::rename(file, folder / "elsewhere");
+  fs::create_symlink(folder / "elsewhere", file);
+  get(1);
+  EXPECT_EQ(made, 4);
+  get(1);
+  EXPECT_EQ(made, 4);
+  if (::geteuid() != 0) return;  // who else may give files away
+  ASSERT_EQ(::chown(file.c_str(), 65534, 65534), 0);
+  ASSERT_TRUE(same(get(1), pattern(1)));
+  EXPECT_EQ(made, 5);
+}
+// A file of this program and recipe whose hash is right, and that holds other images than the caller goes on with.
+TEST_F(KeptImages, OfAnotherCountFormatOrSizeAreMadeAnew) {
+  get(1);
+  const fs::path file = files().at(0);
+  std::string whole(fs::file_size(file), '\0');
+  std::ifstream(file, std::ios::binary).read(whole.data(), static_cast<std::streamsize>(whole.size()));
+  std::uint32_t recipe_bytes = 0;
+  std::memcpy(&recipe_bytes, &whole[32], sizeof recipe_bytes);
+  const std::string recipe = whole.substr(40, recipe_bytes);
+  const auto forge = [&](std::vector<Image> all) {
+    std::string body = recipe;
+    const auto put = [&](const void* from, std::size_t bytes) { body.append(static_cast<const char*>(from), bytes); };
+    for (const Image& i : all) {
+      const std::uint32_t head[3] = {static_cast<std::uint32_t>(i.format()), static_cast<std::uint32_t>(i.width()),
+                                     static_cast<std::uint32_t>(i.height())};
+      put(head, sizeof head);
+    }
+    for (const Image& i : all)
+      for (int y = 0; y < i.height(); ++y) put(i.row_bytes(y), static_cast<std::size_t>(i.width()) * info(i.format()).texel_bytes());
+    const Hash128 hash = file_hash(std::as_bytes(std::span(body)));
+    const auto count = static_cast<std::uint32_t>(all.size());
+    std::string head = whole.substr(0, 40);
+    std::memcpy(&head[16], &hash.high, 8);
+    std::memcpy(&head[24], &hash.low, 8);
+    std::memcpy(&head[36], &count, 4);
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << head << body;
+  };
+  forge(pattern(2));
+  EXPECT_TRUE(same(get(1), pattern(2))) << "forged as they should be they are taken";
+  EXPECT_EQ(made, 1);
+  const auto expect_anew = [&](std::vector<Image> all) {
+    forge(std::move(all));
+    const int before = made;
+    ASSERT_TRUE(same(get(1), pattern(1)));
+    EXPECT_EQ(made, before + 1);
+  };
+  expect_anew({});
+  for (std::size_t count : {1, 2, 4}) {
+    std::vector<Image> all = pattern(1);
+    all.resize(std::min(count, all.size()));
+    if (count == 4) all.push_back(copy_of(all[0]));
+    expect_anew(std::move(all));
+  }
+  const auto with_second = [](Format format, int width, int height) {
+    std::vector<Image> all = pattern(1);
+    all[1] = Image(format, width, height);
+    return all;
+  };
+  expect_anew(with_second(Format::r16f, 1, 1));
+  expect_anew(with_second(Format::r16f, 7, 33));
+  expect_anew(with_second(Format::r16f, 33, 8));
+  expect_anew(with_second(Format::r8, 33, 7));
 }
 TEST_F(KeptImages, ThoseUsedLongestAgoGiveWay) {
   get(1);

@@ -1,6 +1,7 @@
 // `rainref run --film`: what an ffmpeg is given, how it is asked, and what is left where it is missing, fails or is killed.
 #include <set>
 
+#include "base/program_path.h"
 #include "cli/film.h"
 #include "cli/film_command.h"
 #include "cli/running.h"

@@ -1,5 +1,5 @@
 // What pictures say of themselves, and that it is enough to make them again.
-#include "cli/film_command.h"
+#include "base/program_path.h"
 #include "cli/support.h"
 #include "image_io/notes.h"
 #include "rainref/version.h"

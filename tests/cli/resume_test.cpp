@@ -1,9 +1,11 @@
 // `rainref run` that begins in the middle, is killed, and goes on: the pictures are those of one run.
+#include <cstring>
 #include <map>
 #include <random>
 
 #include <nlohmann/json.hpp>
 
+#include "base/hash.h"
 #include "cli/picture_files.h"
 #include "cli/running.h"
 
@@ -163,10 +165,19 @@ TEST_F(Resumed, AWholeRunLeavesNoCheckpoint) {
   EXPECT_THAT(o.out, Not(HasSubstr("before")));
 }
 
-// Without --resume a run begins anew, and what was left does not stay beside its results.
+// Hours of work hung on one word. A run that begins anew says so, and what was left does not stay beside its results.
 TEST_F(Resumed, ARunThatBeginsAnewForgetsTheCheckpoint) {
-  kill_after_checkpoint({"published.toml", "--checkpoint-every", "3", "--image", "none"}, "o");
-  run({"published.toml", "--frames", "4", "-o", "o", "--image", "none"});
+  kill_after_checkpoint({"published.toml", "--checkpoint-every", "3", "--every", "1"}, "o");
+  const std::string state = contents(folder / "o/checkpoint.state");
+  before = folder.names();
+  expect_refusal(
+      {"run", "published.toml", "--frames", "4", "-o", "o", "--image", "none"}, 2,
+      "o: expected no other run's results, found the checkpoint.state of one that was killed: --resume goes on from it, --overwrite "
+      "removes what that run left, -o names another folder");
+  EXPECT_EQ(contents(folder / "o/checkpoint.state"), state);
+  expect_refusal({"run", "published.toml", "--frames", "4", "-o", "o", "--resume", "--overwrite"}, 2,
+                 "--overwrite: expected no --resume beside it: one begins anew, the other goes on");
+  run({"published.toml", "--frames", "4", "-o", "o", "--image", "none", "--overwrite"});
   EXPECT_THAT(names("o"), testing::ElementsAre("summary.json"));
 }
 
@@ -194,6 +205,43 @@ TEST_F(Resumed, OnlyTheSameRunGoesOn) {
   fs::remove(folder / "o/checkpoint.state");
   fs::create_directory(folder / "o/checkpoint.state");
   expect_refusal({"run", "published.toml", "-o", "o", "--resume", "--image", "none"}, 4, HasSubstr("checkpoint.state"));
+}
+
+// With a right checksum: what anybody could have written. The program's stack ends before the note does.
+TEST_F(Resumed, ANoteOfAnotherShapeIsRefused) {
+  kill_after_checkpoint({"published.toml", "--checkpoint-every", "3", "--image", "none"}, "o");
+  const fs::path file = folder / "o/checkpoint.state";
+  const std::string whole = contents(file);
+  const std::size_t at = whole.find("{\"asked\":");
+  const auto count_at = [&](const std::string& bytes, std::size_t place) {
+    std::uint64_t count = 0;
+    std::memcpy(&count, &bytes[place], sizeof count);
+    return count;
+  };
+  const std::string note = whole.substr(at, count_at(whole, at - 8));
+  const auto refused = [&](const std::string& other, const testing::Matcher<const std::string&>& message) {
+    std::string forged = whole.substr(0, at) + other + whole.substr(at + note.size());
+    const std::uint64_t note_bytes = other.size(), bytes = forged.size();
+    std::memcpy(&forged[at - 8], &note_bytes, 8);
+    std::memcpy(&forged[24], &bytes, 8);
+    Hasher hasher(0);
+    hasher.add(std::string_view(forged).substr(0, forged.size() - 16));
+    const Hash128 hash = hasher.finish();
+    std::memcpy(&forged[forged.size() - 16], &hash.low, 8);
+    std::memcpy(&forged[forged.size() - 8], &hash.high, 8);
+    put(file, forged);
+    const Outcome o = rainref({"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", "1000000"});
+    EXPECT_EQ(o.code, 2) << o.err;
+    EXPECT_THAT(o.err, message);
+  };
+  const auto with_truth = [&](const std::string& truth) {
+    std::string other = note;
+    return other.replace(other.find("\"truth\":[]"), 10, "\"truth\":" + truth);
+  };
+  refused(with_truth(std::string(300000, '[') + std::string(300000, ']')), HasSubstr("checkpoint.state: note: nested deeper than 16"));
+  refused(with_truth("3"), HasSubstr("expected the state of an interrupted run"));
+  refused("[]", HasSubstr("expected the state of an interrupted run"));
+  refused("x", HasSubstr("checkpoint.state: note: not JSON: line 1, column 1"));
 }
 
 TEST_F(Resumed, ACheckpointThatCannotBeWrittenEndsTheRun) {

@@ -135,6 +135,72 @@ TEST_F(RunVerb, AnExistingFolderKeepsWhatElseIsInIt) {
   EXPECT_EQ(image_io::read(folder / "o/puddle.0001.png").image.width(), 24);
 }
 
+// Pictures of two runs under one summary told a film that never was.
+TEST_F(RunVerb, ResultsOfTwoRunsDoNotStandBesideEachOther) {
+  const std::vector<std::string> film{"corrected.toml", "-o", "o", "--frames", "5", "--every", "1"};
+  run(film);
+  const std::string last = contents(folder / "o/puddle.0004.png");
+  put(folder / "o/mine.txt", "mine");
+  put(folder / "o/puddle.0007.png", "mine, whatever it is called");
+  const auto o_holds = names("o");
+  // The same again, as often as one likes, of a scene that was edited meanwhile too.
+  run(film);
+  EXPECT_EQ(names("o"), o_holds);
+  EXPECT_EQ(contents(folder / "o/puddle.0004.png"), last);
+  run({"corrected.toml", "-o", "o", "--frames", "5", "--every", "1", "--set", "rain.rate=40"});
+  EXPECT_EQ(names("o"), o_holds);
+  // Others: nothing is written, and nothing goes.
+  before = folder.names();
+  const std::string kept = contents(folder / "o/summary.json");
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--frames", "3"},
+                                               {"--first", "2", "--every", "1"},
+                                               {"--image", "none"},
+                                               {"--image", "exr", "--every", "1"},
+                                               {"--set", "effect=windshield"}}) {
+    std::vector<std::string> all{"run", "corrected.toml", "-o", "o", "--frames", "5"};
+    if (more[0] == "--set") all[1] = "windshield.toml", put(folder / "windshield.toml", "effect = 'windshield'\nvariant = 'corrected'\n");
+    all.insert(all.end(), more.begin(), more.end());
+    if (more[0] == "--set") all.resize(6);
+    before = folder.names();
+    expect_refusal(all, 2, testing::HasSubstr("that this run does not write, such as puddle.000"));
+    EXPECT_EQ(names("o"), o_holds);
+    EXPECT_EQ(contents(folder / "o/summary.json"), kept);
+  }
+  expect_refusal(
+      {"run", "corrected.toml", "-o", "o", "--frames", "2"}, 2,
+      "o: expected no other run's results, found 4 pictures that this run does not write, such as puddle.0000.png: --overwrite removes "
+      "what that run left, -o names another folder");
+  run({"corrected.toml", "-o", "o", "--frames", "2", "--overwrite"});
+  EXPECT_THAT(names("o"), ElementsAre("mine.txt", "puddle.0001.png", "puddle.0007.png", "summary.json"));
+  EXPECT_EQ(contents(folder / "o/puddle.0007.png"), "mine, whatever it is called");
+  // Captures and comparisons are results too.
+  run({"corrected.toml", "-o", "o", "--frames", "2", "--capture", "passes", "--compare-truth", "--image", "both"});
+  before = folder.names();
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--frames", "2", "--image", "both"}, 2,
+                 testing::HasSubstr("such as puddle.0001.truth."));
+  run({"corrected.toml", "-o", "o", "--frames", "2", "--capture", "passes", "--overwrite"});
+  EXPECT_THAT(names("o"), ElementsAre("capture", "mine.txt", "puddle.0001.png", "puddle.0007.png", "summary.json"));
+  before = folder.names();
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--frames", "2"}, 2, testing::HasSubstr("found capture/: --overwrite"));
+  put(folder / "o/capture/notes.txt", "mine");
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--frames", "2", "--overwrite"}, 2,
+                 testing::HasSubstr("found 'notes.txt' beside it"));
+  std::filesystem::remove(folder / "o/capture/notes.txt");
+  run({"corrected.toml", "-o", "o", "--frames", "2", "--overwrite"});
+  EXPECT_THAT(names("o"), ElementsAre("mine.txt", "puddle.0001.png", "puddle.0007.png", "summary.json"));
+}
+
+// One look at a scene after another, in the folder that rainref chooses; the pictures of a film do not go without a word.
+TEST_F(RunVerb, InTheDefaultFolderOnePictureGivesWayToTheNext) {
+  run({"corrected.toml"});
+  run({"corrected.toml", "--frames", "4"});
+  EXPECT_THAT(names("out/puddle/corrected"), ElementsAre("puddle.0003.png", "summary.json"));
+  run({"corrected.toml", "--frames", "3", "--every", "1"});
+  before = folder.names();
+  expect_refusal({"run", "corrected.toml", "--frames", "4"}, 2, testing::HasSubstr("found 3 pictures that this run does not write"));
+  EXPECT_THAT(names("out/puddle/corrected"), ElementsAre("puddle.0000.png", "puddle.0001.png", "puddle.0002.png", "summary.json"));
+}
+
 TEST_F(RunVerb, TheSummaryIsASceneThatGivesTheSame) {
   run({"corrected.toml", "-o", "o"});
   std::string text;

@@ -119,6 +119,18 @@ TEST_F(Sweep, ADamagedCellIsFoundAndMadeAgain) {
   EXPECT_EQ(results("out"), whole);
 }
 
+// What a killed collect leaves, the next one takes away.
+TEST_F(Sweep, CollectCleansItsOwnLeftovers) {
+  ASSERT_EQ(sweep({"run", "plan.toml"}).code, 0);
+  ASSERT_EQ(sweep({"collect", "plan.toml"}).code, 0);
+  const fs::path left = folder / "out/plans/plan/.rainref-0123456789abcdef.tmp", mine = folder / "out/plans/plan/.rainref-mine.tmp";
+  put(left, "x");
+  put(mine, "x");
+  ASSERT_EQ(sweep({"collect", "plan.toml"}).code, 0);
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(mine));
+}
+
 // Killed at any moment, by whichever signal, in worker and waiting process alike: what goes on comes to the same bytes.
 TEST_F(Sweep, AnyKillLeavesWhatGoesOn) {
   ASSERT_EQ(rainref({"sweep", "run", "plan.toml", "-o", "whole"}).code, 0);
@@ -187,6 +199,27 @@ TEST_F(Sweep, PacksAreMadeAndJudged) {
   EXPECT_EQ(sweep({"collect", "judged.toml"}).code, 0);
   EXPECT_THAT(contents(folder / "out/plans/judged/table.csv"),
               AllOf(HasSubstr(",done,"), HasSubstr("/pack,ieee"), HasSubstr("/pack,vulkan")));
+  // The port breaks: what was judged is another port's.
+  put(folder / "port.sh", "cp -r \"$1\"/. \"$2\"\n");
+  put(folder / "changing.toml",
+      fmt::format("verb='validate'\npack='{}'\nexec='sh {} {{pack}} {{out}}'\n", pack, (folder / "port.sh").string()));
+  EXPECT_THAT(sweep({"plan", "changing.toml"}).out, HasSubstr("exec: the content of " + (folder / "port.sh").string() + " counts; "));
+  EXPECT_EQ(sweep({"run", "changing.toml"}).code, 0);
+  EXPECT_EQ(sweep({"collect", "changing.toml"}).code, 0);
+  put(folder / "port.sh", "exit 3\n");
+  EXPECT_EQ(sweep({"collect", "changing.toml"}).code, 1);
+  EXPECT_THAT(sweep({"run", "changing.toml"}).out, HasSubstr("1 made"));
+  ASSERT_EQ(sweep({"collect", "changing.toml"}).code, 0);
+  EXPECT_THAT(contents(folder / "out/plans/changing/table.csv"), HasSubstr(",done,fail,"));
+  // What it calls itself nobody sees; --again judges anew.
+  put(folder / "inner.sh", "exit 3\n");
+  put(folder / "port.sh", fmt::format("sh \"$(dirname \"$0\")/inner.sh\" \"$@\"\n"));
+  EXPECT_THAT(sweep({"run", "changing.toml"}).out, HasSubstr("1 made"));
+  put(folder / "inner.sh", "cp -r \"$1\"/. \"$2\"\n");
+  EXPECT_THAT(sweep({"run", "changing.toml"}).out, HasSubstr("1 had"));
+  EXPECT_THAT(sweep({"run", "changing.toml", "--again"}).out, HasSubstr("1 made"));
+  ASSERT_EQ(sweep({"collect", "changing.toml"}).code, 0);
+  EXPECT_THAT(contents(folder / "out/plans/changing/table.csv"), HasSubstr(",done,pass,"));
   put(folder / "mutate.toml", fmt::format("verb='mutate'\npack='{}'\n", pack));
   o = sweep({"run", "mutate.toml"});
   EXPECT_EQ(o.code, 0) << o.out << o.err;

@@ -2,6 +2,9 @@
 #include <csignal>
 
 #include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -434,6 +437,63 @@ TEST_F(Validate, ALostDropIsNamed) {
   // A short dispatch, a lost append and a short input give the same list here, so none is called likely.
   EXPECT_THAT(o.out, AllOf(HasSubstr("drops, missing: "), HasSubstr("may be: drops without its last record"),
                            HasSubstr("(gives 1 of 1 failing records bit for bit")));
+}
+
+// A port's file that cannot be used is the port's, whatever it is: docs/reports.md. The rest is judged and reported.
+TEST_F(Validate, AnyKindOfUnusableFileIsThePorts) {
+  namespace fs = std::filesystem;
+  copy_to("pk");
+  copy_to("port");
+  const std::string name = "puddle.display/0011.0/out.picture.npy";
+  const fs::path file = folder / "port" / name, info = folder / "port/port.json";
+  const auto judged = [&](const std::string& what, const std::string& said) {
+    const Outcome o = validate({"pk", "--port", "port", "--only", "display"});
+    EXPECT_EQ(o.code, 3) << what << o.out << o.err;
+    EXPECT_THAT(o.err, HasSubstr(said)) << what;
+    return o.out;
+  };
+  const auto each = [&](const fs::path& at) {
+    std::vector<std::string> reports;
+    fs::remove(at);
+    ASSERT_EQ(::mkfifo(at.c_str(), 0600), 0);
+    reports.push_back(judged("pipe", "expected a file, found a pipe"));
+    fs::remove(at);
+    fs::create_directory(at);
+    reports.push_back(judged("folder", "expected a file, found a folder"));
+    fs::remove(at);
+    fs::create_symlink("/dev/null", at);
+    reports.push_back(judged("device", "expected a file, found a device"));
+    fs::remove(at);
+    const int listening = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const fs::path current = fs::current_path();
+    fs::current_path(at.parent_path());  // a socket's path is short
+    at.filename().string().copy(address.sun_path, sizeof address.sun_path - 1);
+    EXPECT_EQ(::bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    fs::current_path(current);
+    reports.push_back(judged("socket", "expected a file, found a socket"));
+    ::close(listening);
+    fs::remove(at);
+    if (at != file) return;
+    for (const std::string& report : reports) EXPECT_THAT(report, HasSubstr("(1 NOT JUDGED)"));
+  };
+  each(file);
+  for (const bool is_hard : {false, true}) {
+    is_hard ? fs::create_hard_link(folder / "pk" / name, file) : fs::create_symlink(folder / "pk" / name, file);
+    judged(is_hard ? "hard link" : "link", "would be judged by themselves");
+    fs::remove(file);
+  }
+  fs::create_symlink("nowhere", file);
+  judged("a link that leads nowhere", "no 'out.picture' as .npy");
+  fs::remove(file);
+  put(file, contents(folder / "pk" / name));
+  each(info);
+  put(info, "");
+  fs::resize_file(info, std::uintmax_t{1} << 40);  // costs the port nothing
+  judged("a long port.json", "'port/port.json': 1099511627776 bytes; expected at most 1048576");
+  fs::remove(info);
+  EXPECT_EQ(validate({"pk", "--port", "port", "--only", "display"}).code, 0);
 }
 
 // Causes may take minutes.

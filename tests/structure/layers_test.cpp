@@ -225,6 +225,40 @@ TEST(Layers, PassTextsMakeComponentsInOneOrder) {
             0u);
 }
 
+// capture/json_read.h looks at size and depth first.
+TEST(Layers, JsonIsReadInOnePlace) {
+  const std::regex parses("[jJ]son::(parse|accept|sax_parse|from_)");
+  for (const auto& entry : fs::recursive_directory_iterator(root / "src")) {
+    const std::string file = fs::relative(entry.path(), root / "src").string();
+    const std::string ending = entry.path().extension().string();
+    if (!entry.is_regular_file() || (ending != ".h" && ending != ".cpp") || file == "capture/json_read.cpp") continue;
+    std::ifstream in(entry.path());
+    int number = 0;
+    for (std::string line; std::getline(in, line);) {
+      ++number;
+      EXPECT_FALSE(std::regex_search(line, parses)) << "src/" << file << ":" << number << ": " << line;
+    }
+  }
+}
+
+// A library's reader says in one way or another that a number was too large, and is not always asked; base/number_text.h always asks.
+TEST(Layers, TextsBecomeNumbersInOnePlace) {
+  const std::regex reads("\\b(from_chars|sto(i|l|ll|ul|ull|f|d|ld)|strto(l|ll|ul|ull|f|d|ld|imax|umax)|ato(i|l|ll|f)|s?scanf)\\(");
+  for (const char* top : {"src", "include"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      const std::string file = fs::relative(entry.path(), root).string();
+      const std::string ending = entry.path().extension().string();
+      if (!entry.is_regular_file() || (ending != ".h" && ending != ".cpp") || file.starts_with("src/base/number_text.")) continue;
+      std::ifstream in(entry.path());
+      int number = 0;
+      for (std::string line; std::getline(in, line);) {
+        ++number;
+        EXPECT_FALSE(std::regex_search(line.substr(0, line.find("//")), reads)) << file << ":" << number << ": " << line;
+      }
+    }
+  }
+}
+
 TEST(Layers, KernelsHaveNoForbiddenWords) {
   // What would change bits between machines; comments aside.
   const std::regex forbidden(

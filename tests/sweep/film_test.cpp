@@ -117,6 +117,22 @@ TEST_P(FilmOfFiles, PassesOverADamagedState) {
   EXPECT_EQ(results(chunks, damaged), results(whole, one));
 }
 
+// A wrong restore, a script that renumbers: the state says itself which frame it is of.
+TEST_P(FilmOfFiles, PassesOverAStateOfAnotherFrame) {
+  const OpenedPlan whole = plan(""), chunks = plan("chunk=3\n");
+  const Store one(folder / "one"), renamed(folder / "renamed");
+  make(whole, one, whole.cells.all().at(0));
+  const std::vector<Cell>& cells = chunks.cells.all();
+  make(chunks, renamed, cells[0]);
+  make(chunks, renamed, cells[1]);
+  const std::filesystem::path third = renamed.state(cells[0].film, 3), sixth = renamed.state(cells[0].film, 6);
+  const std::string right = contents(sixth);
+  std::filesystem::copy_file(third, sixth, std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(make(chunks, renamed, cells[2]).begun_at, 3);
+  EXPECT_EQ(results(chunks, renamed), results(whole, one));
+  EXPECT_EQ(contents(sixth), right) << "made anew on the way";
+}
+
 std::vector<StateScene> one_of_each_effect() {
   std::vector<StateScene> some;
   for (const StateScene& scene : state_scenes()) {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "simulation/opened.h"
+#include "sweep/command_files.h"
 
 namespace rainref::sweep {
 namespace {
@@ -57,6 +58,36 @@ TEST_F(Identity, OfAFileCountsWhatItHolds) {
   picture.back() ^= 1;
   put(folder / "other.npy", picture);
   EXPECT_NE(ids(named + "other.npy'\n"), one);
+}
+
+// A repaired port's verdict is not that of the broken one.
+TEST_F(Identity, OfAPortsCommandCountsWhatTheFilesThatItNamesHold) {
+  std::filesystem::create_directories(folder / "pack");
+  put(folder / "pack/manifest.json", "{}");
+  const std::string port = (folder / "port.sh").string(), shader = (folder / "a shader.glsl").string();
+  for (const std::string& exec : std::vector<std::string>{port + " {pack} {out}", "cd . && '" + port + "' {pack}",
+                                                          "sh -c \"" + port + " {pack}\"", "env PORT=" + port + " x", "x <" + port}) {
+    const std::string text = "verb='validate'\npack='pack'\nexec='''" + exec + "'''\n";
+    put(port, "one");
+    const auto one = ids(text);
+    EXPECT_EQ(ids(text), one) << exec;
+    put(port, "two");
+    EXPECT_NE(ids(text), one) << exec;
+    put(port, "one");
+    EXPECT_EQ(ids(text), one) << exec;
+  }
+  put(port, "#!/bin/sh\n");
+  put(shader, "a");
+  const std::string both = "cat x | " + port + " --shader='" + shader + "' && " + port;
+  EXPECT_THAT(files_named_by(both), testing::ElementsAre(port, shader));
+  EXPECT_THAT(files_named_by("cp -r {pack}/. {out}"), testing::IsEmpty()) << "a program of the machine";
+  std::filesystem::create_directories(folder / "bin");
+  put(folder / "bin/port_in_path", "x");
+  std::filesystem::permissions(folder / "bin/port_in_path", std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", ((folder / "bin").string() + ":" + path).c_str(), 1);
+  EXPECT_THAT(files_named_by("port_in_path {pack}"), testing::ElementsAre(folder / "bin/port_in_path"));
+  ::setenv("PATH", path.c_str(), 1);
 }
 
 TEST_F(Identity, EveryTextThatNamesAFileIsKnownAsOne) {

@@ -78,6 +78,49 @@ TEST_F(PlanText, IsRefusedInOneSentence) {
             "2 plan.toml: frames: expected a first frame before run.frames 2, found 3");
 }
 
+// Numbers that no integer holds were 0.
+TEST_F(PlanText, NumbersThatAreTooLargeAreRefused) {
+  const std::string head = "verb = 'run'\nscene = 'a.toml'\n";
+  for (const std::string bad : {"0..99999999999999999999", "99999999999999999999..3", "3..", "..3", "0..1000000", "-1..3", "1..2..3"})
+    EXPECT_EQ(refusal(head + "frames = '" + bad + "'\n"),
+              "2 plan.toml:3:10: frames: expected a number of frames from 1 to 1000000, or \"FIRST..LAST\", found \"" + bad + "\"");
+  for (const std::string bad : {"99999999999999999999x3", "3x99999999999999999999", "3x", "x3", "0x3"})
+    EXPECT_THAT(refusal(head + "size = '" + bad + "'\n"), StartsWith("2 plan.toml:3:8: size: expected WxH")) << bad;
+  EXPECT_THAT(refusal(head + "keep = ['exr@every=99999999999999999999']\n"), StartsWith("2 plan.toml:3:9: keep: expected"));
+}
+
+// Its tables would lie in the folder of all tables.
+TEST_F(PlanText, ANameThatIsNoFolderIsRefused) {
+  put(folder / "...toml", "verb = 'run'\nscene = 'a.toml'\n");
+  EXPECT_THAT(error_of([&] { OpenedPlan{folder / "...toml"}; }),
+              HasSubstr("expected a file whose name without .toml is that of a folder, found '..'"));
+}
+
+// A cell that differs from the one before in one key is what it is by itself.
+TEST_F(PlanText, ACellDoesNotHangOnTheOneBefore) {
+  put(folder / "one.npy", contents(tiny_picture()));
+  std::string other = contents(tiny_picture());
+  other.back() ^= 1;
+  put(folder / "two.npy", other);
+  put(folder / "b.toml", scene("windshield", "corrected"));
+  const std::string head = "verb='hash'\nscene='a.toml'\nframes=2\n";
+  const std::vector<std::string> rates{"0.0", "30", "2.5"}, pictures{"one.npy", "two.npy"}, fps{"60", "30"};
+  const auto all = ids(head + "[axes]\n'rain.rate'=[0.0, 30, 2.5]\n'environment.image'=['one.npy','two.npy']\n'run.fps'=[60, 30]\n");
+  std::size_t at = 0;
+  for (const std::string& rate : rates)
+    for (const std::string& picture : pictures)
+      for (const std::string& f : fps)
+        EXPECT_EQ(ids(head + "[set]\n'rain.rate'=" + rate + "\n'environment.image'='" + picture + "'\n'run.fps'=" + f + "\n").at(0),
+                  all.at(at++));
+  EXPECT_EQ(at, all.size());
+  // Effects and variants have keys of their own.
+  const auto variants = ids("verb='hash'\nscene=['b.toml', 'a.toml']\n[set]\nrun.frames=2\n[axes]\nseed=[1, 2]\n");
+  EXPECT_EQ(ids("verb='hash'\nscene='a.toml'\nframes=2\n[set]\nseed=2\n").at(0), variants.at(3));
+  EXPECT_EQ(ids("verb='hash'\nscene='b.toml'\nframes=2\n[set]\nseed=2\n").at(0), variants.at(1));
+  // Zero with a sign is another text, and so another cell.
+  EXPECT_EQ(ids("verb='hash'\nscene='b.toml'\n[axes]\n'world.wind_speed'=[0.0, -0.0]\n").size(), 2u);
+}
+
 // What a scene refuses is said of the plan's line, before anything starts.
 TEST_F(PlanText, EveryCellIsChecked) {
   const std::string head = "verb = 'run'\nscene = 'a.toml'\n";
@@ -99,7 +142,10 @@ TEST_F(PlanText, EveryCellIsChecked) {
   EXPECT_EQ(refusal(head + "[axes]\n'rain.rate' = [1, 1.0]\n"),
             "2 plan.toml: two cells are the same: scene a.toml, rain.rate 1; and scene a.toml, rain.rate 1.0");
   EXPECT_THAT(refusal(head + "[axes]\nseed = {from = 1, count = 1000000}\n'rain.rate' = {from = 1, to = 2, count = 1000000}\n"),
-              HasSubstr("axes: expected at most 1000000 cells, found 1000000000000"));
+              HasSubstr("plan.toml:5:1: axes: expected at most 1000000 cells, found 1000000000000"));
+  put(folder / "cases.csv", "rain.rate\n1\n2\n3\n");
+  EXPECT_THAT(refusal(head + "[axes]\nseed = {from = 1, count = 400000}\ncases = 'cases.csv'\n"),
+              HasSubstr("cases.csv:4: expected at most 2 cases, for a plan has at most 1000000 cells, found more"));
   EXPECT_THAT(refusal(head + "[set]\n'environment.image' = 'none.png'\n"), StartsWith("4 plan.toml:4:1: environment.image: cannot read "));
 }
 

@@ -3,10 +3,15 @@
 
 #include <sqlite3.h>
 
+#include <functional>
+
+#include <nlohmann/json.hpp>
+
 #include "base/hash.h"
 #include "image_io/read.h"
 #include "image_io/write.h"
 #include "sweep/database.h"
+#include "sweep/rubbish.h"
 #include "sweep/sheet.h"
 #include "sweep/table.h"
 
@@ -56,6 +61,56 @@ TEST_F(Tables, AreTheSameWhoeverMadeTheCells) {
   EXPECT_EQ(asked(folder / "a.sqlite", "SELECT state, count(*) FROM cells GROUP BY state"), "done|4;");
   EXPECT_EQ(asked(folder / "a.sqlite", "SELECT count(DISTINCT hash) FROM hashes WHERE pass = 'wave_step' AND buffer = 'wave'"), "4;");
   EXPECT_EQ(asked(folder / "a.sqlite", "SELECT path FROM files WHERE cell = 0"), "hashes.txt;picture.000029.png;");
+}
+
+// Joins by name need the name.
+TEST_F(Tables, LabelsStayText) {
+  put(folder / "cases.csv", "name,seed\n99999999999999999999,1\n007,2\nnan,3\n1e3,4\n");
+  const OpenedPlan labelled(plan("verb='hash'\nscene='a.toml'\nframes=1\n[axes]\ncases='cases.csv'\n"));
+  write_database(folder / "l.sqlite", labelled.cells, read_table(labelled.cells, store));
+  EXPECT_EQ(asked(folder / "l.sqlite", "SELECT typeof(value), value FROM parameters WHERE key = 'name' ORDER BY cell"),
+            "text|99999999999999999999;text|007;text|nan;text|1e3;");
+  EXPECT_EQ(asked(folder / "l.sqlite", "SELECT typeof(value), value FROM parameters WHERE key = 'seed' ORDER BY cell"),
+            "integer|1;integer|2;integer|3;integer|4;");
+}
+
+// Its hash is right, as whoever writes there may have it: it is one damaged cell, and the others have their rows.
+TEST_F(Tables, ARecordOfTheWrongShapeIsADamagedCell) {
+  make(opened, store);
+  const std::filesystem::path cell = store.cell(opened.cells.all()[1].id), record = cell / "cell.json";
+  const std::string whole = contents(record);
+  const auto forged = [&](const std::function<void(nlohmann::ordered_json&)>& change) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(whole);
+    json.erase("xxh3");
+    change(json);
+    const std::string body = json.dump(1).substr(2) + "\n";
+    put(record, "{ \"xxh3\": \"" + file_hash(std::as_bytes(std::span(body))).text() + "\",\n" + body);
+    const Table table = read_table(opened.cells, store);
+    EXPECT_EQ(table.count(State::done), 3);
+    EXPECT_EQ(table.count(State::damaged), 1);
+    write_database(folder / "t.sqlite", opened.cells, table);
+    std::vector<Cells> plans{opened.cells};
+    EXPECT_EQ(rubbish_of(store, plans, true).size(), 1u);
+    return table.rows[1].sentence.substr(std::min(table.rows[1].sentence.size(), record.string().size() + 2));
+  };
+  EXPECT_EQ(forged([](auto& j) { j.erase("files"); }), "'files' is missing");
+  EXPECT_EQ(forged([](auto& j) { j["files"] = "x"; }), "files: expected an array, found \"x\"");
+  EXPECT_EQ(forged([](auto& j) { j["files"][0]["bytes"] = -1; }),
+            "files[0].bytes: expected a whole number from 0 to 9223372036854775807, found -1");
+  EXPECT_EQ(forged([](auto& j) { j["files"][0]["path"] = "../../../precious"; }),
+            "files[0].path: expected a path in the cell's folder, found \"../../../precious\"");
+  EXPECT_EQ(forged([](auto& j) { j["files"].push_back(j["files"][0]); }), "files[2]: 'hashes.txt' is there twice");
+  EXPECT_EQ(forged([](auto& j) { j["verdict"] = 3; }), "verdict: expected a text, found 3");
+  EXPECT_EQ(forged([](auto& j) { j["last_frame"].push_back(3); }).substr(0, 11), "last_frame[");
+  EXPECT_EQ(forged([](auto& j) { j["last_frame"].push_back(j["last_frame"][0]); }).substr(0, 11), "last_frame[");
+  // Frames of another state: docs/notes/sweeps.md says that states only save time.
+  EXPECT_EQ(forged([](auto& j) { j["last_frame"][0]["frame"] = 28; }),
+            "last_frame[0].frame: expected 29, the one before its end, found 28");
+  EXPECT_EQ(forged([](auto& j) { j["cell"] = std::string(32, 'a'); }).substr(0, 15), "cell: expected ");
+  put(record, "{ \"xxh3\": " + std::string(300000, '['));
+  EXPECT_EQ(read_table(opened.cells, store).rows[1].sentence, record.string() + ": nested deeper than 16");
+  put(record, whole);
+  EXPECT_EQ(read_table(opened.cells, store).count(State::done), 4);
 }
 
 TEST_F(Tables, SayWhatIsNotDone) {

@@ -162,7 +162,7 @@ TEST_F(Work, OfProcessesThatRaceOneGetsTheNameAndTheResultIsWhole) {
     }
     EXPECT_EQ(winners, 1);
     EXPECT_EQ(damage_of(store.cell(raced.id)), "");
-    EXPECT_EQ(files_of(read_record(store.cell(raced.id))).size(), 20u);
+    EXPECT_EQ(read_record(store.cell(raced.id)).files.size(), 20u);
     // Nothing hidden stays.
     for (const auto& entry : std::filesystem::directory_iterator(store.cell(raced.id).parent_path()))
       EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path();
@@ -216,6 +216,41 @@ TEST_F(Work, EveryChangedByteIsFound) {
     put(at / file, whole);
     EXPECT_EQ(damage_of(at), "");
   }
+}
+
+// What is not rainref's stays, whatever the folder is called.
+TEST_F(Work, RubbishBearsANameOfRainrefsInAMarkedFolder) {
+  const Store wrong(folder / "project");
+  for (const char* mine : {"project/states", "project/cells/a", "precious/b"}) std::filesystem::create_directories(folder / mine);
+  put(folder / "project/states/menu.lua", "mine");
+  EXPECT_THAT(error_of([&] { rubbish_of(wrong, {}, false); }), HasSubstr("project: expected a folder that `rainref sweep run` marked"));
+  EXPECT_TRUE(rubbish_of(Store(folder / "none"), {}, false).empty());
+
+  go([](int) {});
+  const std::string id(32, '7');
+  put(folder / "precious/thesis.tex", "mine");
+  const std::filesystem::path root = store.root();
+  for (const std::string& foreign :
+       std::vector<std::string>{"cells/zz/a", "cells/77/77", "cells/77/" + id + "0", "cells/78/" + id, "states/menu", "plans/" + id})
+    std::filesystem::create_directories(root / foreign);
+  for (const std::string& foreign :
+       std::vector<std::string>{"states/" + id, "failed/notes.json", "failed/" + id, "tries/mine.txt", "tries/" + id + ".txt"})
+    put(root / foreign, "mine");
+  std::filesystem::create_directory_symlink(folder / "precious", root / "cells/zy");
+  std::filesystem::create_directory_symlink(folder / "precious", root / "cells/77" / ("77" + std::string(30, 'a')));
+  std::filesystem::create_directory_symlink(folder / "precious", root / "states" / std::string(32, 'b'));
+  std::vector<Cells> plans{opened.cells};
+  EXPECT_TRUE(rubbish_of(store, plans, true).empty());
+  std::filesystem::create_directories(root / "cells/77" / id);
+  const auto found = rubbish_of(store, plans, true);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].path, root / "cells/77" / id);
+  // A store of an older version is marked by the next run.
+  std::filesystem::remove(root / "rainref-store");
+  EXPECT_THAT(error_of([&] { rubbish_of(store, plans, true); }),
+              HasSubstr("the next `sweep run` into a folder of an older version marks it"));
+  go([](int) {});
+  EXPECT_EQ(rubbish_of(store, plans, true).size(), 1u);
 }
 
 TEST_F(Work, RubbishIsWhatNoPlanNeeds) {
