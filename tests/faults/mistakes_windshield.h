@@ -88,6 +88,7 @@ inline bool composite_published(const Run& r, int x, int y, float* out) {
               sv = r.is("scene upside down") ? 0.5f - gy * r.u("scene_scale", 1) : 0.5f + gy * r.u("scene_scale", 1);
   float offset = r.u("refraction") * vis;
   if (r.is("refraction the other way")) offset = -offset;
+  if (r.is("offset does not fade")) offset = r.u("refraction");
   const float lod = r.is("one level too coarse") ? r.u("blur_lod") + 1 : r.u("blur_lod");
   const Float3 behind = r.linear3("blurred", su, sv), blur = r.trilinear3("blurred", su, sv, lod);
   const Float3 sharp = r.linear3("blurred", su + offset * n.x, sv + offset * n.y);

@@ -8,7 +8,7 @@ using namespace ports;
 
 // Some bugs of each pass; scripts/full/mutants has them all.
 TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
-  const Outcome surface = judge_mutants("windshield_surface.json", "1503,1533,1562,1581,1412,1450,1702,1714,1721,1759,1763,1778");
+  const Outcome surface = judge_mutants("windshield_surface.json", "1503,1533,1562,1581,1412,1413,1450,1453,1702,1714,1721,1759,1763,1778");
   EXPECT_EQ(surface.code, 0) << surface.text;
   const Outcome motion = judge_mutants("windshield_motion.json", "1104,1126,1146,1176,1189,1210");
   EXPECT_EQ(motion.code, 0) << motion.text;
