@@ -12,6 +12,7 @@
 #include "rainref/error.h"
 #include "scene/json.h"
 #include "scene/toml.h"
+#include "simulation/keeping.h"
 #include "simulation/opened.h"
 #include "simulation/own_scenes.h"
 #include "simulation/picture_notes.h"
@@ -50,6 +51,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 
 const std::string& Simulation::effect() const { return state_->opened.config().effect(); }
 Variant Simulation::variant() const {
+  simulation::begin_to_keep();
   const FloatingPointGuard guard;
   return variant_from_name(state_->opened.config().variant());
 }

@@ -15,9 +15,10 @@ import numpy as np
 from . import _structs as s
 from . import states
 from ._library import Handle, call, decoded, encoded, filled, text_of, texts
-from .buffers import View, buffer_of, copy_of, view_of
-from .errors import StaleViewError
+from .buffers import buffer_of, copy_of, view_of
+from .errors import FileError, StaleViewError, nearest
 from .parameters import Parameters, changes, effects, toml
+from .views import View
 
 
 def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str, object] | None = None, *, threads: int = 0) -> Simulation:
