@@ -187,6 +187,9 @@ def test_files_that_are_not_there(puddle, tmp_path):
     with pytest.raises(OSError, match="none.toml") as caught:
         rr.open(tmp_path / "none.toml")
     assert isinstance(caught.value, rr.Error) and caught.value.code == 4
+    for wrong, meant in (("puddel", "puddle"), ("puddle/defualt.toml", "puddle/default.toml"), ("scenes/puddle/analytik.toml", "puddle/analytic.toml")):
+        with pytest.raises(rr.FileError, match=f"cannot read '{wrong}': No such file or directory; did you mean '[a-z/]*{meant}'"):
+            rr.open(wrong)
     puddle.step()
     with pytest.raises(rr.FileError, match="nowhere"):
         puddle.write_png(tmp_path / "nowhere/a.png")

@@ -31,7 +31,7 @@ def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str,
     >>> open("puddel")
     Traceback (most recent call last):
     ...
-    rainref.errors.FileError: cannot read 'puddel': No such file or directory
+    rainref.errors.FileError: cannot read 'puddel': No such file or directory; did you mean 'puddle'?
     >>> open({"effect": "puddle", "rain": {"rte": 3}})
     Traceback (most recent call last):
     ...
@@ -44,7 +44,12 @@ def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str,
         return Simulation("", [f"effect={scene}", *how], threads)
     if isinstance(scene, str) and "\n" in scene:
         return Simulation(scene, how, threads)
-    return Simulation(Path(scene), how, threads)
+    try:
+        return Simulation(Path(scene), how, threads)
+    except FileError as error:
+        if "did you mean" in str(error) or Path(scene).exists():
+            raise
+        raise FileError(str(error) + nearest(os.fspath(scene), effects()), error.code) from None
 
 
 class Simulation:
