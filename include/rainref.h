@@ -59,6 +59,10 @@ typedef struct rr_open_options {
   int32_t threads;  ///< 0: one for each processor. No bit hangs on it
 } rr_open_options;
 
+/// Where made images that are the same in every run (the street around a puddle) are kept for later runs, by every simulation of this
+/// process; NULL: nowhere. Without this call as `rainref run` keeps them: in $XDG_CACHE_HOME/rainref, or ~/.cache/rainref. No bit hangs on
+/// it. RR_USAGE once a simulation was opened.
+RR_API int rr_keep_images(const char* folder);
 /// Opens the text of a scene; "" where `set` says everything. `options` may be NULL. A scene may name files, which are read. Close it.
 RR_API int rr_open(const char* toml, const rr_open_options* options, rr_simulation** simulation);
 /// The same of a scene file, of a scene that came with rainref ("puddle/default.toml"), or of a picture that rainref wrote;
@@ -130,15 +134,15 @@ enum rr_type {
 /// The members of a record or a uniform block.
 typedef struct rr_layout rr_layout;
 
-/// An image, a list of records, or a uniform block. Channel c of texel (x, y) lies in plane c / (channels / planes), at
-/// y * row_bytes + x * texel_bytes; planes beyond the first are there where an image keeps its channels apart. Row 0 is the bottom one of
-/// pictures, and v = 0 of the pass that writes it.
+/// An image, a list of records, or a uniform block. A texel (x, y) lies at y * row_bytes + x * texel_bytes: all its channels in the one
+/// plane, or, where an image keeps them apart, channel c in plane c; those beyond the last of several planes are 0 everywhere. Row 0 is the
+/// bottom one of pictures, and v = 0 of the pass that writes it.
 typedef struct rr_array {
   size_t struct_bytes;
   const char* name;
   const char* format;  ///< "rg16f"; of records the name of their layout
   int32_t type;        ///< rr_type, of one channel
-  int32_t channels;    ///< of all planes; 1 of records
+  int32_t channels;    ///< of the format; 1 of records
   int32_t width;       ///< texels, or records
   int32_t height;      ///< 1 of records
   int32_t levels;      ///< mip levels
@@ -227,6 +231,11 @@ RR_API const char* rr_get_judge(const rr_cases* cases, size_t index, size_t outp
 /// What a port gave for an output; a copy is taken. Of an image `count` is its height, `row_bytes` from one of its rows to the next; of
 /// records their number and their size. Where the list's length is a key's, another number of records is refused.
 RR_API int rr_give(rr_cases* cases, size_t index, size_t output, const void* data, size_t row_bytes, size_t count);
+/// The same of an image that says itself what it is: type, channels, width, height, planes (1), texel_bytes, row_bytes and plane[0] of
+/// `image` count. As of files (docs/dumps.md) channels beyond the output's are left out, which the report notes. Floats may also be given
+/// for halves and for 8-bit codes: they are stored as the output stores them, to nearest even, sRGB encoded where it is sRGB. RR_FILES for
+/// another size or type.
+RR_API int rr_give_image(rr_cases* cases, size_t index, size_t output, const rr_array* image);
 
 // ---- verdicts ----
 

@@ -25,6 +25,11 @@ using Buffer = std::variant<BufferView, RecordView>;
 /// when it cannot be read, Error(usage) for another picture.
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set = {});
 
+/// Where made images that are the same in every run (the street around a puddle) are kept for later runs, by every simulation of this
+/// process; an empty path: nowhere. Without this call as `rainref run` keeps them: in $XDG_CACHE_HOME/rainref, or ~/.cache/rainref. No bit
+/// hangs on it. Throws Error(usage) once a simulation was opened.
+void keep_images(const std::filesystem::path& folder);
+
 /// A scene that runs. Every buffer has the same bits whatever the executor's threads, the SIMD target and the caller's floating-point
 /// state, and the bits of `rainref hash` of the same scene.
 class Simulation {

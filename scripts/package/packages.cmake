@@ -47,7 +47,8 @@ endfunction()
 rainref_package(program rainref "This is the program."
   DEPENDS "librainref0 (= ${full_version})" "rainref-data (= ${full_version})")
 rainref_package(library librainref0 "This is the library for C, and what reads and writes pictures."
-  SECTION libs)
+  SECTION libs
+  DEPENDS "rainref-data (= ${full_version})")
 rainref_package(dev librainref-dev "These are the headers for C and C++, and the libraries for C++."
   SECTION libdevel
   DEPENDS "librainref0 (= ${full_version})" libhwy-dev libtbb-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libglm-dev libembree-dev

@@ -31,6 +31,12 @@ rr_type type_of(FormatInfo::Kind kind) {
   }
   throw Error(ExitCode::internal, "a format of no kind");
 }
+FormatInfo::Kind kind_of(int32_t type) {
+  for (const FormatInfo::Kind kind : {FormatInfo::unorm8, FormatInfo::srgb8, FormatInfo::float16, FormatInfo::float32, FormatInfo::uint32})
+    if (type_of(kind) == type) return kind;
+  throw Error(ExitCode::usage, fmt::format("rr_array.type: expected that of a texel's channel, {} to {}, found {}",
+                                           static_cast<int>(RR_UNORM8), static_cast<int>(RR_UINT32), type));
+}
 rr_type type_of(scene::Scalar scalar) {
   return scalar == scene::Scalar::float32 ? RR_FLOAT32 : scalar == scene::Scalar::int32 ? RR_INT32 : RR_UINT32;
 }
@@ -91,6 +97,27 @@ rr_array array_of(const char* name, const capture::Array& array, int level) {
   a.row_bytes = a.texel_bytes * static_cast<std::size_t>(a.width);
   a.plane[0] = data;
   return a;
+}
+
+port_dump::StoredImage image_of(const rr_array& given) {
+  const auto within = [](const char* member, std::int64_t value, std::int64_t low, std::int64_t high) {
+    if (value < low || value > high)
+      throw Error(ExitCode::usage, fmt::format("rr_array.{}: expected {} to {}, found {}", member, low, high, value));
+    return static_cast<std::size_t>(value);
+  };
+  constexpr std::int64_t longest = 65536;
+  port_dump::StoredImage image;
+  image.width = within("width", given.width, 1, longest);
+  image.height = within("height", given.height, 1, longest);
+  within("planes", given.planes, 1, 1);
+  image.set_channels(kind_of(given.type), within("channels", given.channels, 1, 4));
+  image.texel_bytes =
+      within("texel_bytes", static_cast<std::int64_t>(given.texel_bytes), static_cast<std::int64_t>(image.texel_bytes), longest);
+  const std::size_t row = image.width * image.texel_bytes;
+  image.row_pitch = within("row_bytes", static_cast<std::int64_t>(given.row_bytes), static_cast<std::int64_t>(row), std::int64_t{1} << 40);
+  const auto* const first = static_cast<const std::byte*>(given.plane[0]);
+  image.rows = {&required(first, "rr_array.plane[0]"), (image.height - 1) * image.row_pitch + row};
+  return image;
 }
 
 rr_array array_of(const scene::UniformBlock& block, const void* bytes) { return records(block.name.c_str(), block, bytes, 1); }

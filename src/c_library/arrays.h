@@ -2,6 +2,7 @@
 #pragma once
 
 #include "capture/array.h"
+#include "port_dump/stored_image.h"
 #include "rainref.h"
 #include "rainref/simulation.h"
 #include "scene/uniform_block.h"
@@ -12,6 +13,8 @@ namespace rainref::c_library {
 rr_array array_of(const char* name, const Buffer& content, const scene::UniformBlock* record);
 /// A mip level of a captured array; Error(usage) where it has no such level.
 rr_array array_of(const char* name, const capture::Array& array, int level);
+/// An image that a caller gives; Error(usage), naming the member, for what no image is.
+port_dump::StoredImage image_of(const rr_array& given);
 /// A uniform block and its bytes.
 rr_array array_of(const scene::UniformBlock& block, const void* bytes);
 

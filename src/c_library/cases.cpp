@@ -96,3 +96,6 @@ const char* rr_get_judge(const rr_cases* cases, size_t index, size_t output) {
 int rr_give(rr_cases* cases, size_t index, size_t output, const void* data, size_t row_bytes, size_t count) {
   return call([&] { required(cases, "cases").list.give(index, output, data, row_bytes, count); });
 }
+int rr_give_image(rr_cases* cases, size_t index, size_t output, const rr_array* image) {
+  return call([&] { required(cases, "cases").list.give_image(index, output, c_library::image_of(sized(image, "rr_array"))); });
+}

@@ -67,6 +67,9 @@ int rr_describe(const char* effect, const char** json) {
   });
 }
 
+int rr_keep_images(const char* folder) {
+  return call([&] { keep_images(folder ? folder : ""); });
+}
 int rr_open(const char* toml, const rr_open_options* options, rr_simulation** simulation) {
   return open(options, simulation, [&](const rr_open_options& o, std::vector<std::string> set) {
     return SceneText{&required(toml, "toml"), std::move(set), o.file ? o.file : SceneText().file};

@@ -5,7 +5,6 @@
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/layout_text.h"
-#include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
@@ -14,6 +13,7 @@
 #include "scene/describe.h"
 #include "simulation/describe.h"
 #include "simulation/opened.h"
+#include "simulation/own_scenes.h"
 
 namespace rainref::cli {
 namespace {
@@ -42,7 +42,7 @@ int list(bool json) {
       for (const capture::PassInfo& pass : e->info->passes) effect["passes"].push_back(pass.name);
       out["effects"].push_back(effect);
     }
-    out["scenes"] = known_scenes();
+    out["scenes"] = simulation::known_scenes();
     out["simd_targets"] = simd_targets();
     out["threads"] = parallel::Executor().threads();
     say("{}\n", json_text(out));
@@ -57,7 +57,7 @@ int list(bool json) {
     }
   }
   say("\nScenes\n");
-  for (const std::string& scene : known_scenes()) say("  {}\n", scene);
+  for (const std::string& scene : simulation::known_scenes()) say("  {}\n", scene);
   say("\nSIMD targets    {}\nThreads         {}\n", fmt::join(simd_targets(), " "), parallel::Executor().threads());
   return 0;
 }

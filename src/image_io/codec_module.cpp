@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <future>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "base/floating_point.h"
+#include "image_io/codec_folder.h"
 #include "rainref/error.h"
 
 namespace rainref::image_io {
@@ -44,14 +46,18 @@ std::vector<std::string> folders() {
   return out;
 }
 
+bool has_library(const std::string& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::path(folder) / library, ignored);
+}
+
 const Codec* load() {
   // Libraries built with -ffast-math set flush to zero when they are loaded; the caller's state stays as it is.
   const FloatingPointGuard guard;
   const std::vector<std::string> places = folders();
   for (const std::string& folder : places) {
+    if (!has_library(folder)) continue;
     const std::filesystem::path file = std::filesystem::path(folder) / library;
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) continue;
     void* const handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!handle) refuse(::dlerror());
     auto* const table = reinterpret_cast<const Codec* (*)()>(::dlsym(handle, "rainref_openimageio"));
@@ -70,6 +76,11 @@ const Codec& codec() {
 
 std::function<void()> codec_ahead() {
   return [opened = std::async(std::launch::async, [] { codec(); }).share()] { opened.get(); };
+}
+std::string codec_folder() {
+  const std::vector<std::string> places = folders();
+  const auto found = std::find_if(places.begin(), places.end(), has_library);
+  return found == places.end() ? "" : *found;
 }
 std::size_t codec_bytes() { return std::size_t{119} << 20; }
 

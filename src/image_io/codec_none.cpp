@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "image_io/codec.h"
+#include "image_io/codec_folder.h"
 #include "image_io/png_write.h"
 #include "rainref/error.h"
 
@@ -29,6 +30,7 @@ const Codec& codec() {
 std::function<void()> codec_ahead() {
   return [] {};
 }
+std::string codec_folder() { return ""; }
 std::size_t codec_bytes() { return 0; }
 
 }  // namespace rainref::image_io

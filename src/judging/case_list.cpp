@@ -9,6 +9,7 @@
 #include "judge/check_pack.h"
 #include "judge/shadow_plan.h"
 #include "judge/slots.h"
+#include "judging/given_image.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
 
@@ -32,10 +33,12 @@ std::size_t index_of(const Things& things, std::string_view name, const std::str
   throw Error(ExitCode::usage, fmt::format("{} has no {} '{}'{}", id, what, name, did_you_mean(name, names)));
 }
 
+std::string place_of(const capture::CaseOutput& output, const std::string& id) { return fmt::format("{}/out.{}", id, output.name); }
+
 /// The bytes of a port's rows, one behind the other.
 Array given_array(const capture::CaseOutput& output, const std::string& id, const void* data, std::size_t row_bytes, std::size_t count) {
   Array array = output.array;
-  const std::string place = fmt::format("{}/out.{}", id, output.name);
+  const std::string place = place_of(output, id);
   const std::size_t own_row = array.is_records ? array.record.size : array.element_bytes() * static_cast<std::size_t>(array.width);
   if (array.is_records ? row_bytes != own_row : row_bytes < own_row)
     throw Error(ExitCode::usage, fmt::format("{}: expected {}{} bytes for each {}, found {}", place, array.is_records ? "" : "at least ",
@@ -131,6 +134,18 @@ void CaseList::add_next_frame(Simulation& simulation, const std::vector<std::str
 void CaseList::give(std::size_t index, std::size_t output, const void* data, std::size_t row_bytes, std::size_t count) {
   const Run& to = run(index);
   runs_[index].given[output] = std::make_shared<const Array>(given_array(to.output(output), to.id, data, row_bytes, count));
+  runs_[index].notes[output].clear();
+}
+void CaseList::give_image(std::size_t index, std::size_t output, port_dump::StoredImage image) {
+  const Run& to = run(index);
+  const capture::CaseOutput& like = to.output(output);
+  image.file = place_of(like, to.id);
+  if (like.array.is_records) throw Error(ExitCode::usage, image.file + ": expected records, found an image");
+  port_dump::ReadNotes notes;
+  Array array = like.array;
+  array.levels.assign(1, canonical_image(image, like.array, notes));
+  runs_[index].given[output] = std::make_shared<const Array>(std::move(array));
+  runs_[index].notes[output] = std::move(notes.lines);
 }
 
 const Run& CaseList::run(std::size_t index) const {
@@ -145,6 +160,7 @@ void CaseList::add(capture::PassCase c) {
   Run run{held, held->folder(), ""};
   run.formula = pass_of(run).formula;
   run.given.resize(held->outputs.size());
+  run.notes.resize(held->outputs.size());
   runs_.push_back(std::move(run));
 }
 

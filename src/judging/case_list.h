@@ -10,6 +10,7 @@
 
 #include "capture/pack_read.h"
 #include "capture/pass_case.h"
+#include "port_dump/stored_image.h"
 #include "rainref/simulation.h"
 
 namespace rainref::judging {
@@ -19,6 +20,7 @@ struct Run {
   std::shared_ptr<const capture::PassCase> c;
   std::string id, formula;
   std::vector<std::shared_ptr<const capture::Array>> given{};  ///< one for each output; null: not given
+  std::vector<std::vector<std::string>> notes{};               ///< what the report says of each, a sentence each
 
   bool has_any() const;  ///< of these
   /// Throw Error(usage): naming the nearest one, or how many there are.
@@ -42,6 +44,8 @@ class CaseList {
   void add_next_frame(Simulation& simulation, const std::vector<std::string>& passes);
   /// A copy of an output's rows or records; Error(usage) where it cannot be that output.
   void give(std::size_t index, std::size_t output, const void* data, std::size_t row_bytes, std::size_t count);
+  /// The same of an image whose texels may be of another type and have more channels (judging/given_image.h); it gets its name here.
+  void give_image(std::size_t index, std::size_t output, port_dump::StoredImage image);
 
   const std::string& effect() const { return effect_; }
   const std::string& variant() const { return variant_; }

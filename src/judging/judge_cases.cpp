@@ -70,6 +70,8 @@ judge::PortJudgement judged(const CaseList& cases, const JudgeOptions& o, const 
   result.effect = cases.effect();
   result.variant = cases.variant();
   result.scene = cases.scene();
+  for (const Run& run : cases.runs())
+    for (const std::vector<std::string>& notes : run.notes) result.notes.insert(result.notes.end(), notes.begin(), notes.end());
   result.passes = judge::judge_passes(tasks, options);
   judge::conclude(result);
   if (o.strict) judge::fail_warnings(result);

@@ -1,8 +1,10 @@
-"""What `pip install .` runs: setuptools, and the library that scripts/build made put into the package."""
+"""What `pip install .` runs: setuptools, and the library, its scenes with it, put into the package. scripts/build makes the library where it
+is not there yet."""
 
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -24,24 +26,33 @@ __all__ = [*_setuptools.__all__, "BuildPy", "BdistWheel", "VERSION"]
 
 
 class BuildPy(build_py):
-    """Adds the library and the module that reads pictures, as an installation has them: they find each other where they lie. Without a build
-    there is none in the package, which then takes the system's."""
+    """Adds the library, the module that reads pictures and the scenes, as an installation has them: they find each other where they lie."""
 
     def run(self) -> None:
         super().run()
+        _make_library()
         if self.editable_mode:
             return  # the package lies in the clone and finds its build folder
-        if not (_BUILD / "lib/librainref.so.0").exists():
-            self.warn("build/release/lib has no librainref.so.0, which scripts/build makes: the package will take the system's")
-            return
-        to = Path(self.build_lib) / "rainref/lib"
-        to.mkdir(parents=True, exist_ok=True)
+        to = Path(self.build_lib) / "rainref"
         with tempfile.TemporaryDirectory() as staged:
             subprocess.run(["cmake", "--install", str(_BUILD), "--component", "python", "--strip", "--prefix", staged], check=True,
                            stdout=subprocess.DEVNULL)
-            for file in Path(staged).rglob("*.so*"):
+            shutil.copytree(Path(staged) / "share", to / "share", dirs_exist_ok=True)
+            (to / "lib").mkdir(parents=True, exist_ok=True)
+            for file in (Path(staged) / "lib").glob("*.so*"):
                 if not file.is_symlink():
-                    shutil.copy(file, to / ("librainref.so.0" if file.name.startswith("librainref") else file.name))
+                    shutil.copy(file, to / "lib" / ("librainref.so.0" if file.name.startswith("librainref") else file.name))
+
+
+def _make_library() -> None:
+    """By scripts/build, where it was not made before: minutes, and it installs what is missing where it may."""
+    if (_BUILD / "lib/librainref.so.0").exists():
+        return
+    script = _ROOT / "scripts/build"
+    made = subprocess.run([str(script)], stdout=sys.stderr).returncode if script.exists() else 1
+    if made != 0:
+        raise SystemExit(f"rainref: build/release/lib has no librainref.so.0, and {script} "
+                         + ("did not make it: see what it says above" if script.exists() else "is not there: install from a clone"))
 
 
 class BdistWheel(bdist_wheel):

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <system_error>
 
+#include <fmt/format.h>
+
+#include "image_io/codec_folder.h"
+#include "rainref/error.h"
 #include "simulation/own_file.h"
 
 namespace rainref::simulation {
@@ -12,40 +16,88 @@ namespace fs = std::filesystem;
 
 /// The folders `scenes`, from where that file lies: an installation may be moved. A build folder links the sources'.
 std::vector<fs::path> own_folders() {
-  const fs::path here = own_file().parent_path();
   std::vector<fs::path> folders;
-  for (const char* from_here : {RAINREF_SCENES_FROM_PROGRAM, RAINREF_SCENES_FROM_LIBRARY, "../share/rainref/scenes"}) {
+  const auto add = [&](const fs::path& here, const char* from_here) {
     std::error_code error;
     const fs::path folder = fs::canonical(here / from_here, error);
     if (!error && std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
-  }
+  };
+  constexpr const char* from_any = "../share/rainref/scenes";
+  const fs::path here = own_file().parent_path();
+  for (const char* from_here : {RAINREF_SCENES_FROM_PROGRAM, RAINREF_SCENES_FROM_LIBRARY, from_any}) add(here, from_here);
+  if (const fs::path module = image_io::codec_folder(); !module.empty())
+    for (const char* from_here : {RAINREF_SCENES_FROM_MODULE, from_any}) add(module, from_here);
   return folders;
+}
+
+std::vector<std::string> scenes_below(const fs::path& root) {
+  std::vector<std::string> found;
+  std::error_code none;
+  for (const auto& entry : fs::recursive_directory_iterator(root, fs::directory_options::skip_permission_denied, none))
+    if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace
 
 std::vector<std::string> own_scenes() {
-  std::vector<std::string> found;
   for (const fs::path& folder : own_folders()) {
-    std::error_code none;
-    for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, none))
-      if (entry.path().extension() == ".toml") found.push_back(entry.path().lexically_relative(folder).string());
-    if (!found.empty()) break;
+    std::vector<std::string> found = scenes_below(folder);
+    for (std::string& file : found) file = fs::path(file).lexically_relative(folder).string();
+    if (!found.empty()) return found;
   }
-  std::sort(found.begin(), found.end());
-  return found;
+  return {};
+}
+
+fs::path own_scene(const fs::path& named) {
+  if (named.empty() || named.is_absolute()) return {};
+  fs::path name = named.lexically_normal();
+  if (*name.begin() == "scenes") name = name.lexically_relative("scenes");
+  if (*name.begin() == "..") return {};
+  if (name.extension() != ".toml") name += ".toml";
+  std::error_code none;
+  for (const fs::path& folder : own_folders())
+    if (fs::is_regular_file(folder / name, none)) return folder / name;
+  return {};
 }
 
 fs::path find_scene(const fs::path& named) {
   std::error_code none;
-  if (named.empty() || named.is_absolute() || fs::exists(named, none)) return named;
-  fs::path name = named.lexically_normal();
-  if (*name.begin() == "scenes") name = name.lexically_relative("scenes");
-  if (*name.begin() == "..") return named;
-  if (name.extension() != ".toml") name += ".toml";
-  for (const fs::path& folder : own_folders())
-    if (fs::is_regular_file(folder / name, none)) return folder / name;
-  return named;
+  if (fs::exists(named, none)) return named;
+  fs::path own = own_scene(named);
+  return own.empty() ? named : own;
+}
+
+std::vector<std::string> known_scenes() {
+  std::vector<std::string> found = scenes_below("scenes");
+  return found.empty() ? own_scenes() : found;
+}
+
+std::string did_you_mean_scene(const fs::path& wrong) {
+  std::vector<std::string> names, files;  // what is compared, and the file that it stands for
+  const auto add = [&](std::string name, const std::string& file) {
+    names.push_back(std::move(name));
+    files.push_back(file);
+  };
+  std::error_code none;
+  const fs::path beside = wrong.parent_path();
+  std::vector<std::string> siblings;
+  for (const auto& entry : fs::directory_iterator(beside.empty() ? "." : beside, none)) {
+    if (entry.path().extension() == ".toml") siblings.push_back((beside / entry.path().filename()).string());
+  }
+  std::sort(siblings.begin(), siblings.end());
+  for (const std::string& file : siblings) add(file, file);
+  for (const std::string& file : known_scenes()) {
+    add(file, file);
+    // "puddle/default.toml", "scenes/puddle/default.toml", wherever the folder lies; "default.toml" would be any effect's.
+    const fs::path path(file), in_effect = path.parent_path().filename() / path.filename();
+    add(in_effect.string(), file);
+    add(("scenes" / in_effect).string(), file);
+  }
+  const std::string near = nearest_name(wrong.lexically_normal().string(), names);
+  if (near.empty()) return "";
+  return fmt::format("; did you mean '{}'?", files[static_cast<std::size_t>(std::find(names.begin(), names.end(), near) - names.begin())]);
 }
 
 }  // namespace rainref::simulation

@@ -12,6 +12,7 @@
 #include "rainref/error.h"
 #include "scene/json.h"
 #include "scene/toml.h"
+#include "simulation/keeping.h"
 #include "simulation/opened.h"
 #include "simulation/own_scenes.h"
 #include "simulation/picture_notes.h"
@@ -37,12 +38,20 @@ SceneText read_scene(const std::filesystem::path& file, std::vector<std::string>
   const FloatingPointGuard guard;
   const std::filesystem::path found = simulation::find_scene(file);
   if (auto scene = simulation::scene_of_picture(found)) return {std::move(scene->toml), std::move(set), found.string()};
-  const std::vector<std::byte> bytes = read_file(found);
+  std::vector<std::byte> bytes;
+  try {
+    bytes = read_file(found);
+  } catch (const Error& e) {
+    std::error_code none;
+    if (e.code() != ExitCode::io || std::filesystem::exists(found, none)) throw;
+    throw Error(e.code(), e.what() + simulation::did_you_mean_scene(file));
+  }
   return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), found.string()};
 }
 
 Simulation::Simulation(const SceneText& scene, const parallel::Executor& executor) {
   const FloatingPointGuard guard;
+  simulation::begin_to_keep();
   state_ = std::make_unique<State>(scene, executor);
 }
 Simulation::~Simulation() = default;

@@ -10,6 +10,7 @@
 
 #include "base/number_text.h"
 #include "judge/profiles.h"
+#include "simulation/own_scenes.h"
 #include "sweep/axes.h"
 
 namespace rainref::sweep {
@@ -100,6 +101,15 @@ void take_size(const RawEntry& e, Plan& plan) {
   plan.set.push_back({"run.size", value, e.at});
 }
 
+/// A scene's file beside the plan; where there is none, the scene of this name that came with rainref.
+std::filesystem::path scene_file(const Plan& plan, const std::string& named) {
+  const std::filesystem::path beside = plan.file.parent_path() / named;
+  std::error_code none;
+  if (std::filesystem::exists(beside, none)) return beside;
+  const std::filesystem::path own = simulation::own_scene(named);
+  return own.empty() ? beside : own;
+}
+
 /// A key of the plan: which verbs take it, and how.
 struct Key {
   std::vector<Verb> verbs;  ///< empty: all
@@ -110,7 +120,7 @@ const std::map<std::string, Key>& keys() {
       judge{Verb::validate, Verb::mutate}, validate{Verb::validate}, pack{Verb::pack};
   const auto scene_files = [](const RawEntry& e, Plan& plan) {
     for (const Placed& p : texts_of(e, "the file of a scene, or a list of them"))
-      plan.scenes.push_back({(plan.file.parent_path() / p.text).string(), p.at, p.text});
+      plan.scenes.push_back({scene_file(plan, p.text).string(), p.at, p.text});
   };
   static const std::map<std::string, Key> all{
       {"verb", {{}, [](const RawEntry&, Plan&) {}}},

@@ -60,8 +60,9 @@ struct Plan {
   std::string name() const { return file.stem().string(); }
 };
 
-/// Reads and checks a plan's own keys. Files that it names lie beside it. Throws Error(usage) with file, line, key, expected, found and the
-/// nearest valid name; Error(io) where it cannot be read. What a scene refuses shows when its cells are made.
+/// Reads and checks a plan's own keys. Files that it names lie beside it; a scene that does not is that of this name that came with
+/// rainref. Throws Error(usage) with file, line, key, expected, found and the nearest valid name; Error(io) where it cannot be read. What a
+/// scene refuses shows when its cells are made.
 Plan read_plan(const std::filesystem::path& file);
 
 }  // namespace rainref::sweep

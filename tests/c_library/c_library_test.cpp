@@ -167,6 +167,35 @@ TEST_F(CLibrary, ShowsBuffersWithoutCopies) {
   expect_success("views " + scene("puddle_corrected"));
   expect_success("views " + scene("windshield_corrected"));
 }
+TEST_F(CLibrary, SaysOfAWaveOf8BitsWhereItLies) { expect_success("wave_of_8_bits " + scene("puddle_corrected")); }
+// Its threads may still run when it is closed.
+TEST_F(CLibrary, MayBeClosedAndLoadedAgain) {
+  expect_success("reload " + scene("puddle_corrected"));
+  expect_success("reload " + scene("edge_splash_corrected"));
+}
+// As the command line does, unless it is told otherwise; and the bits are the same.
+TEST_F(CLibrary, KeepsImagesForLaterRuns) {
+  const TemporaryFolder cache;
+  const auto run = [&](const std::string& keep) {
+    const auto [text, status] = output_of(fmt::format("XDG_CACHE_HOME={} {} {} kept {} {}", (cache / "user").string(), RAINREF_C_CLIENT,
+                                                      RAINREF_C_LIBRARY, scene("edge_splash_corrected"), keep));
+    EXPECT_EQ(status, 0) << text;
+    return text;
+  };
+  const auto count = [](const fs::path& folder) {
+    return fs::exists(folder) ? std::distance(fs::directory_iterator(folder), fs::directory_iterator()) : 0;
+  };
+  const std::string without = run("none");
+  EXPECT_FALSE(fs::exists(cache / "user"));
+  EXPECT_EQ(run((cache / "own").string()), without);
+  EXPECT_GT(count(cache / "own"), 0);
+  EXPECT_FALSE(fs::exists(cache / "user"));
+  const auto begin = fs::file_time_type::clock::now();
+  for (int time = 0; time < 2; ++time) EXPECT_EQ(run("-"), without);
+  EXPECT_EQ(count(cache / "user/rainref"), count(cache / "own"));
+  for (const auto& entry : fs::directory_iterator(cache / "user/rainref"))
+    EXPECT_GE(entry.last_write_time(), begin - std::chrono::seconds(1));
+}
 TEST_F(CLibrary, SavesLoadsAndSets) {
   for (const char* name :
        {"puddle_corrected", "windshield_corrected", "edge_splash_corrected", "screen_drops_corrected", "rainy_glass_corrected"})

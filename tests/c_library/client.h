@@ -14,6 +14,7 @@
   X(rr_effect_name)         \
   X(rr_profile_name)        \
   X(rr_describe)            \
+  X(rr_keep_images)         \
   X(rr_open)                \
   X(rr_open_file)           \
   X(rr_close)               \
@@ -45,6 +46,7 @@
   X(rr_get_expected)        \
   X(rr_get_judge)           \
   X(rr_give)                \
+  X(rr_give_image)          \
   X(rr_judge)               \
   X(rr_judge_folder)        \
   X(rr_free_judgement)      \
@@ -85,6 +87,9 @@ void judging(const char* scene);
 void folder_judged(const char* pack, const char* port, const char* out);
 void folder_refusals(const char* pack, const char* port);
 void views(const char* scene);
+void wave_of_8_bits(const char* scene);
+/// Two frames, their hashes printed, with images kept in `folder`: "-" says nothing to the library, "none" forbids it.
+void kept(const char* scene, const char* folder);
 void states_saved(const char* scene);
 
 #endif  // C_LIBRARY_CLIENT_H_

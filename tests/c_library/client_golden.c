@@ -164,3 +164,15 @@ void in_other_states(const char* scene, const char* hashes) {
   }
   free(recorded);
 }
+
+void kept(const char* scene, const char* folder) {
+  if (strcmp(folder, "-") != 0) CHECK(rr.rr_keep_images(strcmp(folder, "none") == 0 ? NULL : folder) == RR_OK);
+  rr_simulation* const simulation = opened(scene, 2);
+  const char* lines = NULL;
+  for (int frame = 0; frame < 2; ++frame) {
+    CHECK(rr.rr_next_frame_hashes(simulation, &lines) == RR_OK);
+    fputs(lines, stdout);
+  }
+  CHECK(rr.rr_keep_images(NULL) == RR_USAGE && strstr(rr.rr_error(), "before the first simulation is opened"));
+  rr.rr_close(simulation);
+}

@@ -74,22 +74,24 @@ class Installation : public CommandLine {
     }
     return {};
   }
-  /// Another project's program, which writes and reads a picture and tells what it takes a broken one for.
-  void expect_consumer_works(const std::string& where) const {
+  /// Another project's program, which writes and reads a picture, tells what it takes a broken one for, and finds a scene by its name.
+  void expect_consumer_works(const std::string& where, const std::filesystem::path& scenes) const {
     std::filesystem::create_directory(folder / "consumer");
     put(folder / "consumer/CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.25)
 project(consumer CXX)
 find_package(rainref REQUIRED)
 add_executable(consumer consumer.cpp)
 target_include_directories(consumer PRIVATE ${RAINREF_SOURCE}/src)  # the room's headers are not installed
-target_link_libraries(consumer PRIVATE rainref::image_io)
+target_link_libraries(consumer PRIVATE rainref::simulation)
 )");
     put(folder / "consumer/consumer.cpp", R"(#include <cstdio>
 #include "image_io/read.h"
 #include "image_io/write.h"
 #include "rainref/error.h"
+#include "rainref/simulation.h"
 using namespace rainref;
 int main() try {
+  std::puts(read_scene("puddle/default.toml").file.c_str());
   Image image(Format::rgba8, 3, 2);
   image_io::write_png("a.png", image);
   std::printf("%d x %d\n", image_io::read("a.png").file_width, image_io::read("a.png").file_height);
@@ -103,7 +105,8 @@ int main() try {
                                      " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR,
                        where));
     output(RAINREF_CMAKE " --build built");
-    EXPECT_THAT(output("built/consumer"), AllOf(HasSubstr("3 x 2\n2 'broken.exr': "), Not(HasSubstr("cannot load"))));
+    EXPECT_THAT(output("built/consumer"),
+                AllOf(HasSubstr((scenes / "puddle/default.toml").string() + "\n3 x 2\n2 'broken.exr': "), Not(HasSubstr("cannot load"))));
   }
 };
 
@@ -197,6 +200,12 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR
                      "/examples/cpp/film.cpp -o by_pkg_config $({} --cflags --libs rainref)",
                      RAINREF_CXX_COMPILER, config));
+  put(folder / "named.cpp",
+      "#include <cstdio>\n#include \"rainref/simulation.h\"\nint main() { std::puts(rainref::read_scene(\"puddle/default\").file.c_str()); "
+      "}\n");
+  output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " -O0 named.cpp -o named $({} --cflags --libs rainref)", RAINREF_CXX_COMPILER,
+                     config));
+  EXPECT_EQ(output("./named"), (folder / "moved/share/rainref/scenes/puddle/default.toml\n").string());
   const std::string splashes = contents(folder / "splashes.png");
   std::filesystem::remove(folder / "splashes.png");
   EXPECT_EQ(output("./by_pkg_config"), "");
@@ -236,11 +245,42 @@ TEST_F(Installation, MayBeStagedForAPrefixOfItsOwn) {
   EXPECT_EQ(contents(c.program).find(RAINREF_SOURCE_DIR "/scenes"), std::string::npos);  // what a machine that builds is called stays there
 }
 
+// The plans that came with it name scenes as `rainref list` does: they run from where they were installed, and from a checkout.
+TEST_F(Installation, HasPlansThatFindTheirScenes) {
+  const Circumstances c = installed();
+  for (const char* plan : {"rates", "pairs_windshield", "pairs_rainy_glass"}) {
+    const std::string file = fmt::format("examples/sweeps/{}.toml", plan);
+    const Outcome o = rainref({"sweep", "plan", "moved/share/doc/rainref/" + file}, c);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_THAT(o.out, HasSubstr(" cells of run"));
+    EXPECT_EQ(rainref({"sweep", "plan", RAINREF_SOURCE_DIR "/" + file}).out, o.out);
+  }
+  // A file beside the plan wins, one in the current folder does not, and a name of neither is said as the plan has it.
+  const std::string plan = "verb = 'hash'\nscene = 'puddle/analytic.toml'\nframes = 1\n";
+  const std::string other = "effect = 'edge_splash'\nvariant = 'corrected'\n[run]\nsize = [16, 9]\n";
+  std::filesystem::create_directories(folder / "plans/puddle");
+  std::filesystem::create_directories(folder / "puddle");
+  put(folder / "plans/a.toml", plan);
+  put(folder / "puddle/analytic.toml", other);
+  const auto made = [&] {
+    std::filesystem::remove_all(folder / "out");
+    const Outcome o = rainref({"sweep", "run", "plans/a.toml"}, c);
+    EXPECT_EQ(o.code, 0) << o.err;
+    std::string effects;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "out"))
+      if (entry.path().filename() == "cell.json") effects += contents(entry.path());
+    return effects;
+  };
+  EXPECT_THAT(made(), AllOf(HasSubstr("puddle.grid"), Not(HasSubstr("edge_splash"))));
+  put(folder / "plans/puddle/analytic.toml", other);
+  EXPECT_THAT(made(), HasSubstr("edge_splash"));
+}
+
 TEST_F(Installation, ServesProgramsOfOtherProjects) {
   installed();
-  expect_consumer_works("-DCMAKE_PREFIX_PATH=" + (folder / "moved").string());
+  expect_consumer_works("-DCMAKE_PREFIX_PATH=" + (folder / "moved").string(), folder / "moved/share/rainref/scenes");
   std::filesystem::remove_all(folder / "built");
-  expect_consumer_works("-Drainref_DIR=" RAINREF_BUILD);
+  expect_consumer_works("-Drainref_DIR=" RAINREF_BUILD, RAINREF_SOURCE_DIR "/scenes");
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 """`pip install .` from a clone, without a network, into an environment that has Debian's NumPy and setuptools."""
 
 import os
+import shutil
 import subprocess
 import sys
+import zipfile
 
 import pytest
 from conftest import ROOT
@@ -14,6 +16,7 @@ import rainref, sys
 sim = rainref.open("edge_splash", {"run.size": (16, 9)})
 sim.step().picture
 sim.write_png(sys.argv[1])  # by the module that lies in the package
+assert rainref.open("windshield/drive.toml", {"run.size": (16, 9), "windshield.height_size": (32, 18), "scene.size": (32, 18)}).effect == "windshield"
 print(rainref.__version__, rainref._library._loaded._name)
 """
 
@@ -37,6 +40,40 @@ def test_an_installed_package_stands_on_its_own(tmp_path):
     # Nothing of it looks back into the clone.
     run_path = run("readelf", "-d", library)
     assert "$ORIGIN" in run_path and str(ROOT) not in run_path
+
+
+def clone_without_a_build(folder, script):
+    """What `pip install` reads of a clone, and a script in the place of scripts/build."""
+    for name in "pyproject.toml", "README.md", "src/python", "include/rainref/version.h":
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
+        copy(ROOT / name, folder / name)
+    (folder / "scripts").mkdir()
+    (folder / "scripts/build").write_text(f"#!/bin/sh\n{script}\n")
+    (folder / "scripts/build").chmod(0o755)
+    return folder
+
+
+def wheel_of(clone, to):
+    pytest.importorskip("wheel")
+    return subprocess.run([sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-index", "--no-deps", "-w", to, clone],
+                          capture_output=True, text=True)
+
+
+@pytest.mark.skipif(not (ROOT / "build/release/lib/librainref.so.0").exists(), reason="scripts/build was not run")
+def test_an_installation_from_a_fresh_clone_builds_the_library_first(tmp_path):
+    clone = clone_without_a_build(tmp_path / "clone", f'cd "$(dirname "$0")/../build" && ln -s "{ROOT}/build/release" release')
+    done = wheel_of(clone, tmp_path / "to")
+    assert done.returncode == 0, done.stdout + done.stderr
+    names = {name.split("/purelib/")[-1] for name in zipfile.ZipFile(next((tmp_path / "to").glob("*.whl"))).namelist()}
+    assert {"rainref/lib/librainref.so.0", "rainref/share/rainref/scenes/puddle/default.toml", "rainref/py.typed"} <= names
+
+
+def test_where_the_library_cannot_be_built_one_sentence_says_so(tmp_path):
+    done = wheel_of(clone_without_a_build(tmp_path / "clone", "echo no compiler >&2; exit 1"), tmp_path / "to")
+    said = done.stdout + done.stderr
+    assert done.returncode != 0 and "no compiler" in said
+    assert "rainref: build/release/lib has no librainref.so.0" in said and "did not make it: see what it says above" in said
 
 
 def test_a_missing_library_is_one_clear_error(tmp_path):

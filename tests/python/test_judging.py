@@ -144,13 +144,44 @@ def give(puddle, output):
 
 @pytest.mark.parametrize("output, text", [
     (np.zeros((64, 96), np.float16), r"0000.0/out.wave: expected the shape \(64, 96, 2\), found \(64, 96\)"),
-    (np.zeros((64, 96, 2), np.uint8), "expected float16, found uint8"),
+    (np.zeros((64, 96, 2), np.uint8), "0000.0/out.wave: expected rg16f as halves, found 8-bit codes"),
+    (np.zeros((64, 96, 2), np.int64), "0000.0/out.wave: expected float16, found int64"),
+    (np.zeros((64, 96, 5), np.float16), r"expected the shape \(64, 96, 2\), found \(64, 96, 5\)"),
+    (np.zeros((96, 64, 2), np.float16), r"expected the shape \(64, 96, 2\), found \(96, 64, 2\)"),
     ({"waves": np.zeros((64, 96, 2))}, "'waves' is not an output of wave_step; did you mean 'wave'"),
     (None, "expected the shape"),
 ])
 def test_outputs_that_cannot_be_stored(puddle, output, text):
     with pytest.raises(ValueError, match=text):
         give(puddle, output)
+
+
+def test_more_channels_than_the_buffers_are_taken_as_of_files(puddle):
+    """A port in WebGPU has rgba16f alone."""
+    verdict = rr.judge(puddle, rr.port("puddle.wave_step")(lambda i, u, case: np.concatenate([case.expected["wave"], case.expected["wave"]], -1)),
+                       frames=[3])
+    assert verdict["wave_step"].outside == 0 and verdict.ok
+    assert verdict.json()["notes"][0] == "puddle.wave_step/0003.0/out.wave: 4 channels, the buffer has 2: ba not read"
+    assert len(verdict.json()["notes"]) == 4
+
+
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.float64])
+def test_floats_are_stored_as_the_buffer_stores_them(puddle, kind):
+    puddle.step()
+    cases = rr.Cases.of_simulation(puddle)
+    cases.add_next_frame(puddle, ["display"])
+    codes = cases[0].expected["picture"]
+    verdict = rr.judge(puddle, rr.port("puddle.display")(lambda i, u, case: case.expected["picture"] / kind(255)), frames=[puddle.frame])
+    assert codes.dtype == np.uint8 and verdict["display"].differing == 0 and verdict.ok, verdict
+
+
+def test_a_plain_function_a_wrong_uniform_and_an_exception(puddle):
+    with pytest.raises(ValueError, match="ports: expected functions with @rainref.port"):
+        rr.judge(puddle, lambda i, u: 0)
+    for wrong in (lambda i, u: u.courant_sqare, lambda i, u: u["courant_sqare"]):
+        with pytest.raises(rr.Error, match="'courant_sqare' is not a uniform of this pass; did you mean 'courant_sq'") as caught:
+            rr.judge(puddle, rr.port("puddle.wave_step")(wrong), frames=[puddle.frame])
+    assert caught.value.__notes__ == [f"while the port ran on the case puddle.wave_step/{puddle.frame - 1:04}.0"]
 
 
 def test_what_cannot_be_judged(puddle):

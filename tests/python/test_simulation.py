@@ -1,6 +1,11 @@
 """Scenes, buffers and views."""
 
 import concurrent.futures
+import copy
+import io
+import pickle
+import sys
+import warnings
 
 import numpy as np
 import pytest
@@ -63,11 +68,10 @@ def test_a_view_is_no_copy_and_ends_with_its_frame(puddle):
     assert not view.flags.writeable and view.strides[0] > 96 * 2  # rows of the library's own, with margins
     part, kept = view[3:9, ::2], view.copy()
     assert float(view.max()) == float(kept.max()) and (view + 1).dtype == np.float16
+    np.testing.assert_array_equal(part[::-1, 1], kept[3:9, ::2][::-1, 1])
+    assert part.ctypes.data == view.ctypes.data + 3 * view.strides[0] and frame.view("wave", 1).ctypes.data != view.ctypes.data
     puddle.step()
-    uses = [lambda: view[0, 0], lambda: view + 1, lambda: 1 - view, lambda: view.max(), lambda: np.sum(view), lambda: np.stack([view, view]),
-            lambda: list(view), lambda: view.shape, lambda: repr(view), lambda: part + 1, lambda: part[0], lambda: view.copy(),
-            lambda: frame["wave"], lambda: frame.view("wave", 0), lambda: frame.picture]
-    for use in uses:
+    for use in (lambda: frame["wave"], lambda: frame.view("wave", 0), lambda: frame.picture, lambda: part + 1, lambda: part[0]):
         with pytest.raises(rr.StaleViewError):
             use()
     assert kept.sum() == kept[:].sum()  # a copy is never stale
@@ -77,12 +81,85 @@ def test_a_view_is_no_copy_and_ends_with_its_frame(puddle):
         puddle.view("wave", 2)
 
 
-def test_memory_lives_as_long_as_an_array_looks_into_it(puddle):
+def test_a_view_is_used_like_an_array(puddle):
+    view, kept = puddle.step().view("wave", 0), puddle["wave"][..., 0]
+    assert view.shape == kept.shape and len(view) == len(kept) and view.dtype == kept.dtype and view.T.shape == kept.T.shape
+    for ours, array in ((view == kept, kept == kept), (kept == view, kept == kept), (view != kept, kept != kept), (1 - view, 1 - kept),
+                        (np.flip(view, 0), kept[::-1]), (np.stack([view, view]), np.stack([kept, kept])), (view @ kept.T, kept @ kept.T),
+                        (np.array(view), kept), (np.asarray(view, np.float32), kept.astype(np.float32)), (copy.copy(view), kept),
+                        (copy.deepcopy(view), kept), (pickle.loads(pickle.dumps(view)), kept), (list(view)[1], kept[1]),
+                        (np.frombuffer(bytes(view), np.float16), kept.ravel()), (view[view > 0], kept[kept > 0]), (view.reshape(-1), kept.ravel()),
+                        (np.add.reduce(view), np.add.reduce(kept)), (view[2, 3], kept[2, 3]), (view.clip(0, view.max()), kept.clip(0, kept.max()))):
+        np.testing.assert_array_equal(ours, array)
+    assert float(view[..., 2, 3]) == float(kept[2, 3]) and kept[2, 3] in view and "float16" in repr(view) and str(view) == str(kept)
+    with pytest.raises(ValueError, match="ambiguous"):
+        bool(view)
+    sums = np.zeros_like(kept)
+    part = sums[2:4]
+    part += view[2:4]
+    np.testing.assert_array_equal(sums[2:4], kept[2:4])
+    assert part.base is sums
+
+
+def test_whatever_is_done_with_a_stale_view_raises(puddle):
+    view, other = puddle.step().view("wave", 0), puddle["wave"][..., 0]
+    flat, maximum, rows = view[0], view.max, iter(view)
     puddle.step()
-    colour = np.asarray(puddle.view("colour"))
-    before = colour.copy()
-    del puddle
-    np.testing.assert_array_equal(colour, before)
+    uses = [lambda: view == other, lambda: other == view, lambda: view != other, lambda: other != view, lambda: view < other, lambda: other < view,
+            lambda: view == view, lambda: view == 1, lambda: 1 == view, lambda: other[0, 0] in view, lambda: view in [other],
+            lambda: np.array(view), lambda: np.asarray(view), lambda: np.ascontiguousarray(view), lambda: np.array([view]), lambda: np.float32(view),
+            lambda: bytes(view), lambda: copy.copy(view), lambda: copy.deepcopy(view), lambda: pickle.dumps(view), lambda: view.copy(),
+            lambda: len(view), lambda: other.__setitem__(slice(None), view), lambda: np.copyto(other, view), lambda: other.__iadd__(view),
+            lambda: view[0, 0], lambda: view + 1, lambda: 1 - view, lambda: other + view, lambda: -view, lambda: view @ other.T, lambda: view.max(),
+            lambda: maximum(), lambda: np.sum(view), lambda: np.stack([view, view]), lambda: np.array_equal(view, other), lambda: np.flip(view),
+            lambda: list(view), lambda: next(rows), lambda: view.shape, lambda: view.T, lambda: view.flags, lambda: view.tobytes(),
+            lambda: view.tolist(), lambda: view.ctypes, lambda: repr(view), lambda: str(view), lambda: f"{view}", lambda: bool(view),
+            lambda: float(flat[:1]), lambda: flat.sum(), lambda: np.save(io.BytesIO(), view), lambda: rr.shown(view), lambda: rr.shown(flat)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # NumPy 1.24 says so of a comparison that raises
+        for number, use in enumerate(uses):
+            with pytest.raises(rr.StaleViewError):
+                use()
+                pytest.fail(f"use {number}")
+        # Before Python 3.12 a class has no say in it: there is no memory to be had at all.
+        with pytest.raises(rr.StaleViewError if sys.version_info >= (3, 12) else TypeError):
+            memoryview(view)
+
+
+def test_nothing_writes_through_a_view(puddle):
+    view = puddle.step().view("wave", 0)
+    state, part = puddle.save(), view[2:4]
+    for write in (lambda: setattr(view.flags, "writeable", True), lambda: view.setflags(write=True), lambda: setattr(part.flags, "writeable", True),
+                  lambda: view.fill(1), lambda: np.copyto(view, 1), lambda: np.add(view, 1, out=view), lambda: view.sort(),
+                  lambda: view.__iadd__(1), lambda: np.put(view, 0, 1)):
+        with pytest.raises(ValueError):
+            write()
+    with pytest.raises(TypeError):
+        view[0, 0] = 1
+    with pytest.raises(AttributeError, match="cannot be set"):
+        view.shape = (1,)
+    for array in np.asarray(view), view.T, view.view(np.uint16), view.reshape(-1), np.flip(view), np.squeeze(view), np.split(view, 2)[0], view.real:
+        array = np.array(array, copy=False) if isinstance(array, np.ndarray) else array
+        if array.flags.writeable:
+            array[...] = 1  # a copy
+    view.flat[0] = 1
+    assert puddle.save() == state
+
+
+def test_a_wave_of_8_bits(tmp_path):
+    sim = rr.open("puddle", PUDDLE | {"puddle.storage": "rgba8", "rain.rate": 200})
+    frame = [frame for frame in sim.frames(3)][-1]
+    wave = frame["wave"]
+    assert wave.shape == (64, 96, 4) and wave.dtype == np.uint8 and wave[..., :2].min() < wave[..., :2].max() and not wave[..., 2:].any()
+    for channel in 0, 1:
+        np.testing.assert_array_equal(frame.view("wave", channel), wave[..., channel])
+    with pytest.raises(rr.Error, match="wave: channel 2 is 0 everywhere and is not kept; expected one from 0 to 1"):
+        frame.view("wave", 2)
+    # It is what the next frame's pass takes.
+    cases = rr.Cases.of_simulation(sim)
+    cases.add_next_frame(sim, ["wave_step"])
+    np.testing.assert_array_equal(cases[0].inputs.wave, wave)
+    np.testing.assert_array_equal(cases[-1].expected["wave"], sim["wave"])
 
 
 def test_parameters_by_key(puddle):
@@ -110,6 +187,9 @@ def test_files_that_are_not_there(puddle, tmp_path):
     with pytest.raises(OSError, match="none.toml") as caught:
         rr.open(tmp_path / "none.toml")
     assert isinstance(caught.value, rr.Error) and caught.value.code == 4
+    for wrong, meant in (("puddel", "puddle"), ("puddle/defualt.toml", "puddle/default.toml"), ("scenes/puddle/analytik.toml", "puddle/analytic.toml")):
+        with pytest.raises(rr.FileError, match=f"cannot read '{wrong}': No such file or directory; did you mean '[a-z/]*{meant}'"):
+            rr.open(wrong)
     puddle.step()
     with pytest.raises(rr.FileError, match="nowhere"):
         puddle.write_png(tmp_path / "nowhere/a.png")

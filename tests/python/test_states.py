@@ -2,7 +2,9 @@
 
 import copy
 import io
+import os
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -63,6 +65,35 @@ def test_states_in_files(puddle, tmp_path):
     assert puddle.save() == state
 
 
+def test_a_file_is_replaced_whole_and_nothing_else_is_touched(puddle, tmp_path):
+    place, victim = tmp_path / "a.state", tmp_path / "victim"
+    for name in "a.state.part", "victim":
+        (tmp_path / name).write_text("mine")
+    (tmp_path / "b.state.part").symlink_to(victim)
+    state = advance(puddle, 1).save(place)
+    puddle.save(tmp_path / "b.state")
+    assert (tmp_path / "a.state.part").read_text() == "mine" and (tmp_path / "b.state.part").is_symlink() and victim.read_text() == "mine"
+    umask = os.umask(0o027)
+    try:
+        puddle.save(tmp_path / "new.state")
+        assert (tmp_path / "new.state").stat().st_mode & 0o777 == 0o640
+        place.chmod(0o604)
+        puddle.save(str(place))
+        assert place.stat().st_mode & 0o777 == 0o604 and place.read_bytes() == state
+    finally:
+        os.umask(umask)
+    # A link gives way, and what it leads to stays.
+    (tmp_path / "link").symlink_to(victim)
+    puddle.save(tmp_path / "link")
+    assert victim.read_text() == "mine" and not (tmp_path / "link").is_symlink() and (tmp_path / "link").read_bytes() == state
+    puddle.save("/dev/null")
+    assert not Path("/dev/null").is_file()
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(rr.FileError, match="folder': Is a directory"):
+        puddle.save(tmp_path / "folder")
+    assert not [p.name for p in tmp_path.iterdir() if p.name.startswith(".")]
+
+
 def test_what_is_no_state_of_it_is_refused_and_nothing_changed(puddle):
     state = advance(puddle, 2).save()
     other = advance(rr.open("puddle", PUDDLE | {"rain.rate": 61}), 3)
@@ -105,19 +136,28 @@ def test_a_view_ends_when_a_state_is_loaded_or_a_key_set(puddle):
     del view
 
 
-def test_memory_that_an_array_looks_into_outlives_a_set(puddle):
+def test_memory_that_an_operation_looks_into_outlives_a_set(puddle):
     puddle.step()
-    first = puddle._handle
-    colour = np.asarray(puddle.view("colour"))
-    before = colour.copy()
-    puddle.set("rain.rate", 90)
-    assert puddle._handle is not first and puddle.frame == 1
-    advance(puddle, 2)
-    np.testing.assert_array_equal(colour, before)
-    del colour
-    second = puddle._handle
+    first, view = puddle._handle, puddle.view("wave", 0)
+    before = view.copy()
+    seen = []
+
+    def look(row):
+        """In the midst of an operation on the view."""
+        if not seen:
+            puddle.set("rain.rate", 90)
+            puddle.step()
+        seen.append(row.copy())
+        return 0
+
+    np.apply_along_axis(look, 1, view)
+    assert puddle._handle is not first and puddle.frame == 2
+    np.testing.assert_array_equal(seen, before)
+    second, kept = puddle._handle, puddle.view("wave", 0)
     puddle.set("rain.rate", 80)
-    assert puddle._handle is second  # where nothing looks, nothing is opened twice
+    assert puddle._handle is second  # where nothing looks, nothing is opened twice, whatever views there are
+    with pytest.raises(rr.StaleViewError):
+        kept.max()
 
 
 @pytest.mark.parametrize("effect", rr.effects())
@@ -128,7 +168,7 @@ def test_memory_that_an_array_looks_into_outlives_a_load(effect):
 
     def addresses():
         images = [name for name in sim.buffers if sim[name].dtype.names is None]
-        return {sim.view(name, channel=0).__array_interface__["data"][0] for name in images}
+        return {sim.view(name, channel=0).ctypes.data for name in images}
 
     before = addresses()
     assert len(before) >= 3

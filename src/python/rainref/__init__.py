@@ -11,16 +11,18 @@ It stands on librainref.so and needs NumPy and no compiler. What is wrong is an 
 was expected, what was found and the nearest name.
 """
 
-from ._library import golden_generation, version
+from ._library import golden_generation, keep_images, version
 from .cases import Case, Cases, Inputs
 from .errors import Error, FileError, StaleViewError
 from .judging import Cause, Failure, PassVerdict, Port, Verdict, judge, judge_folder, port
 from .parameters import Parameter, describe, effects, profiles
 from .pictures import show, shown
 from .simulation import Frame, Simulation, open
+from .views import View
 
 __version__ = version()
 __all__ = [
     "Case", "Cases", "Cause", "Error", "Failure", "FileError", "Frame", "Inputs", "Parameter", "PassVerdict", "Port", "Simulation",
-    "StaleViewError", "Verdict", "describe", "effects", "golden_generation", "judge", "judge_folder", "open", "port", "profiles", "show", "shown", "version",
+    "StaleViewError", "Verdict", "View", "describe", "effects", "golden_generation", "judge", "judge_folder", "keep_images", "open", "port", "profiles",
+    "show", "shown", "version",
 ]

@@ -49,6 +49,7 @@ _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
     "effect_name": (_text, [_index]),
     "profile_name": (_text, [_index]),
     "describe": (_result, [_text, _text_out]),
+    "keep_images": (_result, [_text]),
     "open": (_result, [_text, c.POINTER(s.OpenOptions), _out]),
     "open_file": (_result, [_text, c.POINTER(s.OpenOptions), _out]),
     "close": (None, [_handle]),
@@ -80,6 +81,7 @@ _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
     "get_expected": (_result, [_handle, _index, _index, c.POINTER(s.Array)]),
     "get_judge": (_text, [_handle, _index, _index]),
     "give": (_result, [_handle, _index, _index, c.c_void_p, _index, _index]),
+    "give_image": (_result, [_handle, _index, _index, c.POINTER(s.Array)]),
     "judge": (_result, [_handle, c.POINTER(s.JudgeOptions), _out]),
     "judge_folder": (_result, [_text, _text, c.POINTER(s.FolderOptions), _out]),
     "free_judgement": (None, [_handle]),
@@ -154,6 +156,12 @@ class Handle:
 def version() -> str:
     """ "major.minor.patch" of the library."""
     return decoded(_functions["version"]())
+
+
+def keep_images(folder: str | os.PathLike[str] | None) -> None:
+    """Where made images that are the same in every run (the street around a puddle) are kept for later runs; None: nowhere. Without this call
+    as `rainref run` keeps them: in $XDG_CACHE_HOME/rainref, or ~/.cache/rainref. No bit hangs on it. Error once a scene was opened."""
+    call("keep_images", None if folder is None else encoded(folder))
 
 
 def golden_generation() -> int:

@@ -7,14 +7,15 @@ or uint8 codes. Records and uniform blocks are structured arrays with the names 
 from __future__ import annotations
 
 import ctypes as c
-from collections.abc import Callable, Iterable, Mapping
+import dataclasses
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _structs as s
 from ._library import Handle, call, decoded, encoded, filled
-from .errors import Error, StaleViewError
+from .errors import Error
+from .views import View
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -35,22 +36,34 @@ def dtype_of(layout: int) -> np.dtype:
     return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": about.bytes})
 
 
-def _at(address: int, length: int, owner: Handle) -> c.Array[c.c_char]:
-    memory = (c.c_char * length).from_address(address)
-    memory._owner = owner  # type: ignore[attr-defined]  # alive as long as an array looks into it
-    owner.looked_into[id(memory)] = memory
-    return memory
+@dataclasses.dataclass(frozen=True)
+class Place:
+    """Where texels lie in the library's memory: from `address` on, `length` bytes of it, of which `offset` come before the first."""
+
+    address: int
+    length: int
+    owner: Handle
+    dtype: np.dtype
+    shape: tuple[int, ...]
+    strides: tuple[int, ...]
+    offset: int = 0
+
+    def array(self) -> np.ndarray:
+        """A look at them, not writeable and not to be made so. The library's memory lives as long as it."""
+        memory = (c.c_char * self.length).from_address(self.address)
+        memory._owner = self.owner  # type: ignore[attr-defined]
+        self.owner.looked_into[id(memory)] = memory
+        # Of a memoryview itself ndarray would take the memory behind it, which may be written.
+        unwriteable = np.frombuffer(memoryview(memory).toreadonly(), np.uint8)
+        return np.ndarray(self.shape, self.dtype, unwriteable, self.offset, self.strides)  # type: ignore[arg-type]
 
 
-def plane_of(raw: s.Array, plane: int, owner: Handle) -> np.ndarray:
-    """A plane without a copy: (height, width, channels of it), not writeable."""
-    channels = raw.channels // raw.planes
+def _place_of(raw: s.Array, plane: int, owner: Handle) -> Place:
+    """A plane: (height, width, channels of it)."""
     scalar = np.dtype(_CHANNEL[raw.type])
     length = (raw.height - 1) * raw.row_bytes + raw.width * raw.texel_bytes
-    array: np.ndarray = np.ndarray((raw.height, raw.width, channels), scalar, _at(raw.plane[plane], length, owner), 0,  # type: ignore[arg-type]
-                       (raw.row_bytes, raw.texel_bytes, scalar.itemsize))
-    array.flags.writeable = False
-    return array
+    shape = (raw.height, raw.width, raw.channels if raw.planes == 1 else 1)
+    return Place(raw.plane[plane], length, owner, scalar, shape, (raw.row_bytes, raw.texel_bytes, scalar.itemsize))
 
 
 def copy_of(raw: s.Array, owner: Handle) -> np.ndarray:
@@ -61,69 +74,13 @@ def copy_of(raw: s.Array, owner: Handle) -> np.ndarray:
         if raw.width:
             c.memmove(out.ctypes.data, raw.plane[0], raw.width * dtype.itemsize)
         return out
-    planes = [plane_of(raw, p, owner) for p in range(raw.planes)]
-    out = np.concatenate(planes, -1) if len(planes) > 1 else planes[0].copy()
-    return out[..., 0] if raw.channels == 1 else out
-
-
-class View(np.ndarray):
-    """A look at a buffer without a copy. Once its simulation has gone on, whatever is done with it raises StaleViewError; so does what was
-    sliced from it. `numpy.asarray(view)` and C code take the address once and cannot be told: hand them `view.copy()`."""
-
-    _now: object
-    _then: int
-
-    def __array_finalize__(self, origin: object) -> None:
-        if isinstance(origin, View) and not self.flags.owndata:  # a copy is never stale
-            object.__getattribute__(self, "__dict__").update(object.__getattribute__(origin, "__dict__"))
-
-    def _check(self) -> None:
-        read = object.__getattribute__
-        try:
-            now, then = read(self, "_now"), read(self, "_then")
-        except AttributeError:
-            return  # NumPy is making it
-        if now.changes != then:
-            raise StaleViewError("a view of a buffer is valid until its simulation goes on: take a copy to keep it")
-
-    def __getattribute__(self, name: str) -> object:
-        if not name.startswith("_"):
-            View._check(self)
-        return object.__getattribute__(self, name)
-
-    def __getitem__(self, key: Any) -> Any:
-        self._check()
-        return super().__getitem__(key)
-
-    def __iter__(self) -> Any:
-        self._check()
-        return super().__iter__()
-
-    def __repr__(self) -> str:
-        self._check()
-        return super().__repr__()
-
-    def __str__(self) -> str:
-        self._check()
-        return super().__str__()
-
-    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: object, **others: object) -> object:
-        return getattr(ufunc, method)(*_plain(inputs), **{k: _plain(v) if isinstance(v, tuple) else v for k, v in others.items()})
-
-    def __array_function__(self, function: Callable[..., Any], types: Iterable[type], arguments: Iterable[Any], others: Mapping[str, Any]) -> Any:
-        return function(*_plain(tuple(arguments)), **{k: _plain((v,))[0] for k, v in others.items()})
-
-
-def _plain(values: tuple | list) -> tuple:
-    """The same with plain arrays in place of views, which are checked."""
-
-    def one(value: Any) -> Any:
-        if isinstance(value, View):
-            value._check()
-            return value.view(np.ndarray)
-        return type(value)(_plain(value)) if type(value) in (tuple, list) else value
-
-    return tuple(one(v) for v in values)
+    if raw.planes == 1:
+        out = _place_of(raw, 0, owner).array().copy()
+        return out[..., 0] if raw.channels == 1 else out
+    out = np.zeros((raw.height, raw.width, raw.channels), _CHANNEL[raw.type])  # channels beyond the planes are 0
+    for p in range(raw.planes):
+        out[..., p] = _place_of(raw, p, owner).array()[..., 0]
+    return out
 
 
 def view_of(raw: s.Array, channel: int | None, handle: Handle, now: Simulation) -> View:
@@ -135,32 +92,42 @@ def view_of(raw: s.Array, channel: int | None, handle: Handle, now: Simulation) 
         raise Error(f"{name}: its {raw.channels} channels lie apart; name one, channel=0")
     if channel is not None and not 0 <= channel < raw.channels:
         raise Error(f"{name}: expected a channel from 0 to {raw.channels - 1}, found {channel}")
-    own = raw.channels // raw.planes
-    plain = plane_of(raw, 0 if channel is None else channel // own, handle)
-    if channel is not None or raw.channels == 1:
-        plain = plain[..., (channel or 0) % own]
-    view = plain.view(View)
-    object.__setattr__(view, "_now", now)
-    object.__setattr__(view, "_then", now.changes)
-    return view
+    if channel is not None and 1 < raw.planes <= channel:
+        raise Error(f"{name}: channel {channel} is 0 everywhere and is not kept; expected one from 0 to {raw.planes - 1}")
+    view = View(now, now.changes, _place_of(raw, 0 if raw.planes == 1 else channel or 0, handle))
+    return view if channel is None and raw.channels > 1 else view[..., (channel or 0) if raw.planes == 1 else 0]
 
 
-def given(array: np.ndarray, like: np.ndarray, place: str) -> np.ndarray:
-    """A port's output as the buffer stores it, rows without padding.
+#: Types that a port may give texels in: rr_type. Doubles become floats.
+_GIVEN = {np.dtype(kind): number for number, kind in _CHANNEL.items() if number in (1, 3, 4, 5)}
 
-    Floats become the buffer's floats, to nearest even; codes and integers must have its type.
-    """
-    array = np.asarray(array)
-    is_record = like.dtype.names is not None
-    if array.shape != like.shape and not (is_record and array.ndim == 1):
-        if array.ndim == 3 and array.shape[2:] == (1,) and array.shape[:2] == like.shape:
-            array = array[..., 0]
-        else:
-            raise Error(f"{place}: expected the shape {like.shape}, found {array.shape}")
-    is_float = array.dtype.kind == "f" and like.dtype.kind == "f"
-    if array.dtype != like.dtype and not is_float:
-        raise Error(f"{place}: expected {like.dtype}, found {array.dtype}")
-    return np.ascontiguousarray(array, like.dtype)
+
+def image_given(array: np.ndarray, like: s.Array, place: str) -> tuple[s.Array, np.ndarray]:
+    """A port's image as rr_give_image takes it, and the rows that it looks into. Channels beyond the buffer's and floats stay: the library
+    knows what becomes of them."""
+    rows = np.asarray(array)
+    shape = (like.height, like.width) + ((like.channels,) if like.channels > 1 else ())
+    texels = rows[..., np.newaxis] if rows.ndim == 2 else rows
+    if texels.ndim != 3 or texels.shape[:2] != shape[:2] or not like.channels <= texels.shape[2] <= 4:
+        raise Error(f"{place}: expected the shape {shape}, found {rows.shape}")
+    own = np.dtype(_CHANNEL[like.type])
+    if texels.dtype.kind == "f":
+        texels = texels.astype(own if own.kind == "f" else np.float32, copy=False)
+    if texels.dtype not in _GIVEN:
+        raise Error(f"{place}: expected {own}{'' if own.kind == 'f' else ' or floats'}, found {texels.dtype}")
+    texels = np.ascontiguousarray(texels)
+    height, width, channels = texels.shape
+    pixel = channels * texels.itemsize
+    return s.Array.new(type=_GIVEN[texels.dtype], channels=channels, width=width, height=height, planes=1, texel_bytes=pixel,
+                       row_bytes=width * pixel, plane=(c.c_void_p * 4)(texels.ctypes.data)), texels
+
+
+def records_given(array: np.ndarray, like: np.dtype, place: str) -> np.ndarray:
+    """A port's list, one record behind the other."""
+    records = np.asarray(array)
+    if records.ndim != 1 or records.dtype != like:
+        raise Error(f"{place}: expected a list of {like}, found the shape {records.shape} of {records.dtype}")
+    return np.ascontiguousarray(records)
 
 
 def buffer_of(simulation: object, name: str) -> s.Array:

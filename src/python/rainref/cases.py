@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import ctypes as c
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _structs as s
 from ._library import Handle, call, decoded, encoded, filled, texts
-from .buffers import copy_of, given
+from .buffers import copy_of, dtype_of, image_given, records_given
 from .errors import Error, unknown
 
 if TYPE_CHECKING:
@@ -36,6 +37,20 @@ class Inputs(SimpleNamespace):
         if name.startswith("_"):
             raise AttributeError(name)
         raise unknown("an input of this pass", name, vars(self))
+
+
+class Uniforms(np.record):
+    """A uniform block by name; a wrong one names the nearest."""
+
+    def __getattr__(self, name: str) -> object:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise unknown("a uniform of this pass", name, self.dtype.names or ())
+
+    def __getitem__(self, name: Any) -> Any:
+        if isinstance(name, str) and name not in (self.dtype.names or ()):
+            raise unknown("a uniform of this pass", name, self.dtype.names or ())
+        return super().__getitem__(name)
 
 
 class Case:
@@ -69,9 +84,10 @@ class Case:
         return self._inputs[name]
 
     @property
-    def uniforms(self) -> np.record:
+    def uniforms(self) -> Uniforms:
         """The uniform block: `uniforms.damping`, vectors as arrays."""
-        return copy_of(filled("get_uniforms", s.Array, self._handle, self._index), self._handle).view(np.recarray)[0]
+        block = copy_of(filled("get_uniforms", s.Array, self._handle, self._index), self._handle)
+        return block.view(np.dtype((Uniforms, block.dtype)))[0]
 
     @property
     def inputs(self) -> Inputs:
@@ -100,8 +116,10 @@ class Case:
         return {name: decoded(call("get_judge", self._handle, self._index, o)) for name, o in self._outputs.items()}
 
     def give(self, outputs: np.ndarray | dict[str, np.ndarray]) -> None:
-        """What a port gave: an array of a pass with one output, else a dict by name. Raises Error for a shape or a type that cannot be
-        stored; floats are rounded to the buffer's."""
+        """What a port gave: an array of a pass with one output, else a dict by name.
+
+        As of files (docs/dumps.md) channels beyond the buffer's are left out, which the report notes. Floats are stored as the buffer's are: to
+        nearest even; in 8 bits rint(255 x), sRGB encoded where the buffer is sRGB. Raises Error for a shape or a type that cannot be stored."""
         if not isinstance(outputs, dict):
             if len(self._outputs) != 1:
                 raise Error(f"{self.id}: expected a dict with {', '.join(self._outputs)}, found {type(outputs).__name__}")
@@ -109,10 +127,15 @@ class Case:
         for name, array in outputs.items():
             if name not in self._outputs:
                 raise unknown(f"an output of {self.name}", name, self._outputs)
-            raw = self._expected(self._outputs[name])
-            rows = given(array, copy_of(raw, self._handle), f"{self.id}/out.{name}")
-            row_bytes = rows.dtype.itemsize if rows.dtype.names else raw.row_bytes
-            call("give", self._handle, self._index, self._outputs[name], rows.ctypes.data, row_bytes, len(rows))
+            at, place = self._outputs[name], f"{self.id}/out.{name}"
+            raw = self._expected(at)
+            if raw.layout:
+                records = records_given(array, dtype_of(raw.layout), place)
+                call("give", self._handle, self._index, at, records.ctypes.data, records.itemsize, len(records))
+            else:
+                image, rows = image_given(array, raw, place)
+                call("give_image", self._handle, self._index, at, c.byref(image))
+                del rows  # they had to live until here
 
 
 class Cases(Sequence[Case]):

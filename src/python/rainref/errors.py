@@ -33,11 +33,16 @@ def error_of(code: int, message: str) -> Error:
     return FileError(message, code) if code == 4 else Error(message, code)
 
 
+def nearest(wrong: str, names: Iterable[str]) -> str:
+    """ "; did you mean 'x'?" for the nearest name, or "" where none is near."""
+    near = difflib.get_close_matches(wrong, list(names), 1)
+    return f"; did you mean '{near[0]}'?" if near else ""
+
+
 def unknown(what: str, wrong: str, names: Iterable[str]) -> Error:
     """The error for a name that is none of those known, with the nearest.
 
     >>> str(unknown("a pass", "displya", ["shade", "display"]))
     "'displya' is not a pass; did you mean 'display'?"
     """
-    near = difflib.get_close_matches(wrong, list(names), 1)
-    return Error(f"'{wrong}' is not {what}" + (f"; did you mean '{near[0]}'?" if near else f": expected one of {', '.join(names)}"))
+    return Error(f"'{wrong}' is not {what}" + (nearest(wrong, names) or f": expected one of {', '.join(names)}"))

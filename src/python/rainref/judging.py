@@ -35,7 +35,11 @@ class Port:
     def run(self, case: Case) -> None:
         """Runs it on a case, which keeps the outputs."""
         takes_case = len(inspect.signature(self.function).parameters) > 2
-        case.give(self.function(case.inputs, case.uniforms, *((case,) if takes_case else ())))
+        try:
+            case.give(self.function(case.inputs, case.uniforms, *((case,) if takes_case else ())))
+        except Exception as error:
+            error.add_note(f"while the port ran on the case {case.id}")
+            raise
 
 
 def port(what: str) -> Callable[[Callable[..., Any]], Port]:
@@ -168,7 +172,7 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
     A simulation runs on to the last of `frames`; none of them may lie behind it. `half` says how the ports round stores to binary16 ("rne",
     "rtz"); None: it is found out where the profile leaves it open. With `strict` each WARN is a FAIL. Raises Error for what cannot be judged.
     """
-    ports = [ports] if isinstance(ports, Port) else list(ports)
+    ports = [ports] if callable(ports) else list(ports)
     for p in ports:
         if not isinstance(p, Port):
             raise Error(f"ports: expected functions with @rainref.port(...), found {p!r}")

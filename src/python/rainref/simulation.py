@@ -15,9 +15,10 @@ import numpy as np
 from . import _structs as s
 from . import states
 from ._library import Handle, call, decoded, encoded, filled, text_of, texts
-from .buffers import View, buffer_of, copy_of, view_of
-from .errors import StaleViewError
+from .buffers import buffer_of, copy_of, view_of
+from .errors import FileError, StaleViewError, nearest
 from .parameters import Parameters, changes, effects, toml
+from .views import View
 
 
 def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str, object] | None = None, *, threads: int = 0) -> Simulation:
@@ -30,7 +31,7 @@ def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str,
     >>> open("puddel")
     Traceback (most recent call last):
     ...
-    rainref.errors.FileError: cannot read 'puddel': No such file or directory
+    rainref.errors.FileError: cannot read 'puddel': No such file or directory; did you mean 'puddle'?
     >>> open({"effect": "puddle", "rain": {"rte": 3}})
     Traceback (most recent call last):
     ...
@@ -43,7 +44,12 @@ def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str,
         return Simulation("", [f"effect={scene}", *how], threads)
     if isinstance(scene, str) and "\n" in scene:
         return Simulation(scene, how, threads)
-    return Simulation(Path(scene), how, threads)
+    try:
+        return Simulation(Path(scene), how, threads)
+    except FileError as error:
+        if "did you mean" in str(error) or Path(scene).exists():
+            raise
+        raise FileError(str(error) + nearest(os.fspath(scene), effects()), error.code) from None
 
 
 class Simulation:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes as c
 import os
+import secrets
 from pathlib import Path
 from typing import BinaryIO
 
@@ -56,14 +57,38 @@ def read_from(source: bytes | bytearray | memoryview | str | os.PathLike[str] | 
 
 
 def write_to(place: str | os.PathLike[str] | BinaryIO, state: bytes) -> None:
-    """To a file that is open for bytes, or to a path, where nothing half-written ever lies."""
+    """To a file that is open for bytes, or to a path, where nothing half-written ever lies. A file that was there keeps its mode; a link gives
+    way to the file, and what it leads to stays; a device or a pipe is written straight away."""
     if not isinstance(place, (str, os.PathLike)):
         place.write(state)
         return
-    part = Path(f"{os.fspath(place)}.part")
+    path = Path(place)
     try:
-        part.write_bytes(state)
-        part.replace(Path(place))
+        if path.exists() and not path.is_file():
+            path.write_bytes(state)
+        else:
+            _replace(path, state)
     except OSError as error:
-        part.unlink(missing_ok=True)
         raise FileError(f"cannot write '{os.fspath(place)}': {error.strerror}", 4) from None
+
+
+def _replace(path: Path, state: bytes) -> None:
+    """By a file of this call alone, under a name that was free."""
+    descriptor, hidden = -1, path
+    while descriptor < 0:
+        hidden = path.parent / f".rainref-{secrets.token_hex(8)}.part"
+        try:
+            descriptor = os.open(hidden, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+        except FileExistsError:
+            pass
+    try:
+        with open(descriptor, "wb") as file:
+            if path.is_file() and not path.is_symlink():
+                os.fchmod(descriptor, path.stat().st_mode & 0o777)
+            file.write(state)
+            file.flush()
+            os.fsync(descriptor)
+        os.replace(hidden, path)
+    except BaseException:
+        hidden.unlink(missing_ok=True)
+        raise
