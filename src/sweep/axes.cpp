@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -40,9 +40,11 @@ Axis list_axis(const std::string& key, const RawValue& list) {
 struct RangeKeys {
   std::optional<RawValue> from, to, count;
 };
-/// Asked with the rows of an axis before they are made: refuses more cells than a plan may have.
-using Grow = std::function<void(std::int64_t rows, const SourceLocation& at)>;
-Axis range_axis(const std::string& key, const RangeKeys& said, const SourceLocation& at, const Grow& grow) {
+struct Range {
+  RawValue from, to;
+  std::int64_t count;
+};
+Range range_of(const std::string& key, const RangeKeys& said, const SourceLocation& at) {
   if (!said.from) refuse(at, key, "expected 'from' beside 'count', found none");
   if (!said.count) refuse(at, key, "expected 'count' beside 'from', found none");
   for (const auto& [word, value] : {std::pair{"from", &*said.from}, std::pair{"to", said.to ? &*said.to : nullptr}}) {
@@ -63,10 +65,7 @@ Axis range_axis(const std::string& key, const RangeKeys& said, const SourceLocat
   } else {
     refuse(at, key, "expected 'to' beside a 'from' that is no whole number, found none");
   }
-  grow(*count, at);
-  Axis axis{{key}, {}};
-  for (const RawValue& v : range(*said.from, to, *count)) axis.rows.push_back({{key, v, said.from->at}});
-  return axis;
+  return {*said.from, to, *count};
 }
 
 // ---- CSV -------------------------------------------------------------------------------------------------------------------
@@ -165,8 +164,9 @@ std::vector<Axis> axes_from(std::span<const RawEntry> entries, const std::filesy
       if (!keys.insert(key).second) refuse(at, key, "is there twice");
     axes.push_back(std::move(axis));
   };
-  std::int64_t cells = 1;  // of the axes so far
-  const Grow grow = [&](std::int64_t rows, const SourceLocation& at) {
+  std::vector<std::pair<std::size_t, Range>> ranges;  // of which axes; their rows are made last, when all is counted
+  std::int64_t cells = 1;                             // of the axes so far
+  const auto grow = [&](std::int64_t rows, const SourceLocation& at) {
     if (rows > most_cells / cells)
       throw Error(ExitCode::usage, at, fmt::format("axes: expected at most {} cells, found {}", most_cells, cells * rows));
     cells *= rows;
@@ -207,9 +207,13 @@ std::vector<Axis> axes_from(std::span<const RawEntry> entries, const std::filesy
                            dot == std::string::npos ? "" : did_you_mean(word, words)));
       }
       while (i + 1 < entries.size() && take(entries[i + 1])) ++i;
-      add(range_axis(of, said, e.at, grow), e.at);
+      const Range& r = ranges.emplace_back(axes.size(), range_of(of, said, e.at)).second;
+      grow(r.count, e.at);
+      add({{of}, {}}, e.at);
     }
   }
+  for (const auto& [i, r] : ranges)
+    for (const RawValue& v : range(r.from, r.to, r.count)) axes[i].rows.push_back({{axes[i].keys[0], v, r.from.at}});
   return axes;
 }
 

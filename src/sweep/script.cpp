@@ -10,6 +10,7 @@
 
 #include "base/printable.h"
 #include "rainref/error.h"
+#include "scene/value_text.h"
 
 namespace rainref::sweep {
 namespace {
@@ -30,7 +31,7 @@ void require_plain(const ScriptAsked& asked) {
       {"program", asked.program.string()}, {"PLAN", asked.plan.string()}, {"--output", asked.out.string()}, {"--image", asked.image}};
   for (const auto& [name, text] : texts) {
     const auto refuse = [&](const char* expected) {
-      throw Error(ExitCode::usage, fmt::format("{}: expected {}, found '{}'", name, expected, printable(text)));
+      throw Error(ExitCode::usage, fmt::format("{}: expected {}, found {}", name, expected, scene::toml_string(text)));
     };
     const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
     if (std::any_of(text.begin(), text.end(), is_control)) refuse("a text without line ends and other control characters");

@@ -42,7 +42,7 @@ TEST(Script, PathsAreNoCommands) {
       ScriptAsked asked{engine, "/r", "/p", "/o", 8, 1, "img"};
       (which == 0 ? asked.program : which == 1 ? asked.plan : asked.out) = evil;
       EXPECT_THAT(error_of([&] { script(asked); }),
-                  HasSubstr("expected a text without line ends and other control characters, found '/data/a"))
+                  HasSubstr("expected a text without line ends and other control characters, found \"/data/a\\nJOB\\n"))
           << engine;
     }
     if (engine == "kubernetes") continue;
