@@ -145,7 +145,7 @@ class Packing {
       return frames_.are_wanted(frame, pass) && std::find(passes_.begin(), passes_.end(), pass) != passes_.end();
     };
     capture::PackWriter writer(options_.output, info_, config_, options_.scene.scene.filename().string(), true, passes_);
-    std::map<std::string, perturbed::Coverage> exercised;
+    std::map<std::string, judge::Exercise> exercised;
     capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) {
       writer.add(c);
       const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, judge::binder(config_.effect(), c.pass), c);

@@ -1,22 +1,83 @@
 #include "judge/coverage.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <mutex>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "judge/pass_texts.h"
 #include "math/perturbed.h"
+#include "registry/registry.h"
 #include "scene/unexercised.h"
 
 namespace rainref::judge {
 
 using perturbed::Coverage;
 
-Coverage coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor) {
-  Coverage all;
-  if (!model) return all;
+namespace {
+
+/// Declared to be 0 or 1, so that these are all of its values.
+bool is_flag(const scene::Member& m) {
+  return m.range && m.range->low == 0 && m.range->high == 1 && (m.scalar != scene::Scalar::float32 || m.range->is_whole);
+}
+double component(const scene::Member& m, const std::byte* block, int k) {
+  const std::byte* at = block + m.offset + 4 * static_cast<std::size_t>(k);
+  const auto as = [&](auto value) {
+    std::memcpy(&value, at, sizeof value);
+    return static_cast<double>(value);
+  };
+  switch (m.scalar) {
+    case scene::Scalar::float32:
+      return as(0.0f);
+    case scene::Scalar::int32:
+      return as(std::int32_t{0});
+    case scene::Scalar::uint32:
+      return as(std::uint32_t{0});
+  }
+  return 0;
+}
+/// Of each uniform and each image, whether it has a value that hides no mistake in what it takes part in; of a flag, which value.
+std::map<std::string, bool> values_of(const capture::PassCase& c) {
+  std::map<std::string, bool> out;
+  const scene::UniformBlock& block = registry::effect_of_pack(c.effect).info->pass(c.pass).block(c.variant);
+  for (const scene::Member& m : block.members) {
+    if (!is_read_by(m, c.variant)) continue;
+    for (int k = 0; k < m.components; ++k) {
+      const double value = std::abs(component(m, c.uniforms.data(), k));
+      const std::string name = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
+      if (is_flag(m)) {
+        out[fmt::format("uniform {}: 0", name)] = value == 0;
+        out[fmt::format("uniform {}: 1", name)] = value == 1;
+      } else {
+        out[fmt::format("uniform {}: neither 0 nor 1", name)] = value != 0 && value != 1;
+      }
+    }
+  }
+  for (const capture::CaseInput& in : c.inputs)
+    if (!in.array.is_records) out[fmt::format("input {}: more than one texel", in.name)] = in.array.width > 1 || in.array.height > 1;
+  return out;
+}
+
+}  // namespace
+
+void Exercise::add(const Exercise& other) {
+  decisions.add(other.decisions);
+  for (const auto& [alternative, is_taken] : other.values) values[alternative] |= is_taken;
+}
+
+bool is_read_by(const scene::Member& member, std::string_view variant) {
+  const std::string_view other = variant == "corrected" ? "as-published:" : "corrected:";
+  return !member.sentence.starts_with(other) || member.sentence.find(fmt::format("{}:", variant)) != std::string::npos;
+}
+
+Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor) {
+  Exercise out;
+  if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) return out;
+  out.values = values_of(c);
+  Coverage& all = out.decisions;
+  if (!model) return out;
   std::mutex mutex;  // sums of counts: in any order the same
   const auto counted = [&](const auto& evaluate) {
     Coverage own;
@@ -37,10 +98,10 @@ Coverage coverage_of(const capture::PassCase& c, const capture::PassModel* model
         for (int x = 0; x < model->width(); ++x) model->evaluate(x, static_cast<int>(y), unused.data());
     });
   });
-  for (const capture::CaseOutput& out : c.outputs)
-    if (const capture::KeyedModel* list = out.judge == capture::Judge::keyed ? model->keyed(out.name) : nullptr)
+  for (const capture::CaseOutput& o : c.outputs)
+    if (const capture::KeyedModel* list = o.judge == capture::Judge::keyed ? model->keyed(o.name) : nullptr)
       counted([&] { static_cast<void>(list->perturbed()); });
-  return all;
+  return out;
 }
 
 std::string alternative(const perturbed::Decision& d, int side) {
@@ -57,22 +118,29 @@ const std::map<std::string, std::string>& unreached() {
   return all;
 }
 
-PassCoverage summary(const Coverage& coverage, const std::map<std::string, std::string>& unexercised) {
-  const auto decisions = coverage.decisions();
-  const perturbed::Exercised e = exercised(decisions);
-  PassCoverage out{e.taken, e.of, {}, {}};
-  for (const auto& [decision, counts] : decisions)
-    for (int side = 0; side < sides(decision.kind); ++side) {
-      if (counts[static_cast<std::size_t>(side)] > 0) continue;
-      const std::string text = alternative(decision, side);
-      const auto own = unexercised.find(text), always = unreached().find(text);
-      if (own != unexercised.end())
-        out.reasons.insert(*own);
-      else if (always != unreached().end())
-        out.reasons.insert(*always);
-      else
-        out.never.push_back(text);
-    }
+std::vector<std::pair<std::string, bool>> Exercise::alternatives() const {
+  std::vector<std::pair<std::string, bool>> out;
+  for (const auto& [decision, counts] : decisions.decisions())
+    for (int side = 0; side < perturbed::sides(decision.kind); ++side)
+      out.emplace_back(alternative(decision, side), counts[static_cast<std::size_t>(side)] > 0);
+  out.insert(out.end(), values.begin(), values.end());
+  return out;
+}
+
+PassCoverage summary(const Exercise& exercise, const std::map<std::string, std::string>& unexercised) {
+  PassCoverage out;
+  for (const auto& [text, is_taken] : exercise.alternatives()) {
+    ++out.alternatives;
+    out.taken += is_taken;
+    if (is_taken) continue;
+    const auto own = unexercised.find(text), always = unreached().find(text);
+    if (own != unexercised.end())
+      out.reasons.insert(*own);
+    else if (always != unreached().end())
+      out.reasons.insert(*always);
+    else
+      out.never.push_back(text);
+  }
   return out;
 }
 

@@ -112,7 +112,7 @@ std::string null_port_of(const PassTask& task, const PassJudgement& judged, cons
 }
 
 /// Every run of a pass, under each rounding that may be its port's; what they exercise is added to `coverage`.
-std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options, perturbed::Coverage& coverage) {
+std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options, Exercise& coverage) {
   const PassRuns& runs = task.runs;
   std::vector<ModeJudgements> cases;
   for (std::size_t k = 0; k < runs.count; ++k) {
@@ -142,7 +142,7 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
 std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options) {
   std::vector<std::vector<ModeJudgements>> cases;
   std::vector<HalfVotes> votes;
-  std::vector<perturbed::Coverage> coverage(tasks.size());
+  std::vector<Exercise> coverage(tasks.size());
   for (const PassTask& task : tasks) {
     cases.push_back(judge_runs(task, options, coverage[cases.size()]));
     votes.push_back(votes_of(task.pass->name, cases.back()));

@@ -1,9 +1,12 @@
 // What the small packs exercise of the pass texts: what their manifests say, for every number of threads.
 #include "judge/coverage.h"
 
+#include <array>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <set>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -17,8 +20,8 @@
 namespace rainref::judge {
 namespace {
 
-perturbed::Coverage coverage_of_pass(const capture::Pack& pack, const std::string& pass, const parallel::Executor& executor) {
-  perturbed::Coverage all;
+Exercise coverage_of_pass(const capture::Pack& pack, const std::string& pass, const parallel::Executor& executor) {
+  Exercise all;
   for (const capture::PackCase& entry : pack.cases) {
     if (entry.pass != pass) continue;
     const capture::PassCase c = pack.read(entry);
@@ -34,9 +37,8 @@ struct Sides {
 };
 Sides sides_of(const capture::Pack& pack, const std::string& pass) {
   Sides out;
-  for (const auto& [decision, counts] : coverage_of_pass(pack, pass, parallel::Executor(2)).decisions())
-    for (int side = 0; side < perturbed::sides(decision.kind); ++side)
-      (counts[static_cast<std::size_t>(side)] > 0 ? out.taken : out.not_taken).insert(alternative(decision, side));
+  for (const auto& [alternative, is_taken] : coverage_of_pass(pack, pass, parallel::Executor(2)).alternatives())
+    (is_taken ? out.taken : out.not_taken).insert(alternative);
   return out;
 }
 
@@ -114,6 +116,89 @@ TEST(ShippedPacks, ExerciseEveryAlternativeButThoseWithAReason) {
   }
   EXPECT_THAT(unused, testing::IsEmpty()) << "no pass text has these";
 }
+
+/// A made-up run of the windshield's normals, corrected.
+capture::PassCase run_of_normals(float slope_shear, int columns) {
+  capture::PassCase c;
+  c.effect = "windshield";
+  c.variant = "corrected";
+  c.pass = "normals";
+  const std::array<float, 4> slopes{3, slope_shear, 1, 0};  // slope_x, slope_shear, slope_y, padding
+  c.uniforms.resize(sizeof slopes);
+  std::memcpy(c.uniforms.data(), slopes.data(), sizeof slopes);
+  c.inputs.resize(1);
+  c.inputs[0].name = "height";
+  c.inputs[0].array.width = columns;
+  c.inputs[0].array.height = 1;
+  c.outputs.resize(1);
+  return c;
+}
+// An upright pane has no shear: a port that leaves the shear out gives the same bits. So it is with an image of one texel.
+TEST(CoverageOf, CountsUniformsThatAreNeither0Nor1AndImagesOfMoreThanOneTexel) {
+  const parallel::Executor executor(1);
+  Exercise all = coverage_of(run_of_normals(-1, 1), nullptr, executor);
+  EXPECT_EQ(all.values, (std::map<std::string, bool>{{"input height: more than one texel", false},
+                                                     {"uniform slope_shear: neither 0 nor 1", false},
+                                                     {"uniform slope_x: neither 0 nor 1", true},
+                                                     {"uniform slope_y: neither 0 nor 1", false}}));
+  all.add(coverage_of(run_of_normals(0.5f, 2), nullptr, executor));
+  EXPECT_EQ(all.values, (std::map<std::string, bool>{{"input height: more than one texel", true},
+                                                     {"uniform slope_shear: neither 0 nor 1", true},
+                                                     {"uniform slope_x: neither 0 nor 1", true},
+                                                     {"uniform slope_y: neither 0 nor 1", false}}));
+  const PassCoverage c = summary(all, {{"uniform slope_y: neither 0 nor 1", "the slope is 1"}});
+  EXPECT_EQ(c.taken, 3);
+  EXPECT_EQ(c.alternatives, 4);
+  EXPECT_THAT(c.never, testing::IsEmpty());
+  EXPECT_THAT(c.reasons, testing::ElementsAre(testing::Pair("uniform slope_y: neither 0 nor 1", "the slope is 1")));
+}
+
+/// What the reference gives: all values of all invocations, and the lists.
+std::vector<std::byte> given(const capture::PassCase& c, const capture::PassModel& model) {
+  std::vector<std::byte> all;
+  std::vector<scalar::Scalar<float>> values(static_cast<std::size_t>(model.values()));
+  const auto append = [&](const std::span<const std::byte> bytes) { all.insert(all.end(), bytes.begin(), bytes.end()); };
+  for (int y = 0; y < model.height(); ++y)
+    for (int x = 0; x < model.width(); ++x) {
+      model.evaluate(x, y, values.data());
+      append(std::as_bytes(std::span(values)));
+    }
+  for (const capture::CaseOutput& out : c.outputs)
+    if (const capture::KeyedModel* list = model.keyed(out.name))
+      if (const auto bytes = list->reference()) append(*bytes);
+  return all;
+}
+// What a variant is said not to read changes nothing that it stores: else a mistake in it would be found, and counted as not to be.
+TEST(ShippedPacks, AUniformThatAVariantDoesNotReadChangesNothing) {
+  int tried = 0;
+  for (const std::string& name : shipped()) {
+    const capture::Pack pack(test::pack_folder(name));
+    std::set<std::string> seen;
+    for (const capture::PackCase& entry : pack.cases) {
+      const Bind bind = binder(pack.effect, entry.pass);
+      if (!bind || !seen.insert(entry.pass).second) continue;
+      const capture::PassCase c = pack.read(entry);
+      const std::unique_ptr<capture::PassModel> model = bound(entry.pass, bind, c);
+      if (!model) continue;
+      const std::vector<std::byte> expected = given(c, *model);
+      ASSERT_FALSE(expected.empty()) << name << ' ' << entry.pass;
+      for (const scene::Member& m : pack.pass(entry.pass).block.members) {
+        if (is_read_by(m, pack.variant)) continue;
+        capture::PassCase other = c;
+        for (int k = 0; k < m.components; ++k) {
+          const float number = 0.375f;
+          const std::int32_t whole = 1;
+          std::memcpy(other.uniforms.data() + m.offset + 4 * static_cast<std::size_t>(k),
+                      m.scalar == scene::Scalar::float32 ? static_cast<const void*>(&number) : &whole, 4);
+        }
+        ASSERT_EQ(given(other, *bound(entry.pass, bind, other)), expected) << name << ' ' << entry.pass << ' ' << m.name;
+        ++tried;
+      }
+    }
+  }
+  EXPECT_GE(tried, 60);
+}
+
 TEST(PassLine, IsTheLineWithoutIndentationAndComment) {
   std::ifstream in(rainref::test::source_folder() + "/src/math/optics-inl.h");
   int n = 0, found = 0;

@@ -59,10 +59,10 @@ TEST_P(SmallPack, IsWholeAndHasContent) {
   }
 }
 
-TEST_P(SmallPack, IsUnder300Kilobytes) {
+TEST_P(SmallPack, IsUnder350Kilobytes) {
   std::uintmax_t bytes = 0;
   for (const auto& [name, content] : files_of(here / GetParam())) bytes += content.size();
-  EXPECT_LT(bytes, 300000u);
+  EXPECT_LT(bytes, 350000u);
 }
 
 std::string name_of(const testing::TestParamInfo<std::string>& tested) {
