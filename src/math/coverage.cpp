@@ -83,13 +83,4 @@ std::map<Decision, Coverage::Counts> Coverage::decisions() const {
   return out;
 }
 
-Exercised exercised(const std::map<Decision, Coverage::Counts>& decisions) {
-  Exercised e;
-  for (const auto& [decision, counts] : decisions) {
-    e.of += sides(decision.kind);
-    for (int k = 0; k < sides(decision.kind); ++k) e.taken += counts[static_cast<std::size_t>(k)] > 0;
-  }
-  return e;
-}
-
 }  // namespace rainref::perturbed

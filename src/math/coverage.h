@@ -71,10 +71,4 @@ class Coverage {
   std::size_t open_ = 0;
 };
 
-/// Sides that were taken, and those that there are.
-struct Exercised {
-  int taken = 0, of = 0;
-};
-Exercised exercised(const std::map<Decision, Coverage::Counts>& decisions);
-
 }  // namespace rainref::perturbed
