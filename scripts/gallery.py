@@ -1,15 +1,15 @@
-"""docs/gallery, for scripts/gallery: gallery.py PROGRAM [SCENE...]. What a scene differs in from the defaults is read from its picture,
-where the program has written it."""
-import pathlib
+"""docs/gallery and docs/images, for scripts/gallery: gallery.py PROGRAM [--check | --check-all | --page | SCENE or FILE...]. What a scene
+differs in from the defaults is read from its picture, where the program has written it."""
+import dataclasses
 import re
-import subprocess
 import sys
 import tomllib
-import zlib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import pictures
+from pictures import ROOT
+
 GALLERY = ROOT / "docs/gallery"
-WIDTH, QUALITY = 640, 4  # of the pictures: pixels; ffmpeg's -q:v of JPEG, 2 (best) to 31
+SHEET = GALLERY / "sheet.jpg"
 COLUMNS, TILE = 6, (240, 135)  # of the sheet
 # Frames to show where a scene's last one is not the best, or takes long: a drive in full rain, a wiper in the middle of its stroke, glass
 # that was under a bridge for half a second.
@@ -45,50 +45,43 @@ def command(name):
     return words
 
 
-def png_texts(path):
-    """keyword: text of a PNG's tEXt and iTXt chunks that are not compressed."""
-    data, at, texts = path.read_bytes(), 8, {}
-    while at < len(data):
-        size = int.from_bytes(data[at:at + 4], "big")
-        kind, content = data[at + 4:at + 8], data[at + 8:at + 8 + size]
-        if kind in (b"tEXt", b"iTXt"):
-            if zlib.crc32(kind + content) != int.from_bytes(data[at + 8 + size:at + 12 + size], "big"):
-                sys.exit(f"{path}: a damaged text")
-            keyword, rest = content.split(b"\0", 1)
-            if kind == b"iTXt":
-                rest = rest[2:].split(b"\0", 2)[2]
-            texts[keyword.decode()] = rest.decode("utf-8" if kind == b"iTXt" else "latin-1")
-        at += 12 + size
-    return texts
-
-
-def ffmpeg(*words):
-    subprocess.run(["ffmpeg", "-nostdin", "-loglevel", "error", "-y", *map(str, words)], check=True)
-
-
 def picture_of(name):
     return GALLERY / (name.replace("/", "_") + ".jpg")
 
 
-def render(program, name, folder):
-    """Its JPEG, and beside it what the page says of its parameters: the scene in the picture, for later runs too."""
-    out = folder / name
-    words = [program, *command(name)[1:], "-o", out, "--overwrite"]
-    subprocess.run(words, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    newest = max(out.glob("*.png"), key=lambda p: p.stat().st_mtime)
-    ffmpeg("-i", newest, "-vf", f"scale={WIDTH}:-2:flags=area+accurate_rnd+full_chroma_int", "-q:v", QUALITY, "-map_metadata", "-1",
-           "-fflags", "+bitexact", "-flags:v", "+bitexact", picture_of(name))
-    return png_texts(newest)["rainref:scene"]
+def line_of(name, listed):
+    """Its line of docs/pictures.txt, with the command of today."""
+    file = picture_of(name).relative_to(ROOT).as_posix()
+    known = listed.get(file, pictures.Picture(file, pictures.NONE, pictures.NONE, pictures.NONE, ""))
+    return dataclasses.replace(known, command=" ".join(command(name)))
 
 
-def parameters(scene):
-    """Those of the effect, without what every scene says."""
-    return [line for line in scene.splitlines() if not line.startswith(("effect = ", "run.frames = "))]
+def values_of(table, prefix=""):
+    """{"vehicle.drive_cycle": value} of a TOML table."""
+    found = {}
+    for key, value in table.items():
+        found |= values_of(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key: value}
+    return found
+
+
+def parameters(name, scene):
+    """A picture's scene as the page shows it: to be pasted into a file at the root of the sources, so files of the scene are named from there."""
+    path = ROOT / f"scenes/{name}.toml"
+    own = values_of(tomllib.loads(path.read_text()))
+    lines = [f'effect = "{own["effect"]}"']
+    for line in scene.splitlines():
+        key, value = line.split(" = ", 1)
+        file = own.get(key)
+        if isinstance(file, str) and file and (path.parent / file).is_file():
+            value = f'"{(path.parent / file).resolve().relative_to(ROOT).as_posix()}"'
+        if key not in ("effect", "run.frames"):
+            lines.append(f"{key} = {value}")
+    return lines
 
 
 def section(name, scene):
     return "\n".join([
-        f"### {name}", "", f"![{name}]({picture_of(name).name})", "", sentence(name), "", "```toml", *parameters(scene), "```", "```sh",
+        f"### {name}", "", f"![{name}]({picture_of(name).name})", "", sentence(name), "", "```toml", *parameters(name, scene), "```", "```sh",
         " ".join(command(name)), "```", ""])
 
 
@@ -101,34 +94,20 @@ def known_sections():
     return {part.split("\n", 1)[0]: re.search(r"```toml\n(.*?)```", part, re.S).group(1) for part in parts}
 
 
-def main():
-    program, wanted = sys.argv[1], sys.argv[2:]
-    names = scenes()
-    for name in wanted:
-        if name not in names:
-            sys.exit(f"{name}: expected one of {', '.join(names)}")
-    GALLERY.mkdir(exist_ok=True)
-    texts = known_sections()
-    folder = ROOT / "out/gallery_page"
-    for name in names:
-        if wanted and name not in wanted and name in texts and picture_of(name).exists():
-            continue
-        print(f"Rendering {name}", file=sys.stderr, flush=True)
-        texts[name] = render(program, name, folder)
-    for old in GALLERY.glob("*.jpg"):
-        if old.name != "sheet.jpg" and old not in [picture_of(name) for name in names]:
-            old.unlink()
+def write_sheet(names):
     sources = [word for name in names for word in ("-i", picture_of(name))]
     width, height = TILE
     tiles = "".join(f"[{k}:v]scale={width}:{height}:force_original_aspect_ratio=decrease:flags=area,pad={width}:{height}:(ow-iw)/2:(oh-ih)/2,"
                     f"setsar=1[t{k}];" for k in range(len(names)))
     joined = "".join(f"[t{k}]" for k in range(len(names))) + f"concat=n={len(names)}:v=1,tile={COLUMNS}x{-(-len(names) // COLUMNS)}"
-    ffmpeg(*sources, "-filter_complex", tiles + joined, "-frames:v", 1, "-q:v", QUALITY, "-map_metadata", "-1", "-fflags", "+bitexact",
-           "-flags:v", "+bitexact", GALLERY / "sheet.jpg")
+    pictures.ffmpeg(*sources, *pictures.exact("-filter_complex", tiles + joined, "-frames:v", 1), SHEET)
+
+
+def write_page(names, texts):
     page = ["# Gallery", "", "<!-- scripts/gallery writes this page. -->", "",
-            f"Every scene of [scenes](../../scenes), {WIDTH} pixels wide: its picture, what it says of itself, its keys that are not as by default "
-            "(`rainref describe EFFECT`), and the command that makes the picture in its own size. `--first` only saves time. Made by "
-            "`scripts/gallery`.", "", "![All of them](sheet.jpg)", ""]
+            f"Every scene of [scenes](../../scenes), {pictures.WIDTH} pixels wide: its picture, what it says of itself, its keys that are not as by default "
+            "(`rainref describe EFFECT`), and the command that makes the picture in its own size. The keys are a scene of their own: a file of them at the "
+            "root of the sources runs. `--first` only saves time. Made by `scripts/gallery`.", "", "![All of them](sheet.jpg)", ""]
     group = ""
     for name in names:
         if name.split("/")[0] != group:
@@ -136,6 +115,48 @@ def main():
             page += [f"## {'To be looked at' if group == 'gallery' else group}", ""]
         page.append(section(name, texts[name]))
     (GALLERY / "README.md").write_text("\n".join(page).rstrip() + "\n")
+
+
+def main():
+    program, wanted = sys.argv[1], sys.argv[2:]
+    if wanted in (["--check"], ["--check-all"]):
+        sys.exit(pictures.check(program, wanted == ["--check-all"]))
+    names, listed = scenes(), pictures.read_list()
+    others = [file for file in listed if not file.startswith("docs/gallery/")]
+    for name in wanted:
+        if name not in names + others + ["--page"]:
+            sys.exit(f"{name}: expected --check, --check-all, --page, or some of {', '.join(names + others)}")
+    GALLERY.mkdir(exist_ok=True)
+    texts = known_sections()
+    made = {file: listed[file] for file in others}
+    for file in others:
+        if wanted and file not in wanted:
+            continue
+        if listed[file].is_made:
+            print(f"Rendering {file}", file=sys.stderr, flush=True)
+            pictures.make(program, listed[file], has_small=True)
+            pictures.write_list(listed)
+        else:
+            listed[file].sha = pictures.sha_of(listed[file].path)
+    for name in names:
+        line = line_of(name, listed)
+        made[line.file] = line
+        if line.sha == pictures.NONE and line.path.exists():
+            line.sha = pictures.sha_of(line.path)
+        if not wanted or name in wanted or name not in texts or not line.path.exists():
+            print(f"Rendering {name}", file=sys.stderr, flush=True)
+            texts[name] = pictures.make(program, line, has_small=False)["scene"]
+            listed[line.file] = line
+            pictures.write_list(listed)
+    for old in GALLERY.glob("*.jpg"):
+        if old != SHEET and old not in [picture_of(name) for name in names]:
+            old.unlink()
+    if wanted != ["--page"]:
+        write_sheet(names)
+    sheet = SHEET.relative_to(ROOT).as_posix()
+    made[sheet] = pictures.Picture(sheet, pictures.sha_of(SHEET), pictures.NONE, pictures.NONE, "all of docs/gallery")
+    write_page(names, texts)
+    pictures.write_list(made)
     total = sum(p.stat().st_size for p in GALLERY.iterdir())
     print(f"{len(names)} scenes, {total / 1e6:.1f} MB in docs/gallery", file=sys.stderr)
 

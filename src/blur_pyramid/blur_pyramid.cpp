@@ -12,11 +12,13 @@
 namespace rainref::blur_pyramid {
 
 std::vector<scene::Parameter> blur_parameters(const std::string& prefix) {
+  const BlurSettings standard;
   const auto key = [&](const char* name) { return prefix + "." + name; };
   return {
-      scene::integer(key("blur_levels"), "1", 1, Texture::max_levels, 6, "Levels of the blurred scene, the sharp one included."),
-      scene::real(key("fog_density"), "1/m", 0, 10, 0.01, "Extinction of light in the air in front of the scene."),
-      scene::real3(key("fog_colour"), "1", 0, 1000, {0.02, 0.025, 0.03}, "Linear radiance of the fog."),
+      scene::integer(key("blur_levels"), "1", 1, Texture::max_levels, standard.levels,
+                     "Levels of the blurred scene, the sharp one included."),
+      scene::real(key("fog_density"), "1/m", 0, 10, standard.fog_density, "Extinction of light in the air in front of the scene."),
+      scene::real3(key("fog_colour"), "1", 0, 1000, standard.fog_colour, "Linear radiance of the fog."),
   };
 }
 BlurSettings blur_settings(const scene::Config& config, const std::string& prefix, Rounding rounding) {

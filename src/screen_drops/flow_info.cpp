@@ -30,12 +30,13 @@ std::vector<Parameter> flow_parameters(const std::string& prefix) {
   // As wide to high as most screens.
   std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.key == key("height_size"); })->default_value =
       Integer2{1024, 576};
-  append(all, {integer(key("substeps"), "1", 1, 64, 1, "Steps of the drops in a frame.").only(correct),
-               real(key("warm_up"), "s", 0, 3600, 0, "Time that it has rained onto the pane before frame 0.").only(correct),
-               real("rain.wind", "m/s", 0, 100, 2,
+  const FlowSettings standard;
+  append(all, {integer(key("substeps"), "1", 1, 64, standard.substeps, "Steps of the drops in a frame.").only(correct),
+               real(key("warm_up"), "s", 0, 3600, standard.warm_up, "Time that it has rained onto the pane before frame 0.").only(correct),
+               real("rain.wind", "m/s", 0, 100, standard.wind,
                     "Wind that drives the rain onto the pane; rain that falls straight misses upright glass. 2 m/s is a light breeze.")
                    .only(correct),
-               real("world.gravity", "m/s^2", 0, 100, standard_gravity, "Acceleration of gravity.").only(correct)});
+               real("world.gravity", "m/s^2", 0, 100, standard.gravity, "Acceleration of gravity.").only(correct)});
   return all;
 }
 

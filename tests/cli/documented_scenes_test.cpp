@@ -49,10 +49,10 @@ TEST_F(DocumentedScenes, EveryEffectReadsTheListedPictures) {
   for (const char* kind : {"EXR", "Radiance HDR", "PNG", "JPEG", "NPY"})
     EXPECT_LT(document.find(kind, section), document.find("\n## ", section + 1)) << kind;
   put(folder / "photo.jpg", image_io::jpeg(3));  // 24x16, as depth.npy
-  const std::vector<std::string> scenes{"effect=puddle\nenvironment.image=photo.jpg", "effect=windshield\nscene.image=photo.jpg",
-                                        "effect=edge_splash\nscene.source=files\nscene.image=photo.jpg\nscene.depth_image=depth.npy",
-                                        "effect=screen_drops\nscene.image=photo.jpg",
-                                        "effect=rainy_glass\nscene.image=photo.jpg\nscene.depth_image=depth.npy"};
+  const std::vector<std::string> scenes{
+      "effect=puddle\nenvironment.image=photo.jpg", "effect=windshield\nscene.image=photo.jpg",
+      "effect=edge_splash\nscene.source=files\nscene.image=photo.jpg\nscene.depth_image=depth.npy\nscene.depth_encoding=metres",
+      "effect=screen_drops\nscene.image=photo.jpg", "effect=rainy_glass\nscene.image=photo.jpg\nscene.depth_image=depth.npy"};
   for (const std::string& scene : scenes) {
     std::vector<std::string> words{"hash", "photo.toml", "--frames", "1", "--set", "run.size=[24, 16]"};
     std::string text;

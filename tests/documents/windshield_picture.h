@@ -279,7 +279,7 @@ normals           k = 1 − mask here;  ∂x = height₊ₓ − height₋ₓ, �
        {{document,
          R"(blur_pyramid      level 0: mix(fog_colour, colour, exp(−(fog_density · max(depth, 0))));  else ¼ of the sum of 2 × 2 texels from (2x, 2y)
 blur_pyramid      level 0 as above;  else B(0) + w₁ (B(1) − B(0)) + w₂ (B(2) − B(0)), w₁ = middle, w₂ = last · (x + 1), of texels from 2x on, mirrored at
-                  the edges:  B(i) = (⅜ tᵢ + ¼ (tᵢ₋₁ + tᵢ₊₁)) + 1/16 (tᵢ₋₂ + tᵢ₊₂);  in each of seven columns over rows first, then over them)"}}},
+                  the edges (−1 is 0, −2 is 1):  B(i) = (⅜ tᵢ + ¼ (tᵢ₋₁ + tᵢ₊₁)) + 1/16 (tᵢ₋₂ + tᵢ₊₂);  in each of seven columns over rows first, then over them)"}}},
       {{"windshield-as-published"},
        "composite",
        "linear visibility",

@@ -44,6 +44,18 @@ TEST(Examples, EachEditOfEachMutantAppliesOnceAndChangesTheFile) {
   }
   EXPECT_GE(edits, 480u);
 }
+// docs/notes/devices.md says how many passes of each effect ran there.
+TEST(Examples, AreAsManyAsTheNoteOfDevicesSays) {
+  const std::string note = contents(source + "/docs/notes/devices.md");
+  for (const char* effect : {"windshield", "edge_splash", "screen_drops", "rainy_glass"}) {
+    std::set<std::string> passes;
+    const nlohmann::json programs = port_runner::parse_json(examples + "/" + effect + "/bindings.json").at("programs");
+    for (const auto& [formula, program] : programs.items()) passes.insert(formula.substr(0, formula.find('/')));
+    const std::string words = std::string(effect) + " " + std::to_string(passes.size());
+    EXPECT_NE(note.find(words), std::string::npos) << "expected '" << words << "'";
+  }
+}
+
 // scripts/full/port_mistakes judges them. Two sets, so that what is improved with one can be measured with the other.
 TEST(Examples, EachSetOfMistakesIsOfEveryPassAndItsEditsApply) {
   using Pass = std::string;  // "puddle.display.corrected"
