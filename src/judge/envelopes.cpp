@@ -86,6 +86,7 @@ class CaseJudge {
     Stored stored;
     std::vector<CodeRange> ranges, nearest, other_ranges;
     std::vector<char> vacuous;        ///< of each value
+    bool is_open = false;             ///< some alternative leaves a value without a bound
     SecondTier second, other_second;  ///< by the profile, and by what known devices do
 
     std::optional<Beyond> coarse;  ///< where devices are known
@@ -139,6 +140,7 @@ class CaseJudge {
   };
   Choice choose(Scratch& s, HalfMode mode) const {
     Choice c;
+    s.is_open = s.alternatives.gave_up;
     if (s.alternatives.gave_up) return c;
     std::uint64_t nearest_distance = ~std::uint64_t{0};
     for (int a = 0; a < s.alternatives.count; ++a) {
@@ -148,6 +150,7 @@ class CaseJudge {
       std::uint64_t far = 0;
       for (std::size_t v = 0; v < slots_.size(); ++v) {
         if (s.stored.free[v]) continue;
+        s.is_open |= bound_of(slots_[v], values[v], s.ranges[v]).vacuous;
         far = std::max(far, distance(s.stored.got[v], s.ranges[v]));
         enclosed::StoreRules own = rules_of(*options_.profile, slots_[v].store_rounding == Rounding::rne ? HalfMode::rne : HalfMode::rtz,
                                             slots_[v].store_rounding);
@@ -197,6 +200,7 @@ class CaseJudge {
         continue;
       }
       differs |= different;
+      out.open += s.is_open;
       Bound bound{true, true};
       if (!s.alternatives.gave_up) {
         bound = bound_of(slot, s.alternatives.values[static_cast<std::size_t>(shown)][v], s.ranges[v]);
@@ -314,13 +318,13 @@ class CaseJudge {
           best >= 0 && !bound_of(slots_[v], s.others.values[static_cast<std::size_t>(best)][v], s.other_ranges[v]).vacuous;
       if (best >= 0 && !s.other_ranges[v].contains(s.stored.got[v]) && (s.vacuous[v] || !is_rearranged)) {
         ++out.atypical;
-        is_atypical |= s.vacuous[v] != 0;
+        is_atypical = true;
         mark(whole, slots_[v].output, x, y, 2);
       } else if (s.vacuous[v]) {
         ++(is_bounded ? out.typical : out.unbounded);
       }
     }
-    if (!is_atypical || !s.coarse || !s.coarse->finds(x, y, s.stored, s.vacuous, mode)) return;
+    if (!is_atypical || !s.is_open || !s.coarse || !s.coarse->finds(x, y, s.stored, mode)) return;
     ++counts.beyond;
     for (std::size_t v = 0; v < slots_.size(); ++v) {
       if (!s.coarse->is_beyond(v)) continue;
@@ -336,9 +340,9 @@ class CaseJudge {
 
   /// Lets what is beyond every device fail where there is much of it; else it stays a warning.
   void settle_beyond(CaseJudgement& j, std::vector<Widths>& widths, const std::vector<Part::Gross>& beyond) const {
-    std::int64_t count = 0, vacuous = 0;
-    for (const OutputJudgement& o : j.outputs) count += o.beyond, vacuous += o.vacuous;
-    const bool fails = is_gross(count, vacuous);
+    std::int64_t count = 0, open = 0;
+    for (const OutputJudgement& o : j.outputs) count += o.beyond, open += o.open;
+    const bool fails = is_gross(count, open);
     if (fails)
       j.failing += j.beyond;
     else
@@ -372,7 +376,7 @@ class CaseJudge {
       const OutputJudgement& from = part.counts.outputs[o];
       for (auto counter : {&OutputJudgement::elements, &OutputJudgement::failing, &OutputJudgement::differing, &OutputJudgement::vacuous,
                            &OutputJudgement::loose, &OutputJudgement::atypical, &OutputJudgement::typical, &OutputJudgement::unbounded,
-                           &OutputJudgement::rearranged, &OutputJudgement::free, &OutputJudgement::beyond})
+                           &OutputJudgement::rearranged, &OutputJudgement::free, &OutputJudgement::open, &OutputJudgement::beyond})
         to.*counter += from.*counter;
       to.worst.insert(to.worst.end(), from.worst.begin(), from.worst.end());
       keep_worst(to.worst);

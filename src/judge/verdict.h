@@ -79,7 +79,8 @@ struct OutputJudgement {
   std::int64_t vacuous = 0;                ///< envelope wider than 1/16 of the declared range; of a record's field of its own
   std::int64_t loose = 0;                  ///< wider than 1/256
   std::int64_t atypical = 0;               ///< inside the profile, as far as it bounds them, but outside what known devices do
-  std::int64_t beyond = 0;                 ///< of the vacuous: outside what the coarsest device may do (judge/beyond.h)
+  std::int64_t open = 0;                   ///< of invocations that the profile leaves without a bound in some alternative
+  std::int64_t beyond = 0;                 ///< of these: outside what the coarsest device may do (judge/beyond.h)
   std::int64_t typical = 0;                ///< of the vacuous: inside what known devices do, which bounds them
   std::int64_t unbounded = 0;              ///< of the vacuous: not bounded by that either, or not judged by it
   std::int64_t rearranged = 0;             ///< outside the formula as written, inside the rearrangements that the profile allows

@@ -249,7 +249,7 @@ struct Squares {
   }
 };
 TEST(RearrangedPort, AProductOfSumsMultipliedOutFailsAndSaysSo) {
-  Squares squares(3.1f, 1.4f);
+  Squares squares(3.1f, 2.6f);
   const CaseJudgement j = squares.judged(enclosed::Rearrangement::distributed);
   EXPECT_GT(j.failing, 5);
   EXPECT_EQ(j.expanded, j.failing);
