@@ -1,6 +1,5 @@
 #include "cache/kept_images.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,6 +14,7 @@
 
 #include "base/hash.h"
 #include "base/hidden.h"
+#include "cache/own_file.h"
 #include "cache/program.h"
 #include "cache/remembered.h"
 #include "image/flipped.h"
@@ -74,48 +74,6 @@ Head head_of(const std::string& recipe, const std::vector<Image>& images) {
   return head;
 }
 
-/// A file that is read from the front, its bytes hashed. One that another user owns or may write was not written by this program: its hash
-/// proves nothing, for anybody can make one. That makes the folder's rights of no account.
-class Reader {
- public:
-  explicit Reader(const fs::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {
-    struct stat status {};
-    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) return;
-    is_own_ = S_ISREG(status.st_mode) && status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
-    left_ = static_cast<std::uintmax_t>(status.st_size);
-  }
-  ~Reader() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-  bool is_own() const { return is_own_; }
-  std::uintmax_t left() const { return left_; }
-  bool read(std::span<std::byte> to) {
-    if (to.size() > left_) return false;
-    for (std::size_t done = 0; done < to.size();) {
-      const ssize_t count = ::read(descriptor_, to.data() + done, to.size() - done);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return false;
-      done += static_cast<std::size_t>(count);
-    }
-    hasher_->add(to);
-    left_ -= to.size();
-    return true;
-  }
-  template <class T>
-  bool read(T& x) {
-    return read(std::as_writable_bytes(std::span(&x, 1)));
-  }
-  void hash_from_here() { hasher_.emplace(0); }
-  Hash128 hash() const { return hasher_->finish(); }
-
- private:
-  int descriptor_;
-  bool is_own_ = false;
-  std::uintmax_t left_ = 0;
-  std::optional<Hasher> hasher_{std::in_place, 0};
-};
 /// To touch memory for the first time takes longer than to read a file into it, and any number of threads may.
 void touch(Image& image, const Rows& rows) {
   constexpr std::size_t page = 4096;  // at the least
@@ -131,7 +89,7 @@ bool has(const ImageHead& image, const Shape& shape) {
 /// None where it is not this user's, not of this recipe, not of these shapes, or not whole.
 std::optional<std::vector<Image>> read(const fs::path& path, const std::string& recipe, const std::vector<Shape>& shapes,
                                        const Rows& rows) {
-  Reader file(path);
+  OwnFile file(path);
   Head head;
   if (!file.is_own() || !file.read(head) || std::memcmp(head.magic, magic, sizeof magic) != 0 || head.recipe_bytes != recipe.size())
     return {};

@@ -118,7 +118,7 @@ TEST_F(PlanText, ACellDoesNotHangOnTheOneBefore) {
   EXPECT_EQ(ids("verb='hash'\nscene='a.toml'\nframes=2\n[set]\nseed=2\n").at(0), variants.at(3));
   EXPECT_EQ(ids("verb='hash'\nscene='b.toml'\nframes=2\n[set]\nseed=2\n").at(0), variants.at(1));
   // Zero with a sign is another text, and so another cell.
-  EXPECT_EQ(ids("verb='hash'\nscene='b.toml'\n[axes]\n'world.wind_speed'=[0.0, -0.0]\n").size(), 2u);
+  EXPECT_EQ(ids("verb='hash'\nscene='b.toml'\n[axes]\n'world.wind'=[[0.0, 0.0, 0.0], [-0.0, 0.0, 0.0]]\n").size(), 2u);
 }
 
 // What a scene refuses is said of the plan's line, before anything starts.
@@ -142,7 +142,7 @@ TEST_F(PlanText, EveryCellIsChecked) {
   EXPECT_EQ(refusal(head + "[axes]\n'rain.rate' = [1, 1.0]\n"),
             "2 plan.toml: two cells are the same: scene a.toml, rain.rate 1; and scene a.toml, rain.rate 1.0");
   EXPECT_THAT(refusal(head + "[axes]\nseed = {from = 1, count = 1000000}\n'rain.rate' = {from = 1, to = 2, count = 1000000}\n"),
-              HasSubstr("plan.toml:5:1: axes: expected at most 1000000 cells, found 1000000000000"));
+              HasSubstr("plan.toml:5:16: axes: expected at most 1000000 cells, found 1000000000000"));
   put(folder / "cases.csv", "rain.rate\n1\n2\n3\n");
   EXPECT_THAT(refusal(head + "[axes]\nseed = {from = 1, count = 400000}\ncases = 'cases.csv'\n"),
               HasSubstr("cases.csv:4: expected at most 2 cases, for a plan has at most 1000000 cells, found more"));

@@ -99,7 +99,7 @@ TEST_F(Tables, ARecordOfTheWrongShapeIsADamagedCell) {
             "files[0].bytes: expected a whole number from 0 to 9223372036854775807, found -1");
   EXPECT_EQ(forged([](auto& j) { j["files"][0]["path"] = "../../../precious"; }),
             "files[0].path: expected a path in the cell's folder, found \"../../../precious\"");
-  EXPECT_EQ(forged([](auto& j) { j["files"].push_back(j["files"][0]); }), "files[2]: 'hashes.txt' is there twice");
+  EXPECT_EQ(forged([](auto& j) { j["files"].push_back(j["files"][0]); }), "files[2]: 'picture.000029.png' is there twice");
   EXPECT_EQ(forged([](auto& j) { j["verdict"] = 3; }), "verdict: expected a text, found 3");
   EXPECT_EQ(forged([](auto& j) { j["last_frame"].push_back(3); }).substr(0, 11), "last_frame[");
   EXPECT_EQ(forged([](auto& j) { j["last_frame"].push_back(j["last_frame"][0]); }).substr(0, 11), "last_frame[");
