@@ -41,9 +41,9 @@ TEST_F(LayerRecipe, TheDropsOverTheirBackgroundAreThePicture) {
     const std::string effect = scene.substr(10, scene.find('\n') - 11);
     put(folder / "layer.toml",
         "variant = 'corrected'\nrun.frames = 20\nrun.size = [96, 64]\nscene.image = 'lamps.npy'\npicture.layer = true\n" + scene);
-    const Outcome o = rainref({"run", "layer.toml", "-o", "out", "--image", "exr"});
+    const Outcome o = rainref({"run", "layer.toml", "-o", effect, "--image", "exr"});
     ASSERT_EQ(o.code, 0) << o.err;
-    std::filesystem::copy_file(folder / fmt::format("out/{}.0019.exr", effect), folder / "frame.exr",
+    std::filesystem::copy_file(folder / fmt::format("{0}/{0}.0019.exr", effect), folder / "frame.exr",
                                std::filesystem::copy_options::overwrite_existing);
     const auto run = [&](const std::string& line) {
       return std::system(fmt::format("cd '{}' && {} >/dev/null", folder.path().string(), line).c_str());

@@ -137,7 +137,10 @@ TEST_F(PictureNotes, OtherPicturesAreNoScenes) {
 TEST_F(PictureNotes, ANoteThatNamesAFileWithAFolderIsRefused) {
   const auto put_note = [&](const std::string& line) {
     const std::string scene = "effect = \"windshield\"\nvariant = \"corrected\"\nrun.frames = 1\n" + line + "\n";
-    put(folder / "s.png", image_io::png(1, 1, 8, 2, {"abc"}, image_io::png_chunk("tEXt", std::string("rainref:scene\0", 14) + scene)));
+    const std::string generation = std::string("rainref:golden_generation\0", 26) + std::to_string(golden_generation);
+    put(folder / "s.png",
+        image_io::png(1, 1, 8, 2, {"abc"},
+                      image_io::png_chunk("tEXt", generation) + image_io::png_chunk("tEXt", std::string("rainref:scene\0", 14) + scene)));
     before = folder.names();
   };
   std::filesystem::create_directory(folder / "sub");

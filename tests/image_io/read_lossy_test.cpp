@@ -47,7 +47,7 @@ TEST(ReadHdr, OtherLinesChangeNothing) {
   for (const char* lines : {"EXPOSURE=1\n", "EXPOSURE=4\nEXPOSURE=0.25\n", "# EXPOSURE=2\n", "\tEXPOSURE=2\n", "VIEW= -vtv\n"})
     EXPECT_EQ(read_with(lines).decoded_hash, plain.decoded_hash) << lines;
   // Behind the header there are pixels.
-  const std::string bytes = hdr(4, 1, {{'\n', 'E', 'X', 'P'}, {'O', 'S', 'U', 'R'}, {'E', '=', '2', '\n'}, {1, 1, 1, 129}});
+  const std::string bytes = hdr(4, 1, {{'\n', 'E', 'X', 'P'}, {'O', 'S', 'U', 'R'}, {'E', '=', '2', '\n'}, {2, 2, 2, 129}});
   EXPECT_THAT(read_bytes(bytes).remarks, testing::ElementsAre());
 }
 TEST(ReadHdr, AHeaderMayEndAnywhere) {
