@@ -52,6 +52,18 @@ Hash128 scene_hash(const scene::Config& config, const effect::Inputs& inputs) {
   return hasher.finish();
 }
 
+/// Throws where a file's name in the scene has a folder: rainref writes none, so that somebody else wrote this one, to have a file opened
+/// that he may not read himself.
+void refuse_folders(const std::string& scene, const std::string& picture) {
+  for (const scene::RawEntry& e : scene::read_toml(scene, picture)) {
+    const auto* text = std::get_if<std::string>(&e.value.data);
+    if (!text || std::filesystem::path(*text).filename() == *text) continue;
+    throw Error(ExitCode::usage,
+                fmt::format("'{}': {}: expected the name of a file beside the picture, as rainref writes it there, found {}", picture,
+                            e.key, e.value.text()));
+  }
+}
+
 }  // namespace
 
 std::string inputs_text(const effect::Inputs& inputs) {
@@ -85,6 +97,7 @@ std::optional<SceneOfPicture> scene_of_picture(const std::filesystem::path& file
     throw Error(
         ExitCode::usage,
         fmt::format("{}: expected a scene, or a picture with the scene in it as rainref writes them; found a picture without", name));
+  refuse_folders(*scene, file.string());
   return SceneOfPicture{std::move(*scene), image_io::find_note(name, bytes, generation_key).value_or("")};
 }
 

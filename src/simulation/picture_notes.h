@@ -22,7 +22,7 @@ image_io::Notes picture_notes(const scene::Config& config, const effect::Inputs&
 std::string inputs_text(const effect::Inputs& inputs);
 
 /// The scene of a PNG or EXR file that rainref wrote, and the golden generation that it says; nothing where the file is neither.
-/// Throws Error(usage) where the file has no such note or is damaged, Error(io) where it cannot be read.
+/// Throws Error(usage) where the file has no such note, is damaged, or names a file with a folder, Error(io) where it cannot be read.
 struct SceneOfPicture {
   std::string toml, golden_generation;
 };

@@ -133,6 +133,39 @@ TEST_F(PictureNotes, OtherPicturesAreNoScenes) {
   expect_refusal({"run", "damaged.png", "-o", "new"}, 2, "'damaged.png': damaged: the checksum of its text 'rainref:scene' is wrong");
 }
 
+// It would be opened with the rights of whoever looks at a stranger's picture, and its first line stand in the message.
+TEST_F(PictureNotes, ANoteThatNamesAFileWithAFolderIsRefused) {
+  const auto put_note = [&](const std::string& line) {
+    const std::string scene = "effect = \"windshield\"\nvariant = \"corrected\"\nrun.frames = 1\n" + line + "\n";
+    const std::string generation = std::string("rainref:golden_generation\0", 26) + std::to_string(golden_generation);
+    put(folder / "s.png",
+        image_io::png(1, 1, 8, 2, {"abc"},
+                      image_io::png_chunk("tEXt", generation) + image_io::png_chunk("tEXt", std::string("rainref:scene\0", 14) + scene)));
+    before = folder.names();
+  };
+  std::filesystem::create_directory(folder / "sub");
+  for (const char* file : {"secret.csv", "sub/secret.csv"}) put(folder / file, "a line that nobody else may read\n");
+  for (const char* key : {"vehicle.drive_cycle", "scene.image", "scene.depth_image", "no.such.key"}) {
+    for (const std::string& name :
+         {std::string("/etc/hostname"), std::string("../secret.csv"), std::string("sub/secret.csv"), (folder / "secret.csv").string()}) {
+      put_note(fmt::format("{} = \"{}\"", key, name));
+      const auto refused = AllOf(
+          HasSubstr(fmt::format("s.png': {}: expected the name of a file beside the picture, as rainref writes it there, found", key)),
+          Not(HasSubstr("nobody else")));
+      expect_refusal({"hash", "s.png"}, 2, refused);
+      expect_refusal({"run", "s.png", "-o", "new"}, 2, refused);
+      expect_refusal({"pack", "s.png", "-o", "new", "--passes", "display", "--at", "0"}, 2, refused);
+    }
+  }
+  put_note("scene.image = \"/etc/hostname\"");
+  put(folder / "plan.toml", "verb = \"hash\"\nscene = \"s.png\"\n[axes]\nseed = [1, 2]\n");
+  before = folder.names();
+  expect_refusal({"sweep", "plan", "plan.toml"}, 2, HasSubstr("scene.image: expected the name of a file beside the picture"));
+  // Who asks for a file himself gets it.
+  put_note("vehicle.drive_cycle = \"secret.csv\"");
+  expect_refusal({"hash", "s.png", "--set", "vehicle.drive_cycle=sub/secret.csv"}, 2, HasSubstr("sub/secret.csv"));
+}
+
 TEST_F(PictureNotes, AnotherGenerationIsSaid) {
   std::string scene("rainref:scene\0", 14);
   scene += contents(folder / "corrected.toml");
