@@ -145,6 +145,7 @@ nlohmann::ordered_json summary(const scene::Config& config, const std::vector<ef
     nlohmann::ordered_json input{{"key", f.key}, {"file", f.path}};
     if (f.count > 0) input.update({{"first", f.first}, {"count", f.count}});
     input.update({{f.count > 0 ? "files_hash" : "decoded_hash", f.hash}, {"lossy", f.lossy}});
+    if (!f.channel.empty()) input["channel"] = f.channel;
     out["inputs"].push_back(input);
   }
   out["simd"] = selected_simd_target();

@@ -80,6 +80,7 @@ scene::Config load_scene(const SceneOptions& options) {
 
 simulation::Opened open_scene(const scene::Config& config, const parallel::Executor& executor) {
   simulation::Opened opened(config, executor);
+  for (const std::string& note : opened.inputs().notes) complain("note: " + note);
   for (const std::string& warning : opened.inputs().warnings) complain("warning: " + warning);
   return opened;
 }

@@ -18,7 +18,7 @@ std::vector<std::string> known_scenes();
 /// nearest scene that is into the message.
 scene::Config load_scene(const SceneOptions& options);
 
-/// The scene, ready to run; what is doubtful about its files is said on standard error.
+/// The scene, ready to run; what is doubtful about its files, and what was chosen in reading them, is said on standard error.
 simulation::Opened open_scene(const scene::Config& config, const parallel::Executor& executor);
 
 }  // namespace rainref::cli

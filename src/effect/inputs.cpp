@@ -20,6 +20,13 @@ bool names_files(std::string_view key) {
   return last.ends_with("image") || last == "panorama" || last == "drive_cycle";
 }
 
+image_io::Content content_of(std::string_view key) {
+  const std::string_view last = key.substr(key.rfind('.') + 1);
+  if (last == "depth_image") return image_io::Content::depth;
+  const bool is_quantity = last == "layer_image" || last == "noise_image" || last == "shelter_image";
+  return is_quantity ? image_io::Content::quantity : image_io::Content::colour;
+}
+
 NamedFile::NamedFile(const scene::Config& config, const std::string& of)
     : key(of), name(config.text(of)), origin(config.entry(of).origin), directory(config.directory()) {}
 
@@ -42,7 +49,16 @@ std::string stand_of(const std::filesystem::path& path) {
 }
 
 image_io::Picture copy_of(const image_io::Picture& p) {
-  return {rainref::copy_of(p.image), p.channel_names, p.srgb_encoded, p.lossy, p.compression, p.decoded_hash, p.file_width, p.file_height};
+  return {rainref::copy_of(p.image),
+          p.channel_names,
+          p.srgb_encoded,
+          p.lossy,
+          p.compression,
+          p.decoded_hash,
+          p.file_width,
+          p.file_height,
+          p.taken,
+          p.remarks};
 }
 
 }  // namespace
@@ -50,10 +66,12 @@ image_io::Picture copy_of(const image_io::Picture& p) {
 image_io::Picture read_picture(const NamedFile& named, const std::string& file) {
   static cache::Remembered<image_io::Picture>& remembered = *new cache::Remembered<image_io::Picture>;
   const std::filesystem::path path = named.path_of(file);
+  const image_io::Content content = content_of(named.key);
   try {
-    const std::string stand = cache::remembered_bytes() > 0 ? stand_of(path) : "";
+    std::string stand = cache::remembered_bytes() > 0 ? stand_of(path) : "";
+    if (!stand.empty()) stand += fmt::format(" {}", static_cast<int>(content));
     if (const auto known = remembered.find(stand)) return copy_of(*known);
-    image_io::Picture picture = is_npy(path) ? read_npy(path) : image_io::read(path);
+    image_io::Picture picture = is_npy(path) ? read_npy(path, content) : image_io::read(path, {}, content);
     const Image& image = picture.image;
     if (!stand.empty()) {
       remembered.keep(stand, std::make_shared<image_io::Picture>(copy_of(picture)),
@@ -67,8 +85,13 @@ image_io::Picture read_picture(const NamedFile& named, const std::string& file) 
 image_io::Picture read_input(const scene::Config& config, const std::string& key, Inputs& inputs) {
   const NamedFile named(config, key);
   image_io::Picture picture = read_picture(named, named.name);
-  inputs.files.push_back({key, named.name, picture.decoded_hash.text(), picture.lossy});
+  add_input(named, picture, {key, named.name, picture.decoded_hash.text(), picture.lossy}, inputs);
   return picture;
+}
+void add_input(const NamedFile& named, const image_io::Picture& picture, InputFile file, Inputs& inputs) {
+  file.channel = picture.taken;
+  for (const std::string& remark : picture.remarks) inputs.notes.push_back(fmt::format("{}: '{}': {}", named.key, file.path, remark));
+  inputs.files.push_back(std::move(file));
 }
 
 void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why) {

@@ -18,15 +18,19 @@ struct InputFile {
   std::string key, path, hash;
   bool lossy;
   std::int64_t first = 0, count = 0;  ///< of a sequence: the number of the first file, and how many there are; 0: a single file
+  std::string channel = {};           ///< of one quantity: the file's channel that was taken
 };
-/// All of them, and what is doubtful about them, a sentence each.
+/// All of them, and a sentence each about what is doubtful about them, and about what was chosen in reading them.
 struct Inputs {
   std::vector<InputFile> files;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, notes;
 };
 
 /// Whether the value of this key names files: its last part ends in "image", or is "panorama" or "drive_cycle".
 bool names_files(std::string_view key);
+
+/// What the picture files of a key are read for.
+image_io::Content content_of(std::string_view key);
 
 /// A key whose value names files: what reading one of them takes of the scene.
 struct NamedFile {
@@ -47,6 +51,8 @@ struct NamedFile {
 image_io::Picture read_input(const scene::Config& config, const std::string& key, Inputs& inputs);
 /// A picture file of that key, decoded.
 image_io::Picture read_picture(const NamedFile& named, const std::string& file);
+/// Adds the file, or the sequence of them that `file` says, with what was chosen in reading it.
+void add_input(const NamedFile& named, const image_io::Picture& picture, InputFile file, Inputs& inputs);
 
 /// Throws Error(usage) where `key` names a file although the value of the key `why` leaves no use for it.
 void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why);

@@ -12,6 +12,7 @@
 #include "base/read_file.h"
 #include "capture/hashing.h"
 #include "capture/npy_read.h"
+#include "image_io/quantity.h"
 #include "math/half.h"
 #include "math/unorm.h"
 #include "rainref/error.h"
@@ -28,9 +29,16 @@ float number(T stored) {
   else
     return to_float(stored);
 }
+struct Array {
+  capture::NpyHeader header;
+  std::size_t channels;
+  int width, height;
+};
 /// Grey is replicated; an absent alpha is `one`.
 template <class T>
-Image four_channels(const std::byte* from, int width, int height, std::size_t channels, Format format, T one, const std::string& file) {
+Image four_channels(const Array& array, const std::byte* from, Format format, T one, const std::string& file, image_io::Content content) {
+  const int width = array.width, height = array.height;
+  const std::size_t channels = array.channels;
   Image image(format, width, height);
   std::array<T, 4> texel{one, one, one, one};
   for (int y = 0; y < height; ++y) {
@@ -38,7 +46,7 @@ Image four_channels(const std::byte* from, int width, int height, std::size_t ch
       std::memcpy(texel.data(), from, channels * sizeof(T));
       for (std::size_t c = 0; c < channels; ++c) {
         const float value = number(texel[c]);
-        if (!(value - value == 0))
+        if (!(value - value == 0) && !(content == image_io::Content::depth && value > 0))
           throw Error(ExitCode::usage,
                       fmt::format("'{}': {} at x {}, y {} (from the top), channel {}", file, value != value ? "NaN" : "infinity", x, y, c));
       }
@@ -49,11 +57,6 @@ Image four_channels(const std::byte* from, int width, int height, std::size_t ch
   return image;
 }
 
-struct Array {
-  capture::NpyHeader header;
-  std::size_t channels;
-  int width, height;
-};
 Array array_of(const std::string& file, std::span<const std::byte> bytes) {
   capture::NpyHeader header;
   try {
@@ -75,7 +78,7 @@ Array array_of(const std::string& file, std::span<const std::byte> bytes) {
   const int width = static_cast<int>(shape[1]), height = static_cast<int>(shape[0]);
   return {std::move(header), channels, width, height};
 }
-image_io::Picture described(const Array& a) {
+image_io::Picture described(const Array& a, image_io::Content content) {
   image_io::Picture out;
   out.channel_names = a.channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
   if (a.channels == 4) out.channel_names.push_back("A");
@@ -83,6 +86,7 @@ image_io::Picture described(const Array& a) {
   out.compression = "none";
   out.file_width = a.width;
   out.file_height = a.height;
+  if (content != image_io::Content::colour) out.taken = out.channel_names.front();
   return out;
 }
 
@@ -96,22 +100,24 @@ bool is_npy(const std::filesystem::path& path) {
   return std::memcmp(start.data(), "\x93NUMPY", start.size()) == 0;
 }
 
-image_io::Picture inspect_npy(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  return described(array_of(path.string(), bytes));
+image_io::Picture inspect_npy(const std::filesystem::path& path, std::span<const std::byte> bytes, image_io::Content content) {
+  return described(array_of(path.string(), bytes), content);
 }
 
-image_io::Picture read_npy(const std::filesystem::path& path) {
+image_io::Picture read_npy(const std::filesystem::path& path, image_io::Content content) {
   const std::string file = path.string();
   const std::vector<std::byte> bytes = read_file(path);
   const Array array = array_of(file, bytes);
   const std::byte* from = bytes.data() + array.header.data_offset;
-  image_io::Picture out = described(array);
+  image_io::Picture out = described(array, content);
   if (array.header.type == "<f4")
-    out.image = four_channels(from, array.width, array.height, array.channels, Format::rgba32f, 1.0f, file);
+    out.image = four_channels(array, from, Format::rgba32f, 1.0f, file, content);
   else if (array.header.type == "<f2")
-    out.image = four_channels(from, array.width, array.height, array.channels, Format::rgba16f, to_half(1.0f), file);
+    out.image = four_channels(array, from, Format::rgba16f, to_half(1.0f), file, content);
   else
-    out.image = four_channels(from, array.width, array.height, array.channels, Format::rgba8, Unorm8{255}, file);
+    out.image = four_channels(array, from, Format::rgba8, Unorm8{255}, file, content);
+  if (content != image_io::Content::colour && array.channels > 1)
+    image_io::require_alike(fmt::format("'{}'", file), out.image, {"R", "G", "B"});
   out.decoded_hash = capture::hash_of(BufferView(out.image));
   return out;
 }

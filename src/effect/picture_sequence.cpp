@@ -123,6 +123,7 @@ std::string PictureSource::file_of(std::int64_t picture) const { return numbered
 
 void PictureSource::look_at_files(Inputs& inputs) const {
   Hasher hasher(0);
+  const image_io::Content content = content_of(named_.key);
   image_io::Picture first;
   bool is_lossy = false;
   for (std::int64_t k = 0; k < count_; ++k) {
@@ -132,7 +133,7 @@ void PictureSource::look_at_files(Inputs& inputs) const {
     try {
       const std::vector<std::byte> bytes = read_file(path);
       hasher.add(file_hash(bytes).text());
-      picture = is_npy(path) ? inspect_npy(path, bytes) : image_io::inspect(path, bytes);
+      picture = is_npy(path) ? inspect_npy(path, bytes, content) : image_io::inspect(path, bytes, content);
     } catch (const Error& e) {
       throw named_.placed(e.code(), e.what());
     }
@@ -151,7 +152,7 @@ void PictureSource::look_at_files(Inputs& inputs) const {
                                       file_of(0), fmt::join(picture.channel_names, " ")));
     }
   }
-  inputs.files.push_back({named_.key, named_.name, hasher.finish().text(), is_lossy, first_, count_});
+  add_input(named_, first, {named_.key, named_.name, hasher.finish().text(), is_lossy, first_, count_}, inputs);
 }
 
 void PictureSource::require_frames(int frames) const {
@@ -176,7 +177,7 @@ std::int64_t PictureSource::shown_in(int frame) const {
 
 image_io::Picture PictureSource::read(std::int64_t picture, Inputs& inputs) const {
   image_io::Picture read = read_picture(named_, is_sequence() ? file_of(picture) : named_.name);
-  if (!is_sequence()) inputs.files.push_back({named_.key, named_.name, read.decoded_hash.text(), read.lossy});
+  if (!is_sequence()) add_input(named_, read, {named_.key, named_.name, read.decoded_hash.text(), read.lossy}, inputs);
   return read;
 }
 

@@ -95,7 +95,8 @@ std::string one_line(std::string reason) {
   return reason.empty() ? "damaged or incomplete" : reason;
 }
 
-Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer, Texels texels) try {
+Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer, Content content,
+               Texels texels) try {
   if (kind == FileKind::png && !png_is_whole(bytes)) refuse(file, "truncated: the end mark of the PNG is missing");
   const auto reader = codec().open(format_name(kind), bytes);
   if (!reader) refuse(file, fmt::format("this OpenImageIO cannot read {} from memory", format_name(kind)));
@@ -110,7 +111,8 @@ Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> 
   out.declared_linear = is_linear(spec.colour_space);
 
   // Channels are read from the first wanted to the last: a file may have a thousand others.
-  const ChannelPick pick = pick_channels(file, out.channel_names, layer);
+  const ChannelPick pick = content == Content::colour ? pick_channels(file, out.channel_names, layer)
+                                                      : pick_quantity(file, out.channel_names, content == Content::depth);
   std::size_t first = spec.channels.size(), end = 0;
   for (const int c : pick.source) {
     if (c < 0) continue;

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "image_io/channels.h"
+
 namespace rainref::image_io {
 
 enum class FileKind : std::uint8_t { exr, png, hdr, jpeg };
@@ -44,10 +46,11 @@ std::string one_line(std::string reason);
 enum class Texels : std::uint8_t { read, left };
 
 /// Decodes the first picture of a file at its full resolution. `file` is its quoted name and starts every message;
-/// `layer` as in pick_channels. Throws Error(usage) when the bytes are damaged or incomplete, or hold something that
+/// `content` and `layer` choose its
+/// channels as in pick_quantity and pick_channels. Throws Error(usage) when the bytes are damaged or incomplete, or hold something that
 /// rainref does not read: deep or volume data, integer EXR channels, a picture stored rotated or cropped, a side over
 /// max_side, more memory than the machine has.
-Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer,
+Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer, Content content,
                Texels texels = Texels::read);
 
 }  // namespace rainref::image_io

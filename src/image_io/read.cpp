@@ -7,9 +7,11 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/read_file.h"
 #include "image_io/decode.h"
+#include "image_io/quantity.h"
 #include "math/half.h"
 #include "rainref/error.h"
 
@@ -95,9 +97,9 @@ Image to_image(const Decoded& in) {
   return out;
 }
 
-/// Refuses the first NaN or infinity, row by row from the top.
+/// Refuses the first NaN or infinity, row by row from the top; of a depth only the first NaN or -infinity.
 template <class T>
-void require_finite(const std::string& file, const Decoded& in, const Image& image) {
+void require_finite(const std::string& file, const Decoded& in, const Image& image, bool is_depth) {
   for (int y = 0; y < image.height(); ++y) {
     const T* row = image.row<T>(y);
     for (int i = 0; i < 4 * image.width(); ++i) {
@@ -107,7 +109,7 @@ void require_finite(const std::string& file, const Decoded& in, const Image& ima
       } else {
         value = row[i];
       }
-      if (std::isfinite(value)) continue;
+      if (std::isfinite(value) || (is_depth && value > 0)) continue;
       throw Error(ExitCode::usage, fmt::format("{}: {} at x {}, y {} (from the top), channel '{}'", file,
                                                std::isnan(value) ? "NaN" : "infinity", i / 4, y, in.channels[i % 4].name));
     }
@@ -138,7 +140,13 @@ FileKind known_kind(const std::string& file, std::span<const std::byte> bytes) {
   if (!kind) throw Error(ExitCode::usage, file + ": not an EXR, PNG, Radiance HDR or JPEG file");
   return *kind;
 }
-Picture described(FileKind kind, const Decoded& decoded) {
+bool is_alone(const Decoded& decoded) {
+  return std::ranges::all_of(decoded.channel_names, [&](const std::string& name) {
+    return letter_of(name) == 'A' || std::ranges::any_of(decoded.channels, [&](const Channel& c) { return c.name == name; });
+  });
+}
+
+Picture described(FileKind kind, const Decoded& decoded, Content content) {
   Picture picture;
   picture.channel_names = decoded.channel_names;
   picture.srgb_encoded = (kind == FileKind::png || kind == FileKind::jpeg) && !decoded.declared_linear;
@@ -146,27 +154,36 @@ Picture described(FileKind kind, const Decoded& decoded) {
   picture.compression = decoded.compression;
   picture.file_width = decoded.width;
   picture.file_height = decoded.height;
+  if (content != Content::colour) {
+    picture.taken = decoded.channels[0].name;
+    // Where others are read too, they are alike.
+    if (!is_alone(decoded))
+      picture.remarks.push_back(fmt::format("channel {} of {} is taken", picture.taken, fmt::join(picture.channel_names, " ")));
+  }
   return picture;
 }
 
 }  // namespace
 
-Picture inspect(const std::filesystem::path& path, std::span<const std::byte> bytes, std::string_view layer) {
+Picture inspect(const std::filesystem::path& path, std::span<const std::byte> bytes, Content content) {
   const std::string file = quoted(path);
   const FileKind kind = known_kind(file, bytes);
-  return described(kind, decode(file, kind, bytes, layer, Texels::left));
+  return described(kind, decode(file, kind, bytes, {}, content, Texels::left), content);
 }
 
-Picture read(const std::filesystem::path& path, std::string_view layer) {
+Picture read(const std::filesystem::path& path, std::string_view layer, Content content) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string file = quoted(path);
   const FileKind kind = known_kind(file, bytes);
-  const Decoded decoded = decode(file, kind, bytes, layer);
+  const Decoded decoded = decode(file, kind, bytes, layer, content);
 
-  Picture picture = described(kind, decoded);
+  Picture picture = described(kind, decoded, content);
   picture.image = to_image(decoded);
-  if (picture.image.format() == Format::rgba16f) require_finite<Half>(file, decoded, picture.image);
-  if (picture.image.format() == Format::rgba32f) require_finite<float>(file, decoded, picture.image);
+  const bool is_depth = content == Content::depth;
+  if (picture.image.format() == Format::rgba16f) require_finite<Half>(file, decoded, picture.image, is_depth);
+  if (picture.image.format() == Format::rgba32f) require_finite<float>(file, decoded, picture.image, is_depth);
+  if (content != Content::colour)
+    require_alike(file, picture.image, {decoded.channels[0].name, decoded.channels[1].name, decoded.channels[2].name});
   picture.decoded_hash = canonical_hash(picture.image);
   return picture;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "image_io/channels.h"
 #include "rainref/image.h"
 
 namespace rainref::image_io {
@@ -26,16 +27,20 @@ struct Picture {
   std::string compression;                 ///< EXR: its method ("zip", "none", ...); else "deflate", "rgbe", "jpeg"
   Hash128 decoded_hash;                    ///< of the image's canonical bytes
   int file_width = 0, file_height = 0;
+  std::string taken;                 ///< the channel that a quantity or a depth is of: the red of the image; "" for colours
+  std::vector<std::string> remarks;  ///< what the file left open, and how it was read: a few words each
 };
 
 /// Reads the first picture of a file at full resolution. What the file is, its first bytes say, not its name. `layer`
-/// chooses an EXR layer by the channel names' prefix ("normal" for normal.X); "" is the main one.
+/// chooses an EXR layer by the channel names' prefix ("normal" for normal.X); "" is the main one. Of a quantity or a depth one channel is
+/// read, by pick_quantity, into red, green and blue; a depth may be +infinity.
 ///
 /// Throws Error(io) when the file cannot be read, Error(usage) when it cannot be decoded whole, holds something
-/// unsupported, or has a NaN or an infinity; the message names the file, and the first bad pixel and channel.
-Picture read(const std::filesystem::path& path, std::string_view layer = {});
+/// unsupported, has a NaN or an infinity, or holds unlike channels where one quantity is wanted; the message names the file, and the first
+/// bad pixel and channel.
+Picture read(const std::filesystem::path& path, std::string_view layer = {}, Content content = Content::colour);
 /// What read says of a file with these bytes, as far as its header says it: image and decoded_hash are empty, and no texel is decoded
 /// or checked. Throws as read.
-Picture inspect(const std::filesystem::path& path, std::span<const std::byte> bytes, std::string_view layer = {});
+Picture inspect(const std::filesystem::path& path, std::span<const std::byte> bytes, Content content = Content::colour);
 
 }  // namespace rainref::image_io

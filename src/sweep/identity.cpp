@@ -33,6 +33,8 @@ std::string Inputs::hash_of(const scene::Config& config, const std::string& key)
   const bool is_sequence = effect::is_sequence(named.name) && has(config, "sequence.first");
   if (is_sequence)
     name += fmt::format(" {} {} {}", config.integer("sequence.first"), config.integer("sequence.count"), config.integer("run.frames"));
+  // Of a file of several channels, what another key takes.
+  if (effect::content_of(key) != image_io::Content::colour) name += " " + key;
   std::string& hash = known_[name];
   if (!hash.empty()) return hash;
   if (is_sequence) {

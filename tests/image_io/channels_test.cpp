@@ -41,6 +41,40 @@ TEST(PickChannels, LayersAreKeptApart) {
   EXPECT_THAT(pick({"view.beauty.R", "view.beauty.G", "view.beauty.B", "view.depth.Z"}), ElementsAre(0, 1, 2, one));
 }
 
+std::array<int, 4> pick_depth(const std::vector<std::string>& names) { return pick_quantity("'f'", names, true).source; }
+
+TEST(PickQuantity, ADepthIsKnownByItsName) {
+  EXPECT_THAT(pick_depth({"A", "B", "G", "R", "Z"}), ElementsAre(4, 4, 4, one));
+  EXPECT_THAT(pick_depth({"A", "B", "Depth.V", "G", "R"}), ElementsAre(2, 2, 2, one));
+  EXPECT_THAT(pick_depth({"ViewLayer.Combined.R", "ViewLayer.Depth.Z", "ViewLayer.Mist.Z"}), ElementsAre(1, 1, 1, one));
+  EXPECT_THAT(pick_depth({"B", "G", "R", "mist.Z"}), ElementsAre(3, 3, 3, one));
+  EXPECT_THAT(pick_depth({"B", "G", "R", "depth"}), ElementsAre(3, 3, 3, one));
+  EXPECT_THAT(pick_depth({"B", "G", "R", "V"}), ElementsAre(3, 3, 3, one));
+  EXPECT_THAT(pick_depth({"B", "G", "R", "depth.A", "depth.R"}), ElementsAre(4, 4, 4, one));
+  EXPECT_THAT(pick_depth({"depth", "mist.Z", "V", "z"}), ElementsAre(3, 3, 3, one)) << "the better name, not the first";
+  EXPECT_THAT(pick_depth({"V"}), ElementsAre(0, 0, 0, one));
+}
+
+TEST(PickQuantity, AVectorIsNoDepth) {
+  EXPECT_THAT(pick_depth({"N.X", "N.Y", "N.Z", "Y"}), ElementsAre(3, 3, 3, one));
+  EXPECT_THAT(pick_depth({"N.X", "N.Y", "N.Z", "R", "glass.Z"}), ElementsAre(4, 4, 4, one));
+  EXPECT_THAT(pick_depth({"U", "V"}), ElementsAre(0, 1, zero, one));
+}
+
+TEST(PickQuantity, WithoutANameItIsWhatAColourWouldBe) {
+  EXPECT_THAT(pick_depth({"B", "G", "R"}), ElementsAre(2, 1, 0, one));
+  EXPECT_THAT(pick_depth({"A", "Y"}), ElementsAre(1, 1, 1, 0));
+  EXPECT_THAT(pick_depth({"G"}), ElementsAre(0, 0, zero, one)) << "its first channel is one that the file has";
+  EXPECT_THAT(pick_quantity("'f'", std::vector<std::string>{"B", "G", "R", "Z"}, false).source, ElementsAre(2, 1, 0, one));
+}
+
+TEST(PickQuantity, TwoOfOneClaimAreRefused) {
+  const auto error = error_of([] { pick_depth({"R", "a.Depth.Z", "b.Depth.Z"}); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ExitCode::usage);
+  EXPECT_STREQ(error->what(), "'f': expected one depth, found a.Depth.Z and b.Depth.Z; save one of them alone");
+}
+
 TEST(PickChannels, SaysWhatItDoesNotUnderstand) {
   const auto layer = error_of([] { pick({"R", "normal.X"}, "norml"); });
   ASSERT_TRUE(layer);

@@ -114,6 +114,52 @@ TEST(ReadExr, NanInAChannelThatIsNotReadDoesNotMatter) {
   EXPECT_EQ(texel<std::uint16_t>(read_bytes(bytes).image, 0, 0)[0], 1);
 }
 
+Picture read_depth(const std::string& bytes, Content content = Content::depth) {
+  const TemporaryFolder folder;
+  put(folder / "a.exr", bytes);
+  return read(folder / "a.exr", {}, content);
+}
+
+TEST(ReadExr, ADepthBesideColoursIsTaken) {
+  const std::string bytes = exr({0, 0, 2, 2}, {half_channel("A", 0x3c00), half_channel("B", 3), half_channel("G", 2), half_channel("R", 1),
+                                               float_channel("Z", 70000)});
+  const Picture p = read_depth(bytes);
+  EXPECT_EQ(texel<float>(p.image, 1, 1), (Floats{70000, 70000, 70000, 1}));
+  EXPECT_EQ(p.taken, "Z");
+  EXPECT_THAT(p.remarks, ElementsAre("channel Z of R G B A Z is taken"));
+  EXPECT_EQ(read_bytes(bytes).taken, "");
+  EXPECT_THAT(read_bytes(bytes).remarks, ElementsAre());
+}
+
+TEST(ReadExr, ADepthMayBeInfiniteAndAColourMayNot) {
+  for (const std::string& bytes : {exr({0, 0, 1, 1}, {half_channel("Z", 0x7c00)}), exr({0, 0, 1, 1}, {float_channel("Z", INFINITY)})}) {
+    EXPECT_NO_THROW(read_depth(bytes));
+    EXPECT_THROW(read_bytes(bytes), Error);
+    EXPECT_THROW(read_depth(bytes, Content::quantity), Error);
+  }
+  EXPECT_THROW(read_depth(exr({0, 0, 1, 1}, {half_channel("Z", 0xfc00)})), Error);
+  EXPECT_THROW(read_depth(exr({0, 0, 1, 1}, {half_channel("Z", 0x7c01)})), Error);
+}
+
+TEST(ReadExr, UnlikeChannelsAreNoQuantity) {
+  const ExrChannel green{"G", ExrType::float32, [](int x, int y) { return raw(x == 2 && y == 1 ? 3.0f : 2.0f); }};
+  const std::string bytes = exr({0, 0, 4, 3}, {float_channel("A", 9), float_channel("B", 2), green, float_channel("R", 2)});
+  for (const Content content : {Content::depth, Content::quantity}) {
+    const auto error = error_of([&] { read_depth(bytes, content); });
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->code(), ExitCode::usage);
+    EXPECT_THAT(error->what(), HasSubstr("a.exr': expected one quantity, found R 2 beside G 3 at x 2, y 1 (from the top); save one channel "
+                                         "alone, or a depth as channel Z"));
+  }
+  // Alike they are one, whatever alpha says.
+  const Picture grey =
+      read_depth(exr({0, 0, 1, 1}, {float_channel("A", 9), float_channel("B", 2), float_channel("G", 2), float_channel("R", 2)}));
+  EXPECT_EQ(texel<float>(grey.image, 0, 0), (Floats{2, 2, 2, 9}));
+  EXPECT_EQ(grey.taken, "R");
+  EXPECT_THAT(grey.remarks, ElementsAre());
+  EXPECT_EQ(texel<float>(read_depth(exr({0, 0, 1, 1}, {float_channel("G", 2)})).image, 0, 0)[0], 2);
+}
+
 TEST(ReadExr, IntegersCropsAndOverscanAreRefused) {
   const auto integer = error_of([] { read_bytes(exr({0, 0, 1, 1}, {{"R", ExrType::uint, [](int, int) { return raw(1u); }}})); });
   ASSERT_TRUE(integer);

@@ -1,0 +1,16 @@
+// One number a texel, from a picture of several channels.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "rainref/image.h"
+
+namespace rainref::image_io {
+
+/// Throws Error(usage) starting with `file`, which is quoted, at the first texel at which two of the first three channels differ that have
+/// a name: four colours are no quantity, and red would be as good as any other. `image` has four channels; row 0 is the top.
+void require_alike(std::string_view file, const Image& image, const std::array<std::string, 3>& names);
+
+}  // namespace rainref::image_io
