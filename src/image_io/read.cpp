@@ -11,6 +11,7 @@
 
 #include "base/read_file.h"
 #include "image_io/decode.h"
+#include "image_io/hdr_header.h"
 #include "image_io/quantity.h"
 #include "math/half.h"
 #include "rainref/error.h"
@@ -140,13 +141,23 @@ FileKind known_kind(const std::string& file, std::span<const std::byte> bytes) {
   if (!kind) throw Error(ExitCode::usage, file + ": not an EXR, PNG, Radiance HDR or JPEG file");
   return *kind;
 }
+/// Radiance of what a Radiance picture stores.
+void divide(const std::array<double, 3>& factors, Image& image) {
+  for (int y = 0; y < image.height(); ++y) {
+    float* row = image.row<float>(y);
+    for (int i = 0; i < 4 * image.width(); ++i)
+      if (i % 4 < 3) row[i] = static_cast<float>(row[i] / factors[static_cast<std::size_t>(i % 4)]);
+  }
+}
+constexpr std::array<double, 3> no_factors{1, 1, 1};
+
 bool is_alone(const Decoded& decoded) {
   return std::ranges::all_of(decoded.channel_names, [&](const std::string& name) {
     return letter_of(name) == 'A' || std::ranges::any_of(decoded.channels, [&](const Channel& c) { return c.name == name; });
   });
 }
 
-Picture described(FileKind kind, const Decoded& decoded, Content content) {
+Picture described(FileKind kind, const Decoded& decoded, Content content, const std::array<double, 3>& factors) {
   Picture picture;
   picture.channel_names = decoded.channel_names;
   picture.srgb_encoded = (kind == FileKind::png || kind == FileKind::jpeg) && !decoded.declared_linear;
@@ -160,6 +171,9 @@ Picture described(FileKind kind, const Decoded& decoded, Content content) {
     if (!is_alone(decoded))
       picture.remarks.push_back(fmt::format("channel {} of {} is taken", picture.taken, fmt::join(picture.channel_names, " ")));
   }
+  if (factors != no_factors)
+    picture.remarks.push_back(fmt::format("its pixels are divided by {:g}, {:g} and {:g}, by which its header says they were multiplied",
+                                          factors[0], factors[1], factors[2]));
   return picture;
 }
 
@@ -168,17 +182,20 @@ Picture described(FileKind kind, const Decoded& decoded, Content content) {
 Picture inspect(const std::filesystem::path& path, std::span<const std::byte> bytes, Content content) {
   const std::string file = quoted(path);
   const FileKind kind = known_kind(file, bytes);
-  return described(kind, decode(file, kind, bytes, {}, content, Texels::left), content);
+  const std::array<double, 3> factors = kind == FileKind::hdr ? hdr_factors(file, bytes) : no_factors;
+  return described(kind, decode(file, kind, bytes, {}, content, Texels::left), content, factors);
 }
 
 Picture read(const std::filesystem::path& path, std::string_view layer, Content content) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string file = quoted(path);
   const FileKind kind = known_kind(file, bytes);
+  const std::array<double, 3> factors = kind == FileKind::hdr ? hdr_factors(file, bytes) : no_factors;
   const Decoded decoded = decode(file, kind, bytes, layer, content);
 
-  Picture picture = described(kind, decoded, content);
+  Picture picture = described(kind, decoded, content, factors);
   picture.image = to_image(decoded);
+  if (factors != no_factors) divide(factors, picture.image);
   const bool is_depth = content == Content::depth;
   if (picture.image.format() == Format::rgba16f) require_finite<Half>(file, decoded, picture.image, is_depth);
   if (picture.image.format() == Format::rgba32f) require_finite<float>(file, decoded, picture.image, is_depth);

@@ -15,7 +15,8 @@
 namespace rainref::image_io {
 
 /// A picture as its file stores it. Row 0 of the image is the top row of the picture; who wants v = 0 at the bottom
-/// flips. No value was converted, but for 16-bit integers.
+/// flips. No value was converted, but for 16-bit integers
+/// and for Radiance HDR, which is divided by the factors of its header.
 struct Picture {
   /// rgba8 (8-bit files; codes untouched), rgba16f (all channels half; bits untouched) or rgba32f (float; half widened
   /// beside float; 16-bit integers as code / 65535, correctly rounded). Grey is replicated to red, green and blue; an

@@ -28,6 +28,48 @@ TEST(ReadHdr, DecodesSharedExponentsTopRowFirst) {
   EXPECT_EQ(p.compression, "rgbe");
 }
 
+Picture read_with(const std::string& lines) { return read_bytes(hdr(1, 1, {{128, 64, 32, 129}}, "-Y {h} +X {w}", lines)); }
+
+// Greg Ward's format: pixels are radiance times every EXPOSURE and, channel by channel, every COLORCORR of the header.
+TEST(ReadHdr, TheHeadersFactorsAreDividedOut) {
+  EXPECT_EQ(texel<float>(read_with("EXPOSURE=2.0\n").image, 0, 0), (Floats{.5f, .25f, .125f, 1}));
+  EXPECT_EQ(texel<float>(read_with("EXPOSURE=  1.600000e+01\nSOFTWARE=x\nEXPOSURE=+5E-1\r\n").image, 0, 0),
+            (Floats{.125f, .0625f, .03125f, 1}));
+  EXPECT_EQ(texel<float>(read_with("COLORCORR= 2 4 .5\nEXPOSURE=2\n").image, 0, 0), (Floats{.25f, .0625f, .25f, 1}));
+  EXPECT_EQ(texel<float>(read_with("EXPOSURE=3\n").image, 0, 0)[0], static_cast<float>(1 / 3.0)) << "rounded once";
+  EXPECT_NE(read_with("EXPOSURE=2\n").decoded_hash, read_with("").decoded_hash);
+  EXPECT_THAT(read_with("EXPOSURE=2\n").remarks,
+              testing::ElementsAre("its pixels are divided by 2, 2 and 2, by which its header says they were multiplied"));
+}
+TEST(ReadHdr, OtherLinesChangeNothing) {
+  const Picture plain = read_with("");
+  EXPECT_THAT(plain.remarks, testing::ElementsAre());
+  for (const char* lines : {"EXPOSURE=1\n", "EXPOSURE=4\nEXPOSURE=0.25\n", "# EXPOSURE=2\n", "\tEXPOSURE=2\n", "VIEW= -vtv\n"})
+    EXPECT_EQ(read_with(lines).decoded_hash, plain.decoded_hash) << lines;
+  // Behind the header there are pixels.
+  const std::string bytes = hdr(4, 1, {{'\n', 'E', 'X', 'P'}, {'O', 'S', 'U', 'R'}, {'E', '=', '2', '\n'}, {2, 2, 2, 129}});
+  EXPECT_THAT(read_bytes(bytes).remarks, testing::ElementsAre());
+}
+TEST(ReadHdr, AHeaderMayEndAnywhere) {
+  const std::string whole = hdr(1, 1, {{1, 1, 1, 136}}, "-Y {h} +X {w}", "EXPOSURE=2\nCOLORCORR=1 2 3\n");
+  for (std::size_t bytes = 11; bytes < whole.size(); ++bytes) {
+    const auto error = error_of([&] { read_bytes(whole.substr(0, bytes)); });
+    ASSERT_TRUE(error) << bytes;
+    EXPECT_EQ(error->code(), ExitCode::usage) << error->what();
+  }
+}
+TEST(ReadHdr, FactorsThatAreNoneAreRefused) {
+  for (const char* lines : {"EXPOSURE=\n", "EXPOSURE=0\n", "EXPOSURE=-2\n", "EXPOSURE=nan\n", "EXPOSURE=inf\n", "EXPOSURE=1e999\n",
+                            "EXPOSURE=2 3\n", "EXPOSURE=x\n", "COLORCORR=1 2\n", "COLORCORR=1 0 1\n", "COLORCORR=1 2 3 4\n",
+                            "EXPOSURE=1e-30\nEXPOSURE=1e-30\n", "EXPOSURE=1e30\nEXPOSURE=1e30\n"}) {
+    const auto error = error_of([&] { read_with(lines); });
+    ASSERT_TRUE(error) << lines;
+    EXPECT_EQ(error->code(), ExitCode::usage);
+    EXPECT_THAT(error->what(), testing::AnyOf(HasSubstr("EXPOSURE"), HasSubstr("COLORCORR"))) << lines;
+  }
+  EXPECT_THAT(error_of([] { read_with("EXPOSURE=-2\n"); })->what(), HasSubstr("a': EXPOSURE: expected a number above 0, found '-2'"));
+}
+
 TEST(ReadHdr, AnUnusualOrientationIsRefused) {
   for (const char* axes : {"+Y {h} +X {w}", "-Y {h} -X {w}"}) {
     const auto error = error_of([&] { read_bytes(hdr(1, 2, {{1, 1, 1, 136}, {2, 2, 2, 136}}, axes)); });

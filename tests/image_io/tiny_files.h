@@ -107,13 +107,13 @@ inline std::string exr(ExrWindow data, const std::vector<ExrChannel>& channels, 
   return out;
 }
 
-/// A Radiance file with plain RGBE texels. `orientation` names the axes as the format does.
+/// A Radiance file with plain RGBE texels. `orientation` names the axes as the format does; `lines` are more of the header.
 inline std::string hdr(int width, int height, const std::vector<std::array<int, 4>>& texels,
-                       const std::string& orientation = "-Y {h} +X {w}") {
+                       const std::string& orientation = "-Y {h} +X {w}", const std::string& lines = {}) {
   std::string size = orientation;
   size.replace(size.find("{h}"), 3, std::to_string(height));
   size.replace(size.find("{w}"), 3, std::to_string(width));
-  std::string out = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + size + "\n";
+  std::string out = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + lines + "\n" + size + "\n";
   for (const auto& texel : texels) {
     for (const int byte : texel) out += static_cast<char>(byte);
   }
