@@ -73,7 +73,7 @@ struct Inputs {
   Image colour;                    ///< 4 channels
   bool colour_is_encoded = false;  ///< 8-bit codes are sRGB; else every number is linear radiance
   Image depth;                     ///< the first channel, of the colour's size
-  bool depth_is_distance = false;  ///< metres along the view axis, else device depth in Settings::depth
+  bool depth_is_distance = false;  ///< metres along the view axis, the sky at far_plane; else device depth in Settings::depth
   Image noise;                     ///< the first channel, a tile; empty: gradient noise or crowns made here
   Image layer;                     ///< corrected: the first channel, 1 where splashes may be; empty: everywhere
 };

@@ -77,7 +77,7 @@ Settings default_settings(Variant variant);
 /// The images of the scene. Row 0 is v = 0, the bottom; colours are linear radiance.
 struct Surroundings {
   Image colour;               ///< width x height, 4 channels
-  Image depth;                ///< r32f of the same size, along the view axis [m]; used by corrected
+  Image depth;                ///< r32f of the same size, along the view axis [m], finite, the sky far away; used by corrected
   Image normals;              ///< Shape::image: 4 channels of that size, world normal and coverage
   Image raindrops, rivulets;  ///< maps instead of the bakes, 4 channels, any size; empty: baked
   Image probe;                ///< latitude/longitude panorama for use_probe, 4 channels

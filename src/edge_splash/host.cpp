@@ -174,6 +174,7 @@ Image prepare_scene(const Inputs& in, const Rows& rows) {
 Image prepare_depth(const Inputs& in, const DepthRange& range, const Rows& rows) {
   require_size(in.depth, in.colour, "scene.depth_image");
   const double lowest = in.depth_is_distance ? range.near_plane : 0, highest = in.depth_is_distance ? range.far_plane : 1;
+  const float from_here = static_cast<float>(lowest), up_to = static_cast<float>(highest);  // distances come as floats
   const int width = in.depth.width(), height = in.depth.height();
   Image to(Format::r32f, width, height);
   std::vector<int> outside(static_cast<std::size_t>(height), width);  // the first column of each row that no depth may have
@@ -181,11 +182,11 @@ Image prepare_depth(const Inputs& in, const DepthRange& range, const Rows& rows)
     for (int y = begin; y < end; ++y) {
       for (int x = 0; x < width; ++x) {
         const double stored = first_channel(in.depth, x, y);
-        if (!(lowest <= stored && stored <= highest)) {
+        if (!(from_here <= stored && stored <= up_to)) {
           outside[static_cast<std::size_t>(y)] = x;
           break;
         }
-        to.row<float>(y)[x] = static_cast<float>(in.depth_is_distance ? device_depth(range, stored) : stored);
+        to.row<float>(y)[x] = static_cast<float>(in.depth_is_distance ? device_depth(range, std::clamp(stored, lowest, highest)) : stored);
       }
     }
   });

@@ -27,6 +27,7 @@ ScenePictures::ScenePictures(const scene::Config& config, effect::Inputs& files)
     depth_.emplace(config, "scene.depth_image", files, &*colour_);
     is_metres_ = config.text("scene.depth_encoding") == "metres";
     scale_ = config.real("scene.depth_scale");
+    far_ = config.real("scene.far");
   }
   if (corrected && !config.text("scene.layer_image").empty())
     layer_.emplace(config, "scene.layer_image", files, colour_ ? &*colour_ : nullptr);
@@ -50,7 +51,7 @@ void ScenePictures::fill(int frame, Inputs& in, effect::Inputs& files) const {
     in.depth_is_distance = is_metres_;
     const image_io::Picture picture = depth_->read(depth, files);
     try {
-      in.depth = is_metres_ ? effect::depth_of(picture, scale_, in.colour) : flipped(picture.image);
+      in.depth = is_metres_ ? effect::depth_of(picture, scale_, far_, in.colour) : flipped(picture.image);
     } catch (const Error& e) {
       throw depth_->about(e, depth);
     }

@@ -25,7 +25,7 @@ class ScenePictures {
  private:
   std::optional<effect::PictureSource> colour_, depth_, layer_;
   bool is_metres_ = false;
-  double scale_ = 1;
+  double scale_ = 1, far_ = 1;
 };
 
 }  // namespace rainref::edge_splash

@@ -30,20 +30,21 @@ Image linear_of(const image_io::Picture& p) {
   return floats_of(p, [&](float x, int c) { return c < 3 && p.srgb_encoded ? static_cast<float>(decode_srgb(x)) : x; });
 }
 
-Image read_depth(const scene::Config& config, const Image& colour, Inputs& inputs) {
-  return depth_of(read_input(config, "scene.depth_image", inputs), config.real("scene.depth_scale"), colour);
+bool is_sky(float stored, float metres) {
+  constexpr float largest_half = 65504;
+  return stored == 0 || stored == largest_half || metres >= largest_half;
 }
-Image depth_of(const image_io::Picture& picture, double in_metres, const Image& colour) {
+Image depth_of(const image_io::Picture& picture, double in_metres, double far, const Image& colour) {
   const Image four = floats_of(picture, [](float x, int) { return x; });
   if (four.width() != colour.width() || four.height() != colour.height()) {
     throw Error(ExitCode::usage, fmt::format("scene.depth_image: expected {}x{} texels as scene.image has, found {}x{}", colour.width(),
                                              colour.height(), four.width(), four.height()));
   }
-  const auto scale = static_cast<float>(in_metres);
+  const auto scale = static_cast<float>(in_metres), sky = static_cast<float>(far);
   Image depth(Format::r32f, four.width(), four.height());
   for (int y = 0; y < depth.height(); ++y) {
     for (int x = 0; x < depth.width(); ++x) {
-      const float z = four.row<float>(y)[4 * x] * scale;
+      const float stored = four.row<float>(y)[4 * x], metres = stored * scale, z = is_sky(stored, metres) ? sky : metres;
       if (!(z >= 0))
         throw Error(
             ExitCode::usage,

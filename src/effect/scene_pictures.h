@@ -16,10 +16,12 @@ Image linear_of(const image_io::Picture& picture);
 /// The picture that `key` names, likewise.
 Image read_linear(const scene::Config& config, const std::string& key, Inputs& inputs);
 
-/// The first channel of the picture that scene.depth_image names, times scene.depth_scale: metres along the view axis, r32f,
-/// row 0 = bottom. Throws Error(usage) where it has not the size of scene.image, or is below 0. depth_of: of a picture, times `scale`.
-Image depth_of(const image_io::Picture& picture, double scale, const Image& colour);
-Image read_depth(const scene::Config& config, const Image& colour, Inputs& inputs);
+/// The picture that scene.depth_image names, times `scale` (scene.depth_scale): metres along the view axis, r32f, row 0 = bottom. The sky
+/// (is_sky) lies `far` metres away. Throws Error(usage) where it has not the size of scene.image, or is below 0.
+Image depth_of(const image_io::Picture& picture, double scale, double far, const Image& colour);
+/// Whether a file means the sky by a depth: 0 (nothing came back), infinity, the largest half 65504, or 65504 m and more. `stored`: the
+/// number in the file, `metres`: what it stands for.
+bool is_sky(float stored, float metres);
 
 /// The tile that `key` names, row 0 = bottom, as stored; a warning where its edges do not fit. With `needs_alpha` throws
 /// Error(usage) where the file has none.

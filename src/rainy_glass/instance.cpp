@@ -19,7 +19,7 @@ Image depth_of(const Instance::Sequences& sequences, const Image& colour, int fr
   const std::int64_t picture = sequences.depth->shown_in(frame);
   const image_io::Picture read = sequences.depth->read(picture, inputs);
   try {
-    return effect::depth_of(read, sequences.depth_scale, colour);
+    return effect::depth_of(read, sequences.depth_scale, backdrop_far, colour);
   } catch (const Error& e) {
     throw sequences.depth->about(e, picture);
   }

@@ -4,6 +4,7 @@
 #include "effect/run_memory.h"
 #include "rainref/error.h"
 #include "windshield/scene_images.h"
+#include "windshield/street.h"
 
 namespace rainref::windshield {
 
@@ -36,7 +37,7 @@ Surroundings ScenePictures::read(int frame, effect::Inputs& files) const {
   }
   const image_io::Picture picture = depth_->read(of_depth, files);
   try {
-    s.depth = effect::depth_of(picture, depth_scale_, colour);
+    s.depth = effect::depth_of(picture, depth_scale_, street_far, colour);
   } catch (const Error& e) {
     throw depth_->about(e, of_depth);
   }
