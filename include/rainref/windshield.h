@@ -25,7 +25,7 @@ namespace windshield {
 /// What lies before the car, where it is not the street at night made here.
 struct Surroundings {
   Image colour;  ///< rgba16f, linear radiance, in the camera's view widened by scene.margin; row 0 = bottom. Empty: the street
-  Image depth;   ///< r32f along the view axis [m], of the same size
+  Image depth;   ///< r32f along the view axis [m], finite, the sky far away; of the same size
 };
 
 /// A drop as passes exchange it; see src/drops/records.h.
@@ -100,6 +100,10 @@ class Windshield {
   const Image& scene_depth() const;   ///< r32f: along the view axis [m], there
   const Image& colour() const;        ///< rgba16f: linear radiance
   const Image& picture() const;       ///< rgba8: display code values; row 0 = bottom
+
+  /// colour() as it would be if no drop were to be seen on the windshield: its film, mist and smear, further panes and the interior stay.
+  /// Of the frame that was rendered last.
+  Image without_drops() const;
 
   /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
   void list_state(state::Items& items);

@@ -4,6 +4,7 @@
 
 #include "effect/scene_pictures.h"
 #include "night_street/memory.h"
+#include "parallel/rows.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/evaluations.h"
@@ -11,6 +12,7 @@
 #include "rainy_glass/memory.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/shown.h"
+#include "rainy_glass/storage.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -126,12 +128,13 @@ std::optional<effect::Display> Instance::display() const { return effect::Displa
 effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) const {
   const ShownGlass glass(settings_, surroundings_, running());
   const auto [half_width, half_height] = glass.half_size();
-  return effect::drops_layer(running().colour(), executor, [&](int column, int row) -> effect::DropPixel {
-    const Shown shown = glass.at(column, row);
-    if (!shown.is_behind || !shown.is_wet) return {};
-    return {1, 0.5 * shown.x / half_width - (column + 0.5) / settings_.width + 0.5,
-            0.5 * shown.y / half_height - (row + 0.5) / settings_.height + 0.5};
-  });
+  return effect::drops_layer(running().colour(), colour_as_half(surroundings_.colour, parallel::rows_of(executor)), executor,
+                             [&](int column, int row) -> effect::DropPixel {
+                               const Shown shown = glass.at(column, row);
+                               if (!shown.is_behind || !shown.is_wet) return {};
+                               return {1, 0.5 * shown.x / half_width - (column + 0.5) / settings_.width + 0.5,
+                                       0.5 * shown.y / half_height - (row + 0.5) / settings_.height + 0.5};
+                             });
 }
 
 effect::Effect entry() {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "effect/scene_pictures.h"
+#include "image/flipped.h"
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
 #include "scene/panorama_view.h"
@@ -99,7 +100,7 @@ std::optional<effect::Display> Instance::display() const { return effect::Displa
 effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) const {
   const ShownDrops drops(settings_, running());
   const auto [half_width, half_height] = drops.half_size();
-  return effect::drops_layer(running().colour(), executor, [&](int column, int row) -> effect::DropPixel {
+  return effect::drops_layer(running().colour(), copy_of(running().background()), executor, [&](int column, int row) -> effect::DropPixel {
     const Shown shown = drops.at(column, row);
     const double z = std::max(shown.bent.z, 0.05);  // as the pass has it
     return {shown.cover, 0.5 * shown.bent.x / (z * half_width) - (column + 0.5) / settings_.width + 0.5,

@@ -29,7 +29,7 @@ const std::vector<scene::MemberParameter<Development>>& table() {
       scene::real<&D::bloom_radius>("picture.bloom_radius", "1", 0.001, 1, "Width of the widest blur, in heights of the picture."),
       scene::boolean<&D::dither>("picture.dither", "Codes are rounded at random, so that their mean is the light: no bands."),
       scene::boolean<&D::has_layer>("picture.layer",
-                                    "EXR files also hold the drops by themselves: drops, cut out of the picture and premultiplied, and "
+                                    "EXR files also hold the drops by themselves: drops, premultiplied, what they cover (background), and "
                                     "offset, whence they have their light, in widths and heights."),
   };
   return all;

@@ -1,5 +1,6 @@
 #include "simulation/opened.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -146,6 +147,8 @@ void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
     own = instance_->drops_layer(executor_);
     layers.push_back({"drops", {"R", "G", "B", "A"}, &own.drops});
     layers.push_back({"offset", {"U", "V"}, &own.offset});
+    const auto is_background = [](const image_io::Layer& layer) { return layer.name_prefix == "background"; };
+    if (std::none_of(layers.begin(), layers.end(), is_background)) layers.push_back({"background", {"R", "G", "B"}, &own.background});
   }
   write_top_first(path, std::move(layers), notes());
   if (!with_maps || std::exchange(has_written_maps_, true)) return;

@@ -73,7 +73,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
   const ShownScene scene(settings_, running());
   Image before;
   if (settings_.interior.on) before = draw_interior(settings_.interior, p, settings_.corners, executor);
-  return effect::drops_layer(running().colour(), executor, [&](int column, int row) -> effect::DropPixel {
+  return effect::drops_layer(running().colour(), running().without_drops(), executor, [&](int column, int row) -> effect::DropPixel {
     const Shown shown = scene.at(column, row);
     if (!shown.is_on_glass) return {};
     const double open = before.empty() ? 1 : 1 - to_float(before.row<Half>(row)[4 * column + 3]);

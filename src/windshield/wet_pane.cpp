@@ -222,7 +222,7 @@ void WetPane::wipe_texture(const pass::Moment& now, int frame) {
 }
 
 void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
-                        const Image& scene_depth, std::span<const Glint> lights, Image& colour, double before) {
+                        const Image& scene_depth, std::span<const Glint> lights, bool shows_drops, Image& colour, double before) {
   pass::HostIo<CompositePass> seen;
   seen.blurred.set(pyramid.view(), levels);
   if (corrected_) seen.scene_depth = scene_depth;
@@ -231,7 +231,12 @@ void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTextur
   seen.mask = mask_;
   seen.glints = lights;
   seen.colour = colour;
-  draw_all(pass::Run<CompositePass>(view_, corrected_, settings_.surface.rounding, seen), now, executor_, before, composite_rows);
+  CompositeUniforms view = view_;
+  if (!shows_drops) {  // no water is so high that it shows as a drop
+    view.visible_from = 1e6f;
+    view.visible_to = 2e6f;
+  }
+  draw_all(pass::Run<CompositePass>(view, corrected_, settings_.surface.rounding, seen), now, executor_, before, composite_rows);
 }
 
 void WetPane::soften(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,

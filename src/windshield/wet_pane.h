@@ -29,8 +29,9 @@ class WetPane {
   /// Of these the ones that leave something for later frames: splat to condense.
   void leave_traces(const pass::Moment& now, int frame);
   /// composite: the scene through it, into a picture of the camera's size. `before`: seconds that the host spent on it already.
+  /// Where it does not show its drops they are as thin as the film.
   void composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
-                 const Image& scene_depth, std::span<const Glint> lights, Image& colour, double before);
+                 const Image& scene_depth, std::span<const Glint> lights, bool shows_drops, Image& colour, double before);
   /// soften, on what composite made; for a scene with smear.
   void soften(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const;
   /// mist, on that; for panes with condensation.

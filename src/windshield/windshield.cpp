@@ -14,8 +14,6 @@
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "windshield/falling_rain.pass.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
 #include "windshield/windshield_state.h"
 
 namespace rainref::windshield {
@@ -115,7 +113,7 @@ void Windshield::State::rain_behind(const pass::Moment& now) {
   run.finish(now, 1, prepared);
 }
 
-/// blur_pyramid, and composite of each pane in turn, each beyond the first joined to those before it.
+/// blur_pyramid and all that is seen through the panes.
 void Windshield::State::look_through(const pass::Moment& now) {
   const Rounding rounding = settings.surface.rounding;
   // A scene that stands still has its pyramid already.
@@ -145,35 +143,7 @@ void Windshield::State::look_through(const pass::Moment& now) {
   Stopwatch pyramid_clock;
   if (anew) pyramid->refresh(executor, levels);
   const double refreshed = pyramid_clock.seconds();
-  for (std::size_t k = 0; k < panes.size(); ++k) {
-    pass::Moment of_pane = now;
-    of_pane.step = static_cast<int>(k);
-    Image& seen = k == 0 ? colour : pane_colour;
-    panes[k]->composite(of_pane, *pyramid, levels, scene.depth, lights, seen, k == 0 ? refreshed : 0);
-    if (settings.smear.on) panes[k]->soften(of_pane, *pyramid, levels, seen);
-    if (settings.condensation.on) panes[k]->mist(of_pane, *pyramid, levels, seen);
-    if (k == 0) continue;
-    pass::HostIo<JoinPanesPass> io;
-    io.pane_colour = pane_colour;
-    io.colour = colour;
-    io.joined = colour;
-    pass::Run<JoinPanesPass> join(panes[k]->view(), corrected, rounding, io);
-    join.start(of_pane);
-    join.tiles(executor, tile_rows);
-    join.finish(of_pane);
-  }
-}
-
-/// interior, on what all panes show.
-void Windshield::State::sit_inside(const pass::Moment& now) {
-  pass::HostIo<InteriorPass> io;
-  io.interior = interior;
-  io.colour = colour;
-  io.seen = colour;
-  pass::Run<InteriorPass> run(interior_uniforms(settings.interior), corrected, settings.surface.rounding, io);
-  run.start(now);
-  run.tiles(executor, tile_rows);
-  run.finish(now);
+  show_panes(now, true, colour, refreshed);
 }
 
 Windshield::Windshield(const SceneText& scene, Surroundings surroundings, const parallel::Executor& executor) {
@@ -230,7 +200,7 @@ void Windshield::render(Recorder* recorder) {
   for (std::size_t k = 0; k < s.panes.size(); ++k) s.panes[k]->draw(s.moment(recorder, static_cast<int>(k), s.frame_time()), s.frame);
   const pass::Moment now = s.moment(recorder, 0, s.frame_time());
   s.look_through(now);
-  if (s.settings.interior.on) s.sit_inside(now);
+  if (s.settings.interior.on) s.sit_inside(now, s.colour);
 
   pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.picture.exposure, s.settings.surface.rounding, s.colour, s.picture);
   display.start(now);

@@ -115,7 +115,8 @@ struct Windshield::State {
   bool look_at_scene();
   void rain_behind(const pass::Moment& now);
   void look_through(const pass::Moment& now);
-  void sit_inside(const pass::Moment& now);
+  void show_panes(const pass::Moment& now, bool shows_drops, Image& seen, double before);
+  void sit_inside(const pass::Moment& now, Image& seen);
 };
 
 }  // namespace rainref::windshield
