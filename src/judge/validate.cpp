@@ -129,7 +129,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
   check_pack(pack);
   require_apart(pack.folder(), folder);
-  PortFiles port(folder);
+  PortFiles port(folder, pack.effect, pack.variant);
   const FoundFiles found = check_files(pack, options, port);
 
   PortJudgement result;
