@@ -47,6 +47,12 @@ HalfMode port_rounding(const std::vector<HalfVotes>& passes) {
   return voter->modes[is_second ? 1 : 0];
 }
 
+bool is_rounding_open(const std::vector<HalfVotes>& passes) {
+  const bool fails = std::any_of(passes.begin(), passes.end(),
+                                 [](const HalfVotes& p) { return p.modes.size() >= 2 && p.failing[0] > 0 && p.failing[1] > 0; });
+  return fails && only_under(HalfMode::rne, passes).empty() && only_under(HalfMode::rtz, passes).empty();
+}
+
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile) {
   if (pass.modes.size() < 2) return {};
   // A pass without a vote may be all that there is.

@@ -23,6 +23,9 @@ struct HalfVotes {
 /// The rounding under which fewest passes fail; of equals the first, unless the second has a tenth fewer failing invocations.
 HalfMode port_rounding(const std::vector<HalfVotes>& passes);
 
+/// Whether a pass fails under every rounding and none of these can be stored by one of them alone: other passes of the port may tell.
+bool is_rounding_open(const std::vector<HalfVotes>& passes);
+
 /// The rounding that a pass is judged by, and what is to be said of it.
 struct FoundRounding {
   std::size_t mode = 0;  ///< of HalfVotes::modes

@@ -173,13 +173,19 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
 
 }  // namespace
 
-std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options) {
+std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options,
+                                        const std::vector<PassTask>& voters) {
   std::vector<std::vector<ModeJudgements>> cases;
   std::vector<HalfVotes> votes;
   std::vector<Exercise> coverage(tasks.size());
   for (const PassTask& task : tasks) {
     cases.push_back(judge_runs(task, options, coverage[cases.size()]));
     votes.push_back(votes_of(task.pass->name, cases.back()));
+  }
+  for (const PassTask& voter : voters) {
+    if (!is_rounding_open(votes)) break;
+    perturbed::Coverage unused;
+    votes.push_back(votes_of(voter.pass->name, judge_runs(voter, options, unused)));
   }
   std::vector<PassJudgement> all;
   for (std::size_t k = 0; k < tasks.size(); ++k) {

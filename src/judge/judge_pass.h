@@ -64,7 +64,9 @@ struct PassTask {
   Bind bind;
   PassRuns runs;
 };
-/// The passes of one port, in this order. How its stores to binary16 round is one choice for all of them.
-std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options);
+/// The passes of one port, in this order. How its stores to binary16 round is one choice for all of them. `voters`: other passes of it,
+/// asked in this order how stores round until one of them tells, where the tasks do not.
+std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options,
+                                        const std::vector<PassTask>& voters = {});
 
 }  // namespace rainref::judge

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "port_dump/read_buffer.h"
+#include "registry/registry.h"
 
 namespace rainref::judge {
 
@@ -39,7 +40,10 @@ std::string unusable_text(const std::vector<FileFault>& faults, const std::strin
   return fmt::format("{}", fmt::join(buffers, ", "));
 }
 
-PortFiles::PortFiles(fs::path folder) : folder_(std::move(folder)) {
+PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::string& variant) : folder_(std::move(folder)) {
+  for (const capture::BufferInfo& buffer : registry::effect_of_pack(effect).info->buffers)
+    if ((buffer.variant.empty() || buffer.variant == variant) && (buffer.alpha == "1" || buffer.alpha == "opaque"))
+      alpha_1_.insert(buffer.name);
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {
     throw Error(ExitCode::port_files,
@@ -50,7 +54,9 @@ PortFiles::PortFiles(fs::path folder) : folder_(std::move(folder)) {
 
 capture::Array PortFiles::read(const fs::path& run, const std::string& stem, const capture::Array& expected) {
   port_dump::ReadNotes notes;
-  capture::Array array = port_dump::read_port_buffer(folder_ / run, stem, expected, info_, notes);
+  const bool is_opaque = alpha_1_.contains(stem.substr(stem.find('.') + 1));  // behind "in." or "out."
+  capture::Array array = port_dump::read_port_buffer(folder_ / run, stem, expected, info_, notes,
+                                                     is_opaque ? port_dump::Alpha::one : port_dump::Alpha::stored);
   for (const std::string& note : notes.lines)
     if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
   return array;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,9 @@ std::string unusable_text(const std::vector<FileFault>& faults, const std::strin
 /// A port's folder.
 class PortFiles {
  public:
-  /// Reads port.json. Error(port_files) when there is no such folder.
-  explicit PortFiles(std::filesystem::path folder);
+  /// Reads port.json. Error(port_files) when there is no such folder. Of this effect's buffers those whose alpha is declared as the
+  /// constant 1 may be stored without it.
+  PortFiles(std::filesystem::path folder, const std::string& effect, const std::string& variant);
   const std::filesystem::path& folder() const { return folder_; }
   const port_dump::PortInfo& info() const { return info_; }
   /// A buffer as port_dump::read_port_buffer gives it; `run` is the folder of the run.
@@ -54,6 +56,7 @@ class PortFiles {
 
  private:
   std::filesystem::path folder_;
+  std::set<std::string> alpha_1_;  ///< buffers
   port_dump::PortInfo info_;
   std::vector<std::string> notes_;
 };

@@ -32,7 +32,7 @@ std::string Race::text() const {
 
 Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::vector<std::string>& passes) {
   std::vector<PortFiles> ports;
-  for (const std::filesystem::path& folder : runs) ports.emplace_back(folder);
+  for (const std::filesystem::path& folder : runs) ports.emplace_back(folder, pack.effect, pack.variant);
   std::vector<Race> races;
   FileFaults first_run, later_runs;
   for (const capture::PackCase& entry : pack.cases) {

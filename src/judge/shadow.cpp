@@ -41,7 +41,7 @@ struct Run {
 class Shadow {
  public:
   Shadow(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options)
-      : plan_(plan), files_(folder), options_(options) {
+      : plan_(plan), files_(folder, plan.effect, plan.variant), options_(options) {
     for (const PlannedRun& r : plan.runs) runs_.push_back({r.c.folder(), r.c.pass, r.c.frame, r.c.step, r.c.level, &r, &r, false});
     for (const DumpedRun& d : dumped) {
       const auto known = std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == d.id; });
@@ -72,12 +72,12 @@ class Shadow {
     result.variant = plan_.variant;
     result.scene = plan_.scene;
     describe_port(files_.info(), result);
-    std::vector<PassTask> tasks;
+    std::vector<PassTask> tasks, voters;
     for (const capture::PackPass& pass : plan_.passes)
-      if (is_wanted(pass.name) && may_run(pass.name)) tasks.push_back(task_of(pass));
+      if (may_run(pass.name)) (is_wanted(pass.name) ? tasks : voters).push_back(task_of(pass));
     const enclosed::Profile& chosen = profile(options_.profile);
-    result.passes =
-        judge_passes(tasks, {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())});
+    result.passes = judge_passes(
+        tasks, {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())}, voters);
     for (PassJudgement& judged : result.passes) settle(judged);
     result.files = faults_.all();
     set_first_bad(result);
@@ -209,9 +209,10 @@ class Shadow {
     std::stable_sort(own.begin(), own.end(), [](const Run* a, const Run* b) { return a->order() < b->order(); });
     PassRuns runs;
     runs.count = any ? own.size() : 0;
-    runs.explain = options_.explain;
-    runs.load = [this, own](std::size_t k) { return load(*own[k]); };
     runs.settle = [this, &pass](PortRun& run, const capture::PassModel* model) { settle(pass, run, model); };
+    runs.load = [this, own](std::size_t k) { return load(*own[k]); };
+    if (!is_wanted(pass.name)) return {&pass, binder(plan_.effect, pass.name), std::move(runs)};
+    runs.explain = options_.explain;
     runs.done_one = [this] {
       if (options_.progress) options_.progress(++done_, static_cast<int>(runs_.size()));
     };
@@ -259,6 +260,7 @@ class Shadow {
       out.broken = out.untested = fault;  // nothing can be computed with it
       return out;
     }
+    if (!is_wanted(run.pass)) return out;  // only asked how stores round
     const bool is_first = loaded_.insert(run.id).second;
     if (!run.plan) {
       if (is_first)

@@ -40,6 +40,11 @@ bool is_judged(const PackCase& c) {
   return std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return is_judged(o); });
 }
 
+bool stores_halves(const PackCase& c) {
+  return std::any_of(c.outputs.begin(), c.outputs.end(),
+                     [](const capture::PackOutput& o) { return !o.shape.is_records && info(o.shape.format).kind == FormatInfo::float16; });
+}
+
 /// What there is of a port's outputs.
 struct FoundFiles {
   std::set<std::string> absent;  ///< passes without any file, where these may be
@@ -130,7 +135,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
   check_pack(pack);
   require_apart(pack.folder(), folder, ExitCode::usage);
-  PortFiles port(folder);
+  PortFiles port(folder, pack.effect, pack.variant);
   const FoundFiles found = check_files(pack, options, port);
 
   PortJudgement result;
@@ -146,36 +151,44 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   int done = 0;
   const auto wanted = static_cast<int>(std::count_if(
       pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) { return options.wants(c.pass) && !found.absent.contains(c.pass); }));
-  std::vector<PassTask> tasks;
+  std::vector<PassTask> tasks, voters;
+  FileFaults unread;
+  PortFiles other_files(folder, pack.effect, pack.variant);  // what is said of a voter's files is said when it is judged
   for (const PackPass& pass : pack.passes) {
-    if (!options.wants(pass.name) || found.absent.contains(pass.name)) continue;
+    const bool is_wanted = options.wants(pass.name);
+    if (is_wanted && found.absent.contains(pass.name)) continue;
     std::vector<const PackCase*> cases;
     for (const PackCase& entry : pack.cases)
       if (entry.pass == pass.name) cases.push_back(&entry);
+    if (!is_wanted && (cases.empty() || !stores_halves(*cases.front()))) continue;
     PassRuns runs;
     runs.count = cases.size();
-    runs.explain = options.explain;
-    runs.tries_null_ports = runs.counts_coverage = true;
-    runs.load = [&, cases](std::size_t k) {
+    runs.load = [&, cases, is_wanted](std::size_t k) {
       PortRun run;
       run.c = read_case(pack, *cases[k]);
-      if (const std::string unusable = unusable_text(found.faults.all(), cases[k]->id); !unusable.empty()) {
+      const std::string id = cases[k]->id;
+      if (!is_wanted) unread.attempt(run.c.pass, id, "its outputs", [&] { run.stored = read_outputs(other_files, run.c); });
+      if (const std::string unusable = unusable_text(is_wanted ? found.faults.all() : unread.all(), id); !unusable.empty()) {
         run.has_no_files = true;
         run.untested = fmt::format("{}: missing, or cannot be used", unusable);
-        return run;
+      } else if (is_wanted) {
+        run.stored = read_outputs(port, run.c);
       }
-      run.stored = read_outputs(port, run.c);
       return run;
     };
     runs.settle = [&](PortRun& run, const capture::PassModel* model) {
       if (model) require_reference(pack, run.c, *model, *options.executor);
     };
-    runs.done_one = [&] {
-      if (options.progress) options.progress(++done, wanted);
-    };
-    tasks.push_back({&pass, binder(pack.effect, pass.name), std::move(runs)});
+    if (is_wanted) {
+      runs.explain = options.explain;
+      runs.tries_null_ports = runs.counts_coverage = true;
+      runs.done_one = [&] {
+        if (options.progress) options.progress(++done, wanted);
+      };
+    }
+    (is_wanted ? tasks : voters).push_back({&pass, binder(pack.effect, pass.name), std::move(runs)});
   }
-  std::vector<PassJudgement> judged = judge_passes(tasks, how);
+  std::vector<PassJudgement> judged = judge_passes(tasks, how, voters);
   auto next = judged.begin();
   for (const PackPass& pass : pack.passes)
     if (options.wants(pass.name)) result.passes.push_back(found.absent.contains(pass.name) ? without_files(pass) : std::move(*next++));

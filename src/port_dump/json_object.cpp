@@ -80,7 +80,7 @@ std::optional<std::size_t> JsonObject::count(const std::string& key) const {
   return count_of(key, *value);
 }
 
-std::optional<std::size_t> JsonObject::choice(const std::string& key, std::span<const std::string> choices) const {
+std::optional<std::size_t> JsonObject::choice(const std::string& key, std::span<const std::string> choices, const Hint& hint) const {
   const Json* value = find(key);
   if (!value) return std::nullopt;
   const auto expected = [&] { return fmt::format("one of '{}'", fmt::join(choices, "', '")); };
@@ -88,8 +88,9 @@ std::optional<std::size_t> JsonObject::choice(const std::string& key, std::span<
   const auto& word = value->get_ref<const std::string&>();
   const auto found = std::ranges::find(choices, word);
   if (found == choices.end()) {
-    const std::string hint = word.size() > 40 ? std::string() : did_you_mean(word, choices);
-    refuse(key, fmt::format("expected {}, found {}{}", expected(), shown(*value), hint));
+    std::string said = hint && word.size() <= 80 ? hint(word) : std::string();
+    if (said.empty() && word.size() <= 40) said = did_you_mean(word, choices);
+    refuse(key, fmt::format("expected {}, found {}{}", expected(), shown(*value), said));
   }
   return static_cast<std::size_t>(found - choices.begin());
 }

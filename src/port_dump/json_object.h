@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,8 +30,10 @@ class JsonObject {
   std::optional<bool> boolean(const std::string& key) const;
   /// A whole number, at least 0.
   std::optional<std::size_t> count(const std::string& key) const;
-  /// Which of the choices the text is.
-  std::optional<std::size_t> choice(const std::string& key, std::span<const std::string> choices) const;
+  /// What to say of a text that is none of the choices: "; did you mean 'x'?", or "" where nothing is near.
+  using Hint = std::function<std::string(const std::string& word)>;
+  /// Which of the choices the text is. Without a hint, or where it says nothing, the nearest choice is named.
+  std::optional<std::size_t> choice(const std::string& key, std::span<const std::string> choices, const Hint& hint = {}) const;
   /// {"a": 0, "b": 4}, in the order of the names.
   std::optional<std::vector<std::pair<std::string, std::size_t>>> counts(const std::string& key) const;
 

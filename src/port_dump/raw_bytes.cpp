@@ -11,6 +11,20 @@ namespace {
   throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why));
 }
 
+/// "; row_pitch 256 would fit": rows of this many bytes, with or without padding behind the last one, are all that was found; "" where no
+/// multiple of 4 bytes does that. Of two that do, a multiple of 256 is meant.
+std::string fitting_pitch(std::size_t found, std::size_t row, std::size_t height) {
+  constexpr std::size_t most_padding = 4096;
+  std::size_t best = 0;
+  const auto offer = [&](std::size_t pitch) {
+    if (pitch < row || pitch - row > most_padding || pitch % 4 != 0) return;
+    if (best == 0 || (best % 256 != 0 && pitch % 256 == 0)) best = pitch;
+  };
+  if (height > 1 && found % height == 0) offer(found / height);
+  if (height > 1 && found >= row && (found - row) % (height - 1) == 0) offer((found - row) / (height - 1));
+  return best == 0 ? "" : fmt::format("; row_pitch {} would fit", best);
+}
+
 std::span<const std::byte> behind_offset(std::span<const std::byte> bytes, const std::string& file, const Sidecar& sidecar) {
   if (sidecar.offset > bytes.size()) {
     refuse(file, fmt::format("truncated: offset {} in a file of {} bytes", sidecar.offset, bytes.size()));
@@ -49,7 +63,8 @@ StoredImage image_in(std::span<const std::byte> bytes, const std::string& file, 
   // The last row may lack its padding. Compared by division, because height times pitch may not fit.
   const std::size_t found = out.rows.size();
   const auto text = [&] {
-    return fmt::format("{} rows of {} bytes behind offset {}, found {} bytes", out.height, out.row_pitch, sidecar.offset, found);
+    return fmt::format("{} rows of {} bytes behind offset {}, found {} bytes{}", out.height, out.row_pitch, sidecar.offset, found,
+                       fitting_pitch(found, row, out.height));
   };
   if (found < row || (found - row) / out.row_pitch < out.height - 1) refuse(file, "truncated: expected " + text());
   const std::size_t rest = found - (out.height - 1) * out.row_pitch;

@@ -14,7 +14,7 @@ namespace rainref::port_dump {
 
 /// A level of the expected image in raw bytes; bottom_up is left to the caller. Throws Error(port_files) when the size
 /// is not the level's, the encoding contradicts the buffer's, a row does not fit the pitch, or the bytes end too early
-/// or go on behind the last row.
+/// or go on behind the last row; the message names the pitch that would fit.
 StoredImage image_in(std::span<const std::byte> bytes, const std::string& file, const Sidecar& sidecar, const capture::Array& expected,
                      int level);
 

@@ -127,7 +127,7 @@ struct LoadedFile {
 }  // namespace
 
 void read_levels(const FileBytes& file, const capture::Array& expected, int level, const PortInfo& port, capture::Array& out,
-                 ReadNotes& notes) {
+                 ReadNotes& notes, Alpha alpha) {
   image_io::Evidence storage;  // outlives what looks into it
   std::vector<StoredImage> levels;
   Origin origin = port.origin;
@@ -153,7 +153,7 @@ void read_levels(const FileBytes& file, const capture::Array& expected, int leve
   }
   for (StoredImage& stored : levels) {
     stored.bottom_up = origin == Origin::bottom_left;
-    out.levels.push_back(canonical_level(stored, expected, level++, notes));
+    out.levels.push_back(canonical_level(stored, expected, level++, notes, alpha));
   }
 }
 
@@ -180,7 +180,7 @@ void read_records(const FileBytes& file, const capture::Array& expected, capture
 }
 
 capture::Array read_port_buffer(const std::filesystem::path& folder, std::string_view stem, const capture::Array& expected,
-                                const PortInfo& port, ReadNotes& notes) {
+                                const PortInfo& port, ReadNotes& notes, Alpha alpha) {
   if (expected.levels.empty() || (!expected.is_records && (expected.width < 1 || expected.height < 1))) {
     throw Error(ExitCode::internal, fmt::format("buffer '{}' was asked for without a size", stem));
   }
@@ -194,7 +194,7 @@ capture::Array read_port_buffer(const std::filesystem::path& folder, std::string
   while (out.levels.size() < expected.levels.size()) {
     const std::size_t level = out.levels.size();
     const LoadedFile loaded(folder, level == 0 ? std::string(stem) : fmt::format("{}.L{}", stem, level), expected);
-    read_levels(loaded.view(), expected, static_cast<int>(level), port, out, notes);
+    read_levels(loaded.view(), expected, static_cast<int>(level), port, out, notes, alpha);
   }
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "port_dump/format_names.h"
 #include "port_dump/json_object.h"
 #include "rainref/error.h"
 
@@ -63,7 +64,7 @@ Sidecar parse_sidecar(std::string_view text, const std::string& file) {
                                                 "origin", "channel_order", "fields", "struct_stride", "encoding"};
   static const std::vector<std::string> formats = format_names();
   const JsonObject object(text, file, keys);
-  const auto format = object.choice("format", formats);
+  const auto format = object.choice("format", formats, hint_of_other_name);
   if (!format) object.refuse("format", "missing");
   Sidecar out;
   out.is_records = *format == format_count;

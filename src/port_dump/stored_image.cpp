@@ -1,5 +1,6 @@
 #include "port_dump/stored_image.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -36,17 +37,19 @@ std::string mismatch(Kind found, Format format) {
   return why;
 }
 
-void check_channels(const StoredImage& stored, Format format, ReadNotes& notes) {
-  const auto wanted = static_cast<std::size_t>(info(format).channels);
-  if (stored.channels.size() < wanted) {
-    refuse(stored, fmt::format("expected {} channels of {}, found {}", wanted, info(format).name, stored.channels.size()));
+void check_channels(const StoredImage& stored, Format format, Alpha alpha, ReadNotes& notes) {
+  const auto wanted = static_cast<std::size_t>(info(format).channels), found = stored.channels.size();
+  const bool lacks_one = alpha == Alpha::one && wanted == 4 && found == 3;
+  if (found < wanted && !lacks_one) {
+    refuse(stored, fmt::format("expected {} channels of {}, found {}", wanted, info(format).name, found));
   }
-  for (std::size_t c = 0; c < wanted; ++c) {
+  if (lacks_one) notes.lines.push_back(fmt::format("{}: 3 channels, the buffer's fourth is 1 everywhere: taken as 1", stored.file));
+  for (std::size_t c = 0; c < std::min(wanted, found); ++c) {
     if (const std::string why = mismatch(stored.channels[c].kind, format); !why.empty()) refuse(stored, why);
   }
-  if (stored.channels.size() > wanted) {
-    notes.lines.push_back(fmt::format("{}: {} channels, the buffer has {}: {} not read", stored.file, stored.channels.size(), wanted,
-                                      channel_names.substr(wanted, stored.channels.size() - wanted)));
+  if (found > wanted) {
+    notes.lines.push_back(fmt::format("{}: {} channels, the buffer has {}: {} not read", stored.file, found, wanted,
+                                      channel_names.substr(wanted, found - wanted)));
   }
 }
 
@@ -75,16 +78,33 @@ std::uint16_t exact_half(const StoredImage& stored, const std::byte* from, std::
 // bytes.
 bool is_same_layout(const StoredImage& stored, const FormatInfo& format) {
   if (stored.texel_bytes != static_cast<std::size_t>(format.texel_bytes())) return false;
+  if (stored.channels.size() < static_cast<std::size_t>(format.channels)) return false;
   for (int c = 0; c < format.channels; ++c) {
     if (stored.channels[c].offset != static_cast<std::size_t>(c * format.channel_bytes)) return false;
   }
   return true;
 }
 
+/// Stores 1 in a channel.
+void put_one(FormatInfo::Kind kind, std::byte* out) {
+  const float one = 1;
+  const Half half = to_half(one);
+  if (kind == Kind::float32)
+    std::memcpy(out, &one, sizeof one);
+  else if (kind == Kind::float16)
+    std::memcpy(out, &half, sizeof half);
+  else
+    *out = std::byte{255};
+}
+
 void copy_row(const StoredImage& stored, const FormatInfo& format, std::size_t y, const std::byte* in, std::byte* out) {
   const auto bytes = static_cast<std::size_t>(format.channel_bytes);
   for (std::size_t x = 0; x < stored.width; ++x, in += stored.texel_bytes) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(format.channels); ++c, out += bytes) {
+      if (c >= stored.channels.size()) {
+        put_one(format.kind, out);
+        continue;
+      }
       const StoredImage::Channel& channel = stored.channels[c];
       if (format.kind == Kind::float16 && channel.kind == Kind::float32) {
         const std::uint16_t half = exact_half(stored, in + channel.offset, x, y, c);
@@ -102,10 +122,15 @@ void check_level_size(const std::string& file, std::size_t width, std::size_t he
   const auto wanted_width = static_cast<std::size_t>(expected.level_width(level));
   const auto wanted_height = static_cast<std::size_t>(expected.level_height(level));
   if (width == wanted_width && height == wanted_height) return;
-  const bool exchanged = width == wanted_height && height == wanted_width;
+  std::string hint;
+  if (width == wanted_height && height == wanted_width) hint = "; width and height are exchanged (NPY shapes are height, width)";
+  const std::size_t row = wanted_width * expected.element_bytes();
+  if (height == wanted_height && width > wanted_width && !expected.is_records)
+    for (const std::size_t pitch : {64, 128, 256, 512})
+      if (hint.empty() && width * expected.element_bytes() == (row + pitch - 1) / pitch * pitch)
+        hint = fmt::format("; rows of {} bytes are padded to multiples of {}: save the first {} texels of each", row, pitch, wanted_width);
   throw Error(ExitCode::port_files,
-              fmt::format("{}: expected {}x{} texels, found {}x{}{}", file, wanted_width, wanted_height, width, height,
-                          exchanged ? "; width and height are exchanged (NPY shapes are height, width)" : ""));
+              fmt::format("{}: expected {}x{} texels, found {}x{}{}", file, wanted_width, wanted_height, width, height, hint));
 }
 
 void StoredImage::set_channels(FormatInfo::Kind kind, std::size_t count) {
@@ -130,9 +155,10 @@ std::string kind_text(FormatInfo::Kind kind) {
   return "";
 }
 
-std::vector<std::byte> canonical_level(const StoredImage& stored, const capture::Array& expected, int level, ReadNotes& notes) {
+std::vector<std::byte> canonical_level(const StoredImage& stored, const capture::Array& expected, int level, ReadNotes& notes,
+                                       Alpha alpha) {
   check_level_size(stored.file, stored.width, stored.height, expected, level);
-  check_channels(stored, expected.format, notes);
+  check_channels(stored, expected.format, alpha, notes);
   const FormatInfo& format = info(expected.format);
   // Readers have checked this against their own headers; a defect there must not become a read out of bounds.
   if (stored.height > 0 && stored.rows.size() < (stored.height - 1) * stored.row_pitch + stored.width * stored.texel_bytes) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,18 +35,23 @@ struct StoredImage {
   void set_channels(FormatInfo::Kind kind, std::size_t count);
 };
 
+/// What the buffer's fourth channel is: what was stored, or the constant 1, which a picture of three channels leaves out.
+enum class Alpha : std::uint8_t { stored, one };
+
 /// "halves", "8-bit codes": for messages.
 std::string kind_text(FormatInfo::Kind kind);
 
-/// Throws Error(port_files) unless width x height is the size of this level of the expected buffer.
+/// Throws Error(port_files) unless width x height is the size of this level of the expected buffer; the message says where rows look
+/// padded to a multiple of 64 bytes.
 void check_level_size(const std::string& file, std::size_t width, std::size_t height, const capture::Array& expected, int level);
 
 /// The canonical bytes of this level of the expected buffer: rows from v = 0, no padding. Values keep their bits; a
 /// float is taken for a half only when it equals one (a NaN becomes the half NaN of its sign). Channels beyond the
-/// buffer's are left out and named in the notes.
+/// buffer's are left out and named in the notes. With Alpha::one three channels are taken for four, which the notes say.
 ///
 /// Throws Error(port_files) when size, channels or type differ, when the file stores less precision than the buffer, or
 /// when a float is no half; the message gives the texel.
-std::vector<std::byte> canonical_level(const StoredImage& stored, const capture::Array& expected, int level, ReadNotes& notes);
+std::vector<std::byte> canonical_level(const StoredImage& stored, const capture::Array& expected, int level, ReadNotes& notes,
+                                       Alpha alpha = Alpha::stored);
 
 }  // namespace rainref::port_dump

@@ -15,7 +15,7 @@ namespace {
   throw Error(ExitCode::port_files, fmt::format("{}: {}", stored.file, why));
 }
 
-std::string shown(const std::string& name) { return name.size() <= 40 ? name : name.substr(0, 40) + "..."; }
+std::string shown(const std::string& name) { return name.size() <= 40 ? name : fmt::format("{:.40}...", name); }
 
 std::string type_of(const scene::Member& member) { return member.scalar == scene::Scalar::float32 ? "<f4" : "<u4"; }
 

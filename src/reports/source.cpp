@@ -27,8 +27,8 @@ PageSource source_of(const Passes& from) {
 
 PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::filesystem::path& port) {
   PageSource source = source_of(*pack);
-  source.read = [pack, files = std::make_shared<PortFiles>(port)](const std::string& id,
-                                                                  const std::string& output) -> std::optional<OutputBuffers> {
+  source.read = [pack, files = std::make_shared<PortFiles>(port, pack->effect, pack->variant)](
+                    const std::string& id, const std::string& output) -> std::optional<OutputBuffers> {
     for (const capture::PackCase& c : pack->cases) {
       if (c.id != id) continue;
       for (const capture::PackOutput& o : c.outputs) {

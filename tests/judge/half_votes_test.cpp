@@ -1,6 +1,10 @@
 // One rounding of half stores for a whole port: how it is found, and what is said of a pass that has another.
 #include "judge/half_votes.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
 #include <gmock/gmock.h>
 
 #include "judge/mini_port.h"
@@ -118,6 +122,50 @@ TEST(PortRounding, APortThatTruncatesThroughoutPasses) {
   const PortJudgement j = judged("");
   EXPECT_EQ(j.status, Status::pass) << why(j);
   for (const char* pass : {"normals", "composite"}) EXPECT_EQ(pass_of(j, pass).half_mode, HalfMode::rtz) << pass;
+}
+
+TEST(HalfVotes, OthersAreAskedWhereAPassFailsEitherWayAndNoneTells) {
+  EXPECT_TRUE(is_rounding_open({votes("wrong", {9, 8, 7})}));
+  EXPECT_TRUE(is_rounding_open({votes("wrong", {9, 8, 7}), votes("both", {0, 0, 0})}));
+  EXPECT_FALSE(is_rounding_open({votes("wrong", {9, 8, 7}), votes("a", {8, 0, 0})}));
+  EXPECT_FALSE(is_rounding_open({votes("both", {0, 0, 0})}));
+  EXPECT_FALSE(is_rounding_open({{"floats", {HalfMode::rne}, {5}}}));
+}
+
+// A port that truncates, judged by one pass that is wrong: its failures cannot tell, the other passes' files can.
+TEST(HalfVotes, OnePassAloneIsJudgedByTheRoundingOfTheWholePort) {
+  MiniPort port("windshield-as-published");
+  port.stores = HalfMode::rtz;
+  const scene::UniformBlock& block = port.pack.pass("wipe_texture").block;
+  const auto keep = std::find_if(block.members.begin(), block.members.end(), [](const scene::Member& m) { return m.name == "keep"; });
+  ASSERT_NE(keep, block.members.end());
+  port.before = [&](capture::PassCase& c) {
+    if (c.pass != "wipe_texture") return;
+    float v;
+    std::memcpy(&v, c.uniforms.data() + keep->offset, 4);
+    v = std::sqrt(v);
+    std::memcpy(c.uniforms.data() + keep->offset, &v, 4);
+  };
+  TemporaryFolder folder;
+  port.run(folder.path());
+  ValidateOptions options;
+  options.explain = faults::diagnose;
+  options.executor = &test_executor();
+  const PassJudgement whole = pass_of(validate(port.pack, folder.path(), options), "wipe_texture");
+  options.only = {"wipe_texture"};
+  const PortJudgement j = validate(port.pack, folder.path(), options);
+  EXPECT_EQ(j.passes.size(), 1u);
+  EXPECT_TRUE(j.notes.empty());
+  const PassJudgement alone = pass_of(j, "wipe_texture");
+  EXPECT_EQ(whole.half_mode, HalfMode::rtz);
+  EXPECT_EQ(alone.half_mode, HalfMode::rtz);
+  ASSERT_FALSE(whole.causes.empty());
+  ASSERT_FALSE(alone.causes.empty());
+  EXPECT_EQ(alone.causes[0].name, whole.causes[0].name);
+  // Where the others' files are missing or no files, nothing tells, and nothing is said of them.
+  for (const capture::PackCase& entry : port.pack.cases)
+    if (entry.pass != "wipe_texture") std::filesystem::remove_all(folder / entry.id);
+  EXPECT_TRUE(validate(port.pack, folder.path(), options).files.empty());
 }
 
 }  // namespace

@@ -203,6 +203,29 @@ TEST(PngDump, OurOwnWriter) {
   EXPECT_THAT(dump.refusal(image(Format::rgba8_srgb, 9, 5)), HasSubstr("expected 4 channels of rgba8_srgb, found 3"));
 }
 
+// A screenshot, or an EXR of three channels, of a buffer whose alpha is declared as 1.
+TEST(PngDump, ThreeChannelsAreTakenWhereAlphaIsOne) {
+  Dump dump;
+  dump.file("out.b.png", png(2, 1, 8, 2, {"rgbRGB"}));
+  EXPECT_EQ(dump.opaque(image(Format::rgba8, 2, 1)), "rgb\xffRGB\xff");
+  EXPECT_THAT(dump.notes(), ElementsAre(HasSubstr("3 channels, the buffer's fourth is 1 everywhere: taken as 1")));
+  EXPECT_THAT(dump.refusal(image(Format::rgba8, 2, 1)), HasSubstr("expected 4 channels of rgba8, found 3"));
+}
+TEST(ExrDump, ThreeChannelsAreTakenWhereAlphaIsOne) {
+  const capture::Array half = image(Format::rgba16f, 1, 1);
+  EXPECT_EQ(Dump().file("out.b.exr", exr({0, 0, 1, 1}, {halves("B", 3), halves("G", 2), halves("R", 1)})).opaque(half),
+            values<std::uint16_t>({1, 2, 3, 0x3c00}));
+  EXPECT_EQ(Dump().file("out.b.npy", npy("'<f4'", "(1, 1, 3)", values<float>({1, 2, 3}))).opaque(image(Format::rgba32f, 1, 1)),
+            values<float>({1, 2, 3, 1}));
+  EXPECT_EQ(Dump().file("out.b.dds", DdsFile{.dxgi = 88}.with("bgrx")).opaque(image(Format::rgba8, 1, 1)), "rgb\xff");
+  // Two are too few.
+  const auto error = image_io::error_of([&] {
+    Dump().file("out.b.exr", exr({0, 0, 1, 1}, {halves("G", 2), halves("R", 1)})).opaque(half);
+  });
+  ASSERT_TRUE(error);
+  EXPECT_THAT(error->what(), HasSubstr("expected 4 channels of rgba16f, found 2"));
+}
+
 TEST(PngDump, ExtraChannelsAreNamed) {
   Dump dump;
   dump.file("out.b.png", png(2, 1, 8, 2, {"rgbRGB"}));

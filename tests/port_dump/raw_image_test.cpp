@@ -33,6 +33,21 @@ TEST(RawImage, OffsetAndPitch) {
   EXPECT_THAT(refusal("junk", json, expected), HasSubstr("truncated: offset 5 in a file of 4 bytes"));
 }
 
+TEST(RawImage, APitchThatWouldFitIsNamed) {
+  const capture::Array expected = image(Format::rg16f, 3, 4);
+  const std::string json = R"({"format": "rg16f", "width": 3, "height": 4})",
+                    padded = R"({"format": "rg16f", "width": 3, "height": 4, "row_pitch": 256})";
+  EXPECT_THAT(refusal(std::string(4 * 256, 'x'), json, expected), HasSubstr("found 1024 bytes; row_pitch 256 would fit"));
+  EXPECT_THAT(refusal(std::string(3 * 256 + 12, 'x'), json, expected), HasSubstr("; row_pitch 256 would fit"));  // the last row is short
+  EXPECT_THAT(refusal(std::string(4 * 64, 'x'), padded, expected), HasSubstr("; row_pitch 64 would fit"));
+  EXPECT_THAT(refusal(std::string(4 * 12, 'x'), padded, expected), HasSubstr("; row_pitch 12 would fit"));
+  for (const std::size_t none : {4 * 12 + 1, 1025, 4 * 5000})
+    EXPECT_THAT(refusal(std::string(none, 'x'), json, expected), testing::Not(HasSubstr("would fit"))) << none;
+  // As NPY the padding has become columns.
+  EXPECT_THAT(Dump().file("out.b.npy", npy("'<f2'", "(4, 64, 2)", std::string(1024, 'x'))).refusal(expected),
+              HasSubstr("found 64x4; rows of 12 bytes are padded to multiples of 256: save the first 3 texels of each"));
+}
+
 TEST(RawImage, EveryTruncationIsRefused) {
   for (const int height : {1, 3}) {
     const std::string json = R"({"format": "r16f", "width": 2, "height": )" + std::to_string(height) + R"(, "row_pitch": 5})";
@@ -90,6 +105,36 @@ TEST(RawImage, RefusedSizes) {
   EXPECT_THAT(refusal(std::string(12, 'x'), R"({"format": "r16f", "width": 3, "height": 2})", expected),
               HasSubstr("expected r32f as floats, found halves"));
   EXPECT_THAT(refusal("", R"({"format": "records", "width": 3})", expected), HasSubstr("an image was expected"));
+}
+
+TEST(RawImage, FormatNamesOfOtherApisAreTranslated) {
+  const auto why = [](const std::string& name) {
+    return refusal("x", R"({"format": ")" + name + R"(", "width": 1, "height": 1})", image(Format::r8, 1, 1));
+  };
+  for (const auto& [name, own] : std::vector<std::pair<std::string, std::string>>{{"DXGI_FORMAT_R16G16_FLOAT", "rg16f"},
+                                                                                  {"DXGI_FORMAT_R8G8B8A8_UNORM_SRGB", "rgba8_srgb"},
+                                                                                  {"DXGI_FORMAT_R32_UINT", "r32ui"},
+                                                                                  {"VK_FORMAT_R16G16_SFLOAT", "rg16f"},
+                                                                                  {"VK_FORMAT_R8G8B8A8_SRGB", "rgba8_srgb"},
+                                                                                  {"R32G32B32A32_SFLOAT", "rgba32f"},
+                                                                                  {"GL_RG16F", "rg16f"},
+                                                                                  {"GL_RGBA8", "rgba8"},
+                                                                                  {"GL_SRGB8_ALPHA8", "rgba8_srgb"},
+                                                                                  {"GL_R32UI", "r32ui"},
+                                                                                  {"MTLPixelFormatRG16Float", "rg16f"},
+                                                                                  {"MTLPixelFormat.rgba8Unorm_srgb", "rgba8_srgb"},
+                                                                                  {"rg16float", "rg16f"},
+                                                                                  {"rgba8unorm-srgb", "rgba8_srgb"},
+                                                                                  {"r32float", "r32f"},
+                                                                                  {"wgpu::TextureFormat::Rgba16Float", "rgba16f"},
+                                                                                  {"RenderTextureFormat.ARGBHalf", "rgba16f"},
+                                                                                  {"RGFloat", "rg32f"},
+                                                                                  {"Image.FORMAT_RGH", "rg16f"}})
+    EXPECT_THAT(why(name), HasSubstr("found '" + name + "'; did you mean '" + own + "'?")) << name;
+  EXPECT_THAT(why("VK_FORMAT_B8G8R8A8_UNORM"), HasSubstr("; did you mean 'rgba8' with channel_order 'bgra'?"));
+  // What no buffer has gets no such word.
+  for (const char* none : {"DXGI_FORMAT_R16G16B16A16_UNORM", "VK_FORMAT_A2B10G10R10_UNORM_PACK32", "GL_R11F_G11F_B10F", "GL_RGB16F"})
+    EXPECT_THAT(why(none), testing::Not(HasSubstr("did you mean"))) << none;
 }
 
 TEST(RawImage, RefusedSidecars) {

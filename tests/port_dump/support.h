@@ -97,6 +97,11 @@ class Dump {
     const std::vector<std::byte>& bytes = array.levels.at(l);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
+  /// Level 0 of a buffer whose fourth channel is the constant 1.
+  std::string opaque(const capture::Array& expected) {
+    const capture::Array array = read_port_buffer(folder_.path(), "out.b", expected, {}, notes_, Alpha::one);
+    return {reinterpret_cast<const char*>(array.levels[0].data()), array.levels[0].size()};
+  }
   std::string refusal(const capture::Array& expected, const PortInfo& port = {}) {
     const auto error = image_io::error_of([&] { read(expected, port); });
     if (!error) return "accepted";

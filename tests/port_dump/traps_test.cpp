@@ -44,7 +44,8 @@ TEST(Traps, PaddedRows) {
   EXPECT_EQ(dump.level(expected), "aaaabbbbccccddddeeeeffff");
   // Forgotten, the pitch is missed by the length.
   dump.file("out.b.json", R"({"format": "r32f", "width": 3, "height": 2})");
-  EXPECT_THAT(dump.refusal(expected), HasSubstr("488 bytes too many: expected 2 rows of 12 bytes"));
+  EXPECT_THAT(dump.refusal(expected),
+              HasSubstr("488 bytes too many: expected 2 rows of 12 bytes behind offset 0, found 512 bytes; row_pitch 256 would fit"));
   // As NPY, padding would have become columns.
   EXPECT_THAT(Dump().file("out.b.npy", npy("'<f4'", "(2, 64)", bytes)).refusal(expected), HasSubstr("expected 3x2 texels, found 64x2"));
 }
