@@ -36,7 +36,8 @@ std::string line(const MutantJudgement& m) {
 }
 
 struct Count {
-  int applicable = 0, bugs = 0, caught = 0, warned = 0;
+  std::size_t applicable = 0;
+  int bugs = 0, caught = 0, warned = 0;
   explicit Count(const MutationReport& r) {
     for (const MutantJudgement& m : r.mutants) {
       applicable += m.differing > 0;
@@ -57,7 +58,7 @@ TEST_P(Mutation, UnderIeeeEveryChangeIsCaughtForEveryNumberOfThreads) {
     EXPECT_EQ(line(one.mutants[k]), line(three.mutants[k]));
     EXPECT_EQ(one.mutants[k].outside, one.mutants[k].differing) << line(one.mutants[k]);
   }
-  EXPECT_GE(Count(one).applicable, 40);
+  EXPECT_GE(Count(one).applicable, std::min<std::size_t>(40, 20 * GetParam().passes.size()));
 }
 
 TEST(Mutate, AWrongPassGetsTheNearest) {
@@ -117,8 +118,9 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
   EXPECT_GE(count.caught, count.bugs * (least - 8) / 100);
 
   const capture::Pack pack(pack_folder(GetParam().name));
-  int large = 0;
-  for (const BoundPass& pass : enveloped_passes({GetParam()})) {
+  std::size_t large = 0;
+  const std::vector<BoundPass> passes = enveloped_passes({GetParam()});
+  for (const BoundPass& pass : passes) {
     const BoundCase& b = pass.cases.front();
     const Bind bind = binder(pack.effect, pass.pass);
     for (const Fault& d : faults_of(pack.pass(pass.pass), *b.c, *b.model, nullptr)) {
@@ -141,7 +143,7 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
       EXPECT_TRUE(found->caught()) << line(*found) << ", far off at " << far;
     }
   }
-  EXPECT_GT(large, 60);
+  EXPECT_GE(large, std::min<std::size_t>(60, 10 * passes.size()));  // lists have their own: list_faults_test.cpp
 }
 
 // Indices into the lattice wrap at this count: without one they would lie before the lattice.
