@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "faults/bits_replay.h"
+#include "faults/decided.h"
 #include "faults/list_replay.h"
 #include "faults/texel_replay.h"
 #include "faults/where.h"
@@ -37,6 +38,10 @@ std::vector<Cause> causes_of_lists(const FailedRun& f) {
     ListReplay run = replay_of(f);
     if (!run.fails()) continue;
     std::optional<ListReplay> other;
+    if (std::optional<Cause> beyond = read_beyond_end(f, o)) {
+      found.push_back(std::move(*beyond));
+      continue;
+    }
     if (f.other) other.emplace(replay_of(*f.other));
     for (Cause& c : diagnosed(run, other && other->fails() ? &*other : nullptr)) found.push_back(std::move(c));
   }
@@ -55,6 +60,10 @@ std::vector<Cause> causes_of_bits(const FailedRun& f) {
     };
     BitsReplay run = replay_of(f);
     if (!run.fails()) continue;
+    if (std::optional<Cause> beyond = read_beyond_end(f, o)) {
+      found.push_back(std::move(*beyond));
+      continue;
+    }
     std::optional<BitsReplay> other;
     if (f.other) other.emplace(replay_of(*f.other));
     for (Cause& c : diagnosed(run, other && other->fails() ? &*other : nullptr)) found.push_back(std::move(c));
@@ -66,6 +75,7 @@ std::vector<Cause> causes_of_texels(const FailedRun& f) {
   TexelReplay run = texels_of(f);
   std::optional<TexelReplay> other;
   if (f.other) other.emplace(texels_of(*f.other));
+  if (std::optional<Cause> sure = decided(run, other ? &*other : nullptr)) return {std::move(*sure)};
   std::vector<Cause> best = diagnosed(run, other ? &*other : nullptr, f.is_warned);
   if (f.is_warned) return best;
   // What gives the very bits is a better word than a formula that could have given them.
@@ -79,17 +89,21 @@ std::vector<Cause> causes_of_texels(const FailedRun& f) {
   return best;
 }
 
+std::vector<Cause> causes_of(const FailedRun& failed) {
+  const capture::PassCase& c = failed.run.c;
+  if (!judge::keyed_outputs(c).empty()) {
+    std::vector<Cause> causes = causes_of_lists(failed);
+    if (!causes.empty() || !failed.bind || !judge::is_enveloped(c)) return causes;
+  }
+  return judge::is_enveloped(c) ? causes_of_texels(failed) : causes_of_bits(failed);
+}
+
 }  // namespace
 
 judge::Explanation diagnose(const FailedRun& failed) {
-  const capture::PassCase& c = failed.run.c;
-  if (failed.is_warned) return {judge::is_enveloped(c) ? causes_of_texels(failed) : std::vector<Cause>(), ""};
-  judge::Explanation why{{}, where_it_fails(failed)};
-  if (!judge::keyed_outputs(c).empty()) {
-    why.causes = causes_of_lists(failed);
-    if (!why.causes.empty() || !failed.bind || !judge::is_enveloped(c)) return why;
-  }
-  why.causes = judge::is_enveloped(c) ? causes_of_texels(failed) : causes_of_bits(failed);
+  if (failed.is_warned) return {judge::is_enveloped(failed.run.c) ? causes_of_texels(failed) : std::vector<Cause>(), ""};
+  judge::Explanation why{causes_of(failed), where_it_fails(failed)};
+  if (const std::string text = not_numbers_text(failed); !text.empty()) why.where += (why.where.empty() ? "" : "; ") + text;
   return why;
 }
 

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "faults/alternative_formulas.h"
+#include "faults/decidable_faults.h"
 #include "faults/failing_texels.h"
 #include "faults/hypotheses.h"
+#include "faults/output_faults.h"
 #include "faults/substitution_faults.h"
 #include "image/code_range.h"
 #include "judge/reference_outputs.h"
@@ -105,8 +107,10 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     const std::size_t o = static_cast<std::size_t>(s.output);
     const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = s.at(faulty[o], texels[k].x, texels[k].y),
                     *base = s.at(reference[o], texels[k].x, texels[k].y);
+    // What is not a number has many codes; a machine may give any of them.
+    const bool are_no_numbers = judge::is_nan(s.kind, got) && judge::is_nan(s.kind, guess);
     const auto code = [&](const std::byte* at) { return enclosed::ordered_code(s.kind, at); };
-    const std::int64_t far = gap(code(got), code(guess)), before = gap(code(got), code(base));
+    const std::int64_t far = are_no_numbers ? 0 : gap(code(got), code(guess)), before = gap(code(got), code(base));
     const double off = std::abs(static_cast<double>(stored_value(s, got)) - stored_value(s, guess));
     off_with += static_cast<double>(far);
     off_before += static_cast<double>(before);
@@ -225,6 +229,14 @@ std::vector<Fault> TexelReplay::solved() {
   for (std::size_t k = step / 2; !texels.empty() && k < failing_.size(); k += step) add(probes_[0], k);
   std::vector<Fault> out;
   add_solved_substitutions(out, probed_, texels, known_);
+  return out;
+}
+std::vector<Fault> TexelReplay::decidable() const {
+  return failing_.empty() ? std::vector<Fault>() : decidable_faults(probed_, port_, failing_.front());
+}
+std::vector<Fault> TexelReplay::of_finished() const {
+  std::vector<Fault> out;
+  add_output_faults(out, probed_.c, before_);
   return out;
 }
 std::vector<Fault> TexelReplay::fitted() { return fits(probed_, constants_, port_, reference_, failing_); }

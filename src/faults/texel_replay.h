@@ -32,6 +32,9 @@ class TexelReplay : public Replay {
   std::vector<Tried> causes(const std::vector<Fault>& all) const override;
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
+  /// Mistakes that need no search, and those of finished buffers that are as plain.
+  std::vector<Fault> decidable() const;
+  std::vector<Fault> of_finished() const;
   /// What faults::alternative_formula says of the failing texels and some that passed.
   std::optional<judge::Cause> alternative_formula(const enclosed::Profile& profile) const;
 

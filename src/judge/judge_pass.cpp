@@ -184,7 +184,7 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
   }
   for (const PassTask& voter : voters) {
     if (!is_rounding_open(votes)) break;
-    perturbed::Coverage unused;
+    Exercise unused;
     votes.push_back(votes_of(voter.pass->name, judge_runs(voter, options, unused)));
   }
   std::vector<PassJudgement> all;

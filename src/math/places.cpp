@@ -316,6 +316,31 @@ void Perturbed::leaf(Op op, std::uint32_t shape) {
   b.trace->nodes.push_back({op, v, shape_[0], b.trace->met[shape_[0]]++});
 }
 
+namespace {
+
+/// What an operation gives with the substitutions made at it, each after those before: of several operands, and then of the result.
+Perturbed substituted(Substitutions& all, Op op, Perturbed r, std::initializer_list<const Perturbed*> of, std::uint32_t shape) {
+  std::array<Perturbed, 4> operands;
+  std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
+  for (std::size_t s = 0; s < all.all.size(); ++s) {
+    const Substitution& other = all.all[s];
+    if (other.shape != shape) continue;
+    const std::int32_t occurrence = all.seen[s]++;
+    if (other.occurrence >= 0 && other.occurrence != occurrence) continue;
+    const Unseen parts;
+    if (other.operand == Substitution::result) {
+      r = Perturbed::of(all.value_for(s, r.v));
+      continue;
+    }
+    Perturbed& operand = operands[static_cast<std::size_t>(other.operand)];
+    operand = Perturbed::of(all.value_for(s, operand.v));
+    r = again(op, r, operands);
+  }
+  return r;
+}
+
+}  // namespace
+
 Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of) {
   Perturbed r = result;
   if (unseen > 0) return r;
@@ -336,22 +361,7 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
     const std::int32_t occurrence = place.seen++;
     if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of, place.fault);
   }
-  for (std::size_t s = 0; b.substitutions && !b.substitutions->is_looking && s < b.substitutions->all.size(); ++s) {
-    const Substitution& other = b.substitutions->all[s];
-    if (other.shape != shape) continue;
-    const std::int32_t occurrence = b.substitutions->seen[s]++;
-    if (other.occurrence >= 0 && other.occurrence != occurrence) continue;
-    std::array<Perturbed, 4> operands;
-    std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
-    const Unseen parts;
-    if (other.operand == Substitution::result) {
-      r = Perturbed::of(b.substitutions->value_for(s, r.v));
-      continue;
-    }
-    Perturbed& operand = operands[static_cast<std::size_t>(other.operand)];
-    operand = Perturbed::of(b.substitutions->value_for(s, operand.v));
-    r = again(op, r, operands);
-  }
+  if (b.substitutions && !b.substitutions->is_looking) r = substituted(*b.substitutions, op, r, of, shape);
   for (const Rewrite& rewriting : rewrites) {
     if (!b.trace || rewriting.kind == RewriteKind::none) break;
     const bool is_wild = rewriting.kind == RewriteKind::first_wins;  // it concerns every choice, whatever its shape is

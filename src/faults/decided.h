@@ -1,0 +1,23 @@
+// What is decided before any search: a mistake of decidable_faults.h, a list read beyond its end, what is not a number.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "faults/texel_replay.h"
+#include "judge/judge_pass.h"
+
+namespace rainref::faults {
+
+/// The decidable mistake that gives nearly all of what fails in a run, and in `other`, which may be null; nothing where none does, where
+/// few texels fail, or where a plain mistake of a finished buffer gives about as much.
+std::optional<judge::Cause> decided(const TexelReplay& run, const TexelReplay* other);
+
+/// Of list `output`: dead records behind the right ones, which are all of what fails; nothing where that is not so.
+std::optional<judge::Cause> read_beyond_end(const judge::FailedRun& failed, std::size_t output);
+
+/// "each failing element is not a number, the first is (3, 4).x of wave in puddle.wave_step/0001.0"; "" where one is a number.
+std::string not_numbers_text(const judge::FailedRun& failed);
+
+}  // namespace rainref::faults
