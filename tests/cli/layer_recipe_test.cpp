@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "cli/film_command.h"
+#include "base/program_path.h"
 #include "cli/picture_files.h"
 #include "image_io/read.h"
 #include "math/half.h"

@@ -23,7 +23,7 @@ TEST(HostValues, ANumberMayBeRoundedOtherwise) {
   EXPECT_EQ(compared({0.9972f}, {0.9972f}), Likeness::same);
   EXPECT_EQ(compared({1.0f}, {1.0f + 0x1p-20f}), Likeness::rounded);
   EXPECT_EQ(compared({1.0f}, {1.0f - 0x1p-18f}), Likeness::rounded);
-  EXPECT_EQ(compared({1.0f}, {1.0f + 0x1.04p-18f}), Likeness::other);
+  EXPECT_EQ(compared({1.0f}, {1.0f + 0x1.1p-18f}), Likeness::other);
   EXPECT_EQ(compared({1e-9f}, {1e-9f * (1 + 0x1p-20f)}), Likeness::rounded);
   EXPECT_EQ(compared({1e-9f}, {2e-9f}), Likeness::other);
   EXPECT_EQ(compared({1.0f}, {std::nanf("")}), Likeness::other);

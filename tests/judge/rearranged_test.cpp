@@ -249,7 +249,7 @@ struct Squares {
   }
 };
 TEST(RearrangedPort, AProductOfSumsMultipliedOutFailsAndSaysSo) {
-  Squares squares(3.1f, 2.6f);
+  Squares squares(16.1f, 15.3f);
   const CaseJudgement j = squares.judged(enclosed::Rearrangement::distributed);
   EXPECT_GT(j.failing, 5);
   EXPECT_EQ(j.expanded, j.failing);

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 
@@ -87,7 +88,9 @@ class HostShadowTest : public ShadowTest {
   }
   const scene::Member& member(const std::string& pass, const std::string& name) const {
     const scene::UniformBlock& block = port.pack.pass(pass).block;
-    return *std::find_if(block.members.begin(), block.members.end(), [&](const scene::Member& m) { return m.name == name; });
+    const auto found = std::find_if(block.members.begin(), block.members.end(), [&](const scene::Member& m) { return m.name == name; });
+    if (found == block.members.end()) throw std::invalid_argument(name + " is no uniform of " + pass);
+    return *found;
   }
   /// Makes of a float of every run of a pass what `change` gives.
   void change(const std::string& pass, const std::string& name, const std::function<float(float)>& change, int component = 0) {
@@ -353,8 +356,8 @@ TEST_F(HostShadowTest, AnotherDampingFails) {
   expect_only_foreign("wave_step", "uniform damping is ", "uniform damping of wave_step is not the scene's in 4 runs");
 }
 TEST_F(HostShadowTest, AnotherCameraFails) {
-  change("surface_hit", "plane_left", [](float left) { return 0.95f * left; });
-  expect_only_foreign("surface_hit", "uniform plane_left is ", "uniform plane_left of surface_hit");
+  change("surface_hit", "camera_plane_left", [](float left) { return 0.95f * left; });
+  expect_only_foreign("surface_hit", "uniform camera_plane_left is ", "uniform camera_plane_left of surface_hit");
 }
 TEST_F(HostShadowTest, APictureOfTheHostsOwnFails) {
   mistake = [](PassCase& c) {
