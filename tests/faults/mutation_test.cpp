@@ -110,7 +110,7 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
   const std::map<std::string, int> lower{
       {"puddle-as-published", 92},      {"puddle-corrected", 79},      {"rainy_glass-as-published", 80},  {"rainy_glass-corrected", 80},
       {"edge_splash-as-published", 92}, {"edge_splash-corrected", 75}, {"screen_drops-as-published", 70}, {"screen_drops-corrected", 74},
-      {"windshield-corrected", 93},     {"windshield-mist", 86},       {"windshield-smear", 89}};
+      {"windshield-corrected", 93},     {"windshield-mist", 86},       {"windshield-smear", 89},          {"windshield-panes", 84}};
   const auto named = lower.find(GetParam().name);
   const int least = named == lower.end() ? 94 : named->second;
   // None slips through that did not before there were rearrangements; what those hold warns, and is the smaller part.

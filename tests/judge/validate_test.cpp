@@ -292,7 +292,7 @@ TEST_F(Files, ThePacksOwnAreRefused) {
   EXPECT_EQ(refusal().first, ExitCode::pass);
   std::filesystem::remove(path);
   std::filesystem::create_symlink(own, path);
-  EXPECT_EQ(refusal().first, ExitCode::usage);
+  EXPECT_EQ(refusal().first, ExitCode::port_files);
 }
 
 // Every way in which a file can be bad, at once: each is named, and what does not need them is judged as ever.
@@ -366,13 +366,13 @@ TEST_F(Files, OfAPartialPortPassesWithoutFilesAreNotJudged) {
   EXPECT_THAT(text, HasSubstr("expected folders such as puddle.raindrops/0011.0 with the port's outputs, found none"));
 }
 
-// The worst of several errors counts: an unreadable file over a missing one.
-TEST_F(Files, AnUnreadableFileIsMoreSeriousThanAMissingOne) {
+// A folder in the place of a file is the port's, as a missing file is.
+TEST_F(Files, AFolderInThePlaceOfAFileIsRefusedAsAMissingOne) {
   std::filesystem::remove(file("puddle.shade/0011.0/out.colour.npy"));
   const std::filesystem::path path = file("puddle.wave_step/0012.1/out.wave.npy");
   std::filesystem::remove(path);
   std::filesystem::create_directory(path);
-  EXPECT_EQ(refusal().first, ExitCode::io);
+  EXPECT_EQ(refusal().first, ExitCode::port_files);
 }
 
 // Under webgpu a store may flush a subnormal half, and no known device does: a warning. Its cause is asked for, and told where it is
