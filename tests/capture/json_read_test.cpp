@@ -19,7 +19,7 @@ std::string refusal(const std::string& text, const JsonLimits& limits = small_js
 
 TEST(JsonRead, ReadsValuesInTheirOrder) {
   const nlohmann::ordered_json json = parse_json(R"({"b": [1, {"c": null}], "a": "\u00fc"})", "x.json", small_json);
-  EXPECT_EQ(json.dump(), R"({"b":[1,{"c":null}],"a":"\u00fc"})");
+  EXPECT_EQ(json.dump(), "{\"b\":[1,{\"c\":null}],\"a\":\"\xc3\xbc\"}");
   EXPECT_EQ(parse_json("[1]", "x.json", small_json).size(), 1u);
 }
 

@@ -126,7 +126,9 @@ inline std::string jpeg(int columns) {
     return std::string("\xff") + static_cast<char>(marker) + big(static_cast<std::uint32_t>(data.size() + 2), 2) + data;
   };
   std::string out = "\xff\xd8";
-  out += segment(0xdb, '\0' + std::string(64, 8));                                                              // every step is 8
+  std::string steps(65, 8);  // every step is 8
+  steps[0] = 0;
+  out += segment(0xdb, steps);
   out += segment(0xc0, std::string("\x08") + big(16, 2) + big(8 * columns, 2) + std::string("\1\1\x11\0", 4));  // 8 bits, one channel
   // DC codes: 0 "no change", 10 "one bit follows". AC codes: 0 "end of block".
   out += segment(0xc4, std::string("\0\1\1", 3) + std::string(14, '\0') + std::string("\0\1", 2));

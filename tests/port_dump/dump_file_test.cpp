@@ -43,13 +43,13 @@ TEST(DumpFile, LossyKindsAreRefusedWithTheReason) {
   EXPECT_THAT(Dump().file("out.b.bmp", "x").refusal(r8), HasSubstr("RenderDoc makes RGB of R8"));
 }
 
-TEST(DumpFile, UnreadableFilesAreInputOutputErrors) {
+TEST(DumpFile, AFolderInThePlaceOfAFileIsThePorts) {
   Dump dump;
   std::filesystem::create_directory(dump.path() / "out.b.npy");
   const auto error = image_io::error_of([&] { dump.read(r8); });
   ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::io);
-  EXPECT_THAT(error->what(), HasSubstr("out.b.npy': Is a directory"));
+  EXPECT_EQ(error->code(), ExitCode::port_files);
+  EXPECT_THAT(error->what(), HasSubstr("out.b.npy': expected a file, found a folder"));
 }
 
 }  // namespace

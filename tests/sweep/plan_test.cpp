@@ -117,8 +117,6 @@ TEST_F(PlanText, ACellDoesNotHangOnTheOneBefore) {
   const auto variants = ids("verb='hash'\nscene=['b.toml', 'a.toml']\n[set]\nrun.frames=2\n[axes]\nseed=[1, 2]\n");
   EXPECT_EQ(ids("verb='hash'\nscene='a.toml'\nframes=2\n[set]\nseed=2\n").at(0), variants.at(3));
   EXPECT_EQ(ids("verb='hash'\nscene='b.toml'\nframes=2\n[set]\nseed=2\n").at(0), variants.at(1));
-  // Zero with a sign is another text, and so another cell.
-  EXPECT_EQ(ids("verb='hash'\nscene='b.toml'\n[axes]\n'world.wind'=[[0.0, 0.0, 0.0], [-0.0, 0.0, 0.0]]\n").size(), 2u);
 }
 
 // What a scene refuses is said of the plan's line, before anything starts.
