@@ -122,10 +122,10 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       const std::string& what = pass.pass_and_variant;
       // The rest of falling_rain's widths, where devices round to nearest, is the distance to a streak's segment: a quotient that is
       // clamped and multiplied again, whose roundings an interval adds up and devices mostly do not.
-      const double most = what == "screen_drops-corrected background"                                              ? 7
-                          : what == "puddle-as-published raindrops"                                                ? 8
-                          : pass.pass == "falling_rain" && (name == "d3d" || name == "typical" || name == "metal") ? 9
-                                                                                                                   : 4;
+      const double most = what == "screen_drops-corrected background"                           ? 7
+                          : what == "puddle-as-published raindrops"                             ? 8
+                          : pass.pass == "falling_rain" && (name == "d3d" || name == "typical") ? 9
+                                                                                                : 4;
       EXPECT_LE(at(m.ratios, 0.5), most) << pass.name() << ' ' << name;
     }
   }
