@@ -249,7 +249,7 @@ struct Squares {
   }
 };
 TEST(RearrangedPort, AProductOfSumsMultipliedOutFailsAndSaysSo) {
-  Squares squares(16.1f, 15.3f);
+  Squares squares(60.1f, 59.5f);
   const CaseJudgement j = squares.judged(enclosed::Rearrangement::distributed);
   EXPECT_GT(j.failing, 5);
   EXPECT_EQ(j.expanded, j.failing);
