@@ -120,8 +120,7 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       // What a sum of many taps spreads by grows as a root of their number, its envelope as the number. So do the six roundings of
       // the weights of a lookup between two levels. A hash has few roundings, magnified alike: to nearest, devices give few numbers.
       const std::string& what = pass.pass_and_variant;
-      // The rest of falling_rain's widths, where devices round to nearest, is the distance to a streak's segment: a quotient that is
-      // clamped and multiplied again, whose roundings an interval adds up and devices mostly do not.
+      // What keeps falling_rain above 4 where devices round to nearest is not proven; the distance to a streak's segment is suspected.
       const double most = what == "screen_drops-corrected background"                           ? 7
                           : what == "puddle-as-published raindrops"                             ? 8
                           : pass.pass == "falling_rain" && (name == "d3d" || name == "typical") ? 9

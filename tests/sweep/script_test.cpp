@@ -20,7 +20,9 @@ TEST(Script, IsTextOfAShell) {
     const std::string text = script({engine, "/opt/it's/rainref", "/data/a plan.toml", "/data/$out", 8, 2, ""});
     put(folder / "script", text);
     EXPECT_EQ(std::system(("sh -n '" + (folder / "script").string() + "'").c_str()), 0) << text;
-    EXPECT_THAT(text, HasSubstr("sweep collect "));
+    // A job's command is one word of the script, so its own quotes are quoted again.
+    EXPECT_THAT(text, HasSubstr(engine == "parallel" ? "sweep collect '/data/a plan.toml' -o '/data/$out'"
+                                                     : R"(sweep collect '\''/data/a plan.toml'\'' -o '\''/data/$out'\'')"));
     EXPECT_THAT(text, HasSubstr("--threads 2"));
   }
   EXPECT_THAT(script({"slurm", "/r", "/p", "/o", 8, 1, ""}), HasSubstr("--array=0-7"));
