@@ -77,6 +77,7 @@ pass::Run<HalvePass> halve_run(const BlurUniforms& uniforms, bool corrected, Rou
     throw Error(ExitCode::internal, "blur_pyramid: the levels do not fit");
   pass::HostIo<HalvePass> io;
   io.above = above;
+  if (corrected) io.above.address = Address::mirror;
   io.blurred = out;
   return pass::Run<HalvePass>(uniforms, corrected, rounding, io);
 }

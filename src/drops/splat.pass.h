@@ -54,9 +54,9 @@ struct SplatPass {
          member<&U::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a mass unit in a texel."),
          member<&U::gravity>("gravity", "1", {-1e9, 1e9}, "corrected: pull on a drop of mass 1, in plane axes, over what holds it."),
          member<&U::wind>("wind", "1", {-1e9, 1e9}, "corrected: the same of the wind."),
-         member<&U::longer>("longer", "1", scene::share, "corrected: of a drop that is just held, its length more than round."),
-         member<&U::taper>("taper", "1", scene::share, "corrected: its width's slope along its half length."),
-         member<&U::skew>("skew", "1", scene::share, "corrected: its height's slope along its half length."),
+         member<&U::longer>("longer", "1", scene::share, "Of a drop that is just held, its length more than round; 0 as published."),
+         member<&U::taper>("taper", "1", scene::share, "Its width's slope along its half length; 0 as published."),
+         member<&U::skew>("skew", "1", scene::share, "Its height's slope along its half length; 0 as published."),
          member<&U::moment>("moment", "1", scene::share, "corrected: mean squared place along it, over its half length squared.")});
   }
   /// Whether a drop may add something to a tile of texels. Others surely add nothing: this one ends a texel and a fiftieth of its radius

@@ -235,6 +235,7 @@ struct Host {
     StoredTexture<Storage> view;
     const Image* image = nullptr;
     std::span<const Image> levels{};
+    Address address = Address::clamp;  ///< of a single image, as it is recorded
     constexpr Stored(In in) : is(in) {}
     void operator=(const Image& i) {
       view = stored_texture<Storage>(i);

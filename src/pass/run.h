@@ -121,7 +121,7 @@ class Run {
           inputs.push_back({member.is.name, member.texture, member.is.filter, member.is.mip_filter});
       } else if constexpr (requires { member.view; }) {
         if (member.image)
-          inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
+          inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter, member.address});
         else if (!member.levels.empty())
           inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter});
       } else if constexpr (requires { member.records; }) {

@@ -25,7 +25,7 @@ bool has(const scene::Config& config, std::string_view key) {
   return std::any_of(all.begin(), all.end(), [&](const scene::Config::Entry& e) { return e.parameter.key == key; });
 }
 
-/// To the bit: 0 and -0 are other texts.
+/// To the bit.
 bool is_same(const scene::Value& a, const scene::Value& b) {
   if (a.index() != b.index()) return false;
   return std::visit(

@@ -14,7 +14,7 @@ namespace rainref::windshield {
 
 struct NormalsUniforms {
   float slope_x;      ///< slope along x for a difference of 1 mm across two columns
-  float slope_shear;  ///< corrected: slope along y for the same
+  float slope_shear;  ///< slope along y for the same; 0 as published
   float slope_y;      ///< slope along y for a difference of 1 mm across two rows
   float padding0;
 };
@@ -30,7 +30,7 @@ struct NormalsPass {
     return scene::uniform_block<U>(
         "NormalsUniforms",
         {member<&U::slope_x>("slope_x", "1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
-         member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "corrected: slope along y for 1 mm across two columns."),
+         member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two columns; 0 as published."),
          member<&U::slope_y>("slope_y", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
   }
   template <class B>

@@ -98,6 +98,35 @@ TEST(BlurPyramid, MeanOfPowersOfTwoIsExact) {
   }
 }
 
+// The address rule mirror, of which images and mirror images alternate.
+TEST(BlurPyramid, MirrorsAreThoseOfTheAddressRule) {
+  for (int n = 1; n <= 9; ++n) {
+    for (int i = -2; i <= n + 2; ++i) {
+      const int in_period = ((i % (2 * n)) + 2 * n) % (2 * n);
+      EXPECT_EQ(mirrored(i, n), in_period < n ? in_period : 2 * n - 1 - in_period) << i << " of " << n;
+    }
+  }
+}
+
+// A pack says how texels beyond the edge are read, of loads too.
+TEST(BlurPyramid, TheLevelAboveIsRecordedWithItsAddressRule) {
+  struct Rules : Recorder {
+    std::vector<Address> seen;
+    void before(const PassStart& start) override {
+      for (const PassInput& input : start.inputs) seen.push_back(input.address);
+    }
+    void pass(const PassCall&) override {}
+  };
+  const Image above(Format::rgba16f, 6, 4);
+  Image out(Format::rgba16f, 3, 2);
+  for (const bool corrected : {false, true}) {
+    Rules rules;
+    halve_run(blur_uniforms(settings(corrected), 6, 4, 1), corrected, Rounding::rne, above, out)
+        .start({&rules, 0, 0, 0, 0, Rounding::rne, 1});
+    EXPECT_EQ(rules.seen, std::vector<Address>{corrected ? Address::mirror : Address::clamp});
+  }
+}
+
 TEST(BlurPyramid, OddSizesKeepTheMeanWhenCorrected) {
   for (const std::array<int, 2> size : {std::array<int, 2>{5, 5}, {7, 4}, {33, 19}, {1, 9}, {255, 127}}) {
     const auto value = [&](int x, int y) { return (x * 7 + y * 13) % 5 + (x == size[0] - 1 ? 8 : 0); };

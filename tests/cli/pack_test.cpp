@@ -222,7 +222,8 @@ TEST_F(RunCapture, HoldsTheBuffersOfTheFramesThatAreWritten) {
   packed["manifest.json"] = capture::manifest_text(manifest);
   EXPECT_EQ(files("o/capture"), packed);
 
-  o = rainref({"run", "corrected.toml", "-o", "o", "--capture", "passes"}, c);  // the older capture is replaced
+  // The older run is replaced, its capture with it.
+  o = rainref({"run", "corrected.toml", "-o", "o", "--overwrite", "--capture", "passes"}, c);
   EXPECT_EQ(o.code, 0) << o.err;
   const capture::Pack outputs = read("o/capture");
   EXPECT_FALSE(outputs.with_inputs);

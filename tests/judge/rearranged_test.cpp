@@ -8,6 +8,7 @@
 
 #include "capture/bound_texture.h"
 #include "drops/records.h"
+#include "drops/splat_uniforms.h"
 #include "drops/uniforms.h"
 #include "judge/alternatives.h"
 #include "judge/mini_port.h"
@@ -271,7 +272,8 @@ TEST(RearrangedPort, WhatIsFarOffIsNotSaidToBeMultipliedOut) {
   EXPECT_EQ(j.reason.find("multiplying out"), std::string::npos) << j.reason;
   EXPECT_EQ(squares.judged(enclosed::Rearrangement::expanded).failing, 0);
 }
-// Groups that hold the frame before, a camera that looks elsewhere, a buffer that was not cleared: none of it is a rearrangement.
+// Groups that hold the frame before, a camera that looks elsewhere, a buffer that was not cleared, a list cut short: none of it is a
+// rearrangement.
 TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
   const auto reasons = [](const std::string& pack, const std::string& pass, auto change) {
     MiniPort port(pack);
@@ -308,6 +310,29 @@ TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
     };
   });
   EXPECT_EQ(camera.find("multiplying out"), std::string::npos) << camera;
+  // The drops of a still frame are added to those of the frame before: each half twice.
+  const std::string uncleared = reasons("windshield-corrected", "splat", [](MiniPort& port) {
+    port.after = [](const PassCase& c, std::vector<Array>& out) {
+      if (c.pass != "splat") return;
+      std::vector<std::byte>& halves = out[0].levels[0];
+      for (std::size_t at = 0; at < halves.size(); at += 2) {
+        std::uint16_t h;
+        std::memcpy(&h, &halves[at], 2);
+        h = static_cast<std::uint16_t>(h & 0x7c00 ? h + 0x400 : h << 1);
+        std::memcpy(&halves[at], &h, 2);
+      }
+    };
+  });
+  EXPECT_EQ(uncleared.find("multiplying out"), std::string::npos) << uncleared;
+  const std::string cut = reasons("windshield-corrected", "splat", [](MiniPort& port) {
+    port.before = [](PassCase& c) {
+      if (c.pass != "splat") return;
+      auto u = capture::uniforms_of<drops::SplatUniforms>(c);
+      u.drop_count /= 2;
+      std::memcpy(c.uniforms.data(), &u, sizeof u);
+    };
+  });
+  EXPECT_EQ(cut.find("multiplying out"), std::string::npos) << cut;
 }
 
 // ---- integrate -----------------------------------------------------------------------------------------------------

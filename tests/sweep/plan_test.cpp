@@ -117,6 +117,9 @@ TEST_F(PlanText, ACellDoesNotHangOnTheOneBefore) {
   const auto variants = ids("verb='hash'\nscene=['b.toml', 'a.toml']\n[set]\nrun.frames=2\n[axes]\nseed=[1, 2]\n");
   EXPECT_EQ(ids("verb='hash'\nscene='a.toml'\nframes=2\n[set]\nseed=2\n").at(0), variants.at(3));
   EXPECT_EQ(ids("verb='hash'\nscene='b.toml'\nframes=2\n[set]\nseed=2\n").at(0), variants.at(1));
+  // A zero with a sign is zero.
+  EXPECT_THAT(refusal("verb='hash'\nscene='b.toml'\n[axes]\n'world.wind'=[[0.0, 0.0, 0.0], [-0.0, 0.0, 0.0]]\n"),
+              HasSubstr("two cells are the same"));
 }
 
 // What a scene refuses is said of the plan's line, before anything starts.

@@ -1,7 +1,7 @@
 // What both normals share.
 layout(std140, binding = 0) uniform NormalsUniforms {
   float slope_x;      //   0  [1/mm] Slope along x for 1 mm across two columns.
-  float slope_shear;  //   4  [1/mm] corrected: slope along y for 1 mm across two columns.
+  float slope_shear;  //   4  [1/mm] Slope along y for 1 mm across two columns; 0 as published.
   float slope_y;      //   8  [1/mm] Slope along y for 1 mm across two rows.
   float padding_0;    //  12  padding
 } u;

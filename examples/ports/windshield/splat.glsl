@@ -11,9 +11,9 @@ layout(std140, binding = 0) uniform SplatUniforms {
   float film_scale;       //  44  [mm] corrected: height of a mass unit in a texel.
   vec2 gravity;           //  48  [1] corrected: pull on a drop of mass 1, in plane axes, over what holds it.
   vec2 wind;              //  56  [1] corrected: the same of the wind.
-  float longer;           //  64  [1] corrected: of a drop that is just held, its length more than round.
-  float taper;            //  68  [1] corrected: its width's slope along its half length.
-  float skew;             //  72  [1] corrected: its height's slope along its half length.
+  float longer;           //  64  [1] Of a drop that is just held, its length more than round; 0 as published.
+  float taper;            //  68  [1] Its width's slope along its half length; 0 as published.
+  float skew;             //  72  [1] Its height's slope along its half length; 0 as published.
   float moment;           //  76  [1] corrected: mean squared place along it, over its half length squared.
 } u;
 struct Drop {

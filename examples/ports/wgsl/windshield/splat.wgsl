@@ -11,9 +11,9 @@ struct SplatUniforms {
   film_scale : f32,       //  44  [mm] corrected: height of a mass unit in a texel.
   gravity : vec2<f32>,    //  48  [1] corrected: pull on a drop of mass 1, in plane axes, over what holds it.
   wind : vec2<f32>,       //  56  [1] corrected: the same of the wind.
-  longer : f32,           //  64  [1] corrected: of a drop that is just held, its length more than round.
-  taper : f32,            //  68  [1] corrected: its width's slope along its half length.
-  skew : f32,             //  72  [1] corrected: its height's slope along its half length.
+  longer : f32,           //  64  [1] Of a drop that is just held, its length more than round; 0 as published.
+  taper : f32,            //  68  [1] Its width's slope along its half length; 0 as published.
+  skew : f32,             //  72  [1] Its height's slope along its half length; 0 as published.
   moment : f32,           //  76  [1] corrected: mean squared place along it, over its half length squared.
 }
 @group(0) @binding(0) var<uniform> u: SplatUniforms;
