@@ -93,25 +93,31 @@ std::optional<Cause> read_beyond_end(const FailedRun& f, std::size_t output) {
   return std::nullopt;
 }
 
-std::string not_numbers_text(const FailedRun& f) {
+std::optional<Cause> not_numbers(const FailedRun& f) {
   std::int64_t failing = 0;
   for (const judge::OutputJudgement& o : f.judgement.outputs) {
     failing += o.failing;
     // The worst come first, and nothing is worse than what is no number.
-    if (o.failing > 0 && (o.worst.empty() || !o.worst.back().not_a_number)) return "";
+    if (o.failing > 0 && (o.worst.empty() || !o.worst.back().not_a_number)) return std::nullopt;
     for (std::size_t i = 0; i < o.map.size(); ++i)
-      if (o.map[i] == 3 && is_a_number(f, o, {static_cast<int>(i) % o.width, static_cast<int>(i) / o.width})) return "";
+      if (o.map[i] == 3 && is_a_number(f, o, {static_cast<int>(i) % o.width, static_cast<int>(i) / o.width})) return std::nullopt;
   }
-  if (failing == 0) return "";
+  if (failing == 0) return std::nullopt;
   for (const judge::CaseJudgement& c : f.judged.cases)
     for (const judge::OutputJudgement& o : c.outputs) {
       if (o.worst.empty() || !o.worst.front().not_a_number) continue;
       const judge::Failure& first = o.worst.front();
       const std::string place = o.records ? fmt::format("{} of record {}", first.field, first.x)
                                           : fmt::format("({}, {}).{}", first.x, first.y, "xyzw"[first.channel & 3]);
-      return fmt::format("each failing element is not a number (NaN), the first is {} of {} in {}", place, o.name, c.id);
+      Cause cause;
+      cause.name = "not a number";
+      cause.sentence = fmt::format("each failing element is not a number (NaN), the first is {} of {} in {}", place, o.name, c.id);
+      cause.explained = cause.inside = cause.of = failing;
+      cause.of_records = o.records;
+      cause.is_likely = true;
+      return cause;
     }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace rainref::faults

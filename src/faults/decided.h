@@ -17,7 +17,7 @@ std::optional<judge::Cause> decided(const TexelReplay& run, const TexelReplay* o
 /// Of list `output`: dead records behind the right ones, which are all of what fails; nothing where that is not so.
 std::optional<judge::Cause> read_beyond_end(const judge::FailedRun& failed, std::size_t output);
 
-/// "each failing element is not a number, the first is (3, 4).x of wave in puddle.wave_step/0001.0"; "" where one is a number.
-std::string not_numbers_text(const judge::FailedRun& failed);
+/// That each failing element is not a number, and where the first stands; nothing where one is a number.
+std::optional<judge::Cause> not_numbers(const judge::FailedRun& failed);
 
 }  // namespace rainref::faults

@@ -103,7 +103,7 @@ std::vector<Cause> causes_of(const FailedRun& failed) {
 judge::Explanation diagnose(const FailedRun& failed) {
   if (failed.is_warned) return {judge::is_enveloped(failed.run.c) ? causes_of_texels(failed) : std::vector<Cause>(), ""};
   judge::Explanation why{causes_of(failed), where_it_fails(failed)};
-  if (const std::string text = not_numbers_text(failed); !text.empty()) why.where += (why.where.empty() ? "" : "; ") + text;
+  if (std::optional<Cause> none = not_numbers(failed)) why.causes.push_back(*std::move(none));
   return why;
 }
 

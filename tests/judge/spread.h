@@ -83,7 +83,7 @@ inline void measure(const BoundCase& b, int x, int y, const enclosed::Profile& d
 /// The median of width over spread is at most 4 for every pass and profile.
 inline void expect_tight(const std::vector<BoundPass>& passes) {
   const int devices = 128;
-  const std::int64_t texels = 300;
+  const std::int64_t texels = 1200;
   const auto enough = static_cast<std::size_t>(count_from("RAINREF_SPREADS", 100));  // values with an open envelope
   const char* only = std::getenv("RAINREF_ONLY");
   fmt::print("{:<26} {:<8} {:>7} {:>7} {:>12} {:>10} {:>10} {:>9}\n", "pass", "profile", "ratio", "p90", "width (ULP)", "exact",

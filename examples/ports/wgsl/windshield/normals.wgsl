@@ -1,7 +1,7 @@
 // What both normals share.
 struct NormalsUniforms {
   slope_x : f32,      //   0  [1/mm] Slope along x for 1 mm across two columns.
-  slope_shear : f32,  //   4  [1/mm] corrected: slope along y for 1 mm across two columns.
+  slope_shear : f32,  //   4  [1/mm] Slope along y for 1 mm across two columns; 0 as published.
   slope_y : f32,      //   8  [1/mm] Slope along y for 1 mm across two rows.
   padding_0 : f32,    //  12  padding
 }
