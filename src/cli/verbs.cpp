@@ -114,7 +114,9 @@ Verb hash_verb(CLI::App& app) {
   CLI::App& verb = *app.add_subcommand("hash", "Hash every buffer that every pass writes");
   const auto scene = std::make_shared<SceneFlags>();
   add_scene_flags(verb, *scene);
-  verb.footer("Example: rainref hash scenes/puddle/default.toml --frames 60 --threads 2 --simd avx2");
+  verb.footer(
+      "A line names frame, pass and buffer. Its hash is of all that the pass wrote there in that frame, in each of its steps.\n"
+      "Example: rainref hash scenes/puddle/default.toml --frames 60 --threads 2 --simd avx2");
   return {&verb, [scene] { return hash(resolve(*scene)); }};
 }
 

@@ -105,8 +105,8 @@ inline const From rules_of_all_passes{
 - Lookups with `filter` linear are bilinear at normalized coordinates: x = u·width − 1/2, texels floor(x) and floor(x) + 1 joined by mix,
   columns first. By repeat u is fract(u); by clamp x is held in [0, width − 1], by border in [−1, width]. lod is held in [0, last level]: a mix of
   levels floor(lod) and the next where the mip filter is linear, level floor(lod + 1/2) where it is nearest. Input filter `none` means a load
-  by integer texel. Beyond the edge the input's address mode decides, of loads too, unless the formula says
-  otherwise: corrected `blur_pyramid` mirrors. The sampler's own precision is allowed for.)"};
+  by integer texel. Beyond the edge the input's address mode decides, of loads too; by mirror texel −1 is 0 and −2
+  is 1. The sampler's own precision is allowed for.)"};
 
 // What porting.md takes from GLSL.
 inline Float3 normalize(Float3 a) { return (1 / length(a)) * a; }
