@@ -108,7 +108,7 @@ void add_fitted_thresholds(std::vector<Fault>& out, const Probed& p, const Const
   for (const auto& [value, name, is_literal] : constants) {
     const auto found = ranges.find(value);
     if (found == ranges.end() || value == 0) continue;
-    const auto add = [&](float bound, const char* side) {
+    const auto add = [&, value = value, &name = name](float bound, const char* side) {
       const float other = bound + (bound - value) * 1e-3f;
       if (other == value) return;
       Fault d;

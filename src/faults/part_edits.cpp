@@ -61,7 +61,7 @@ std::vector<Edit> member_edits_of(const Probe& p, std::int32_t node) {
   const std::string text = words_for(p, node);
   for (const auto& [right, leaves] : used)
     for (const auto& [wrong, parts_of] : others) {
-      const auto has = [&](const auto& leaf) { return parts_of.contains(leaf.second); };
+      const auto has = [&parts_of = parts_of](const auto& leaf) { return parts_of.contains(leaf.second); };
       if (wrong == right || list_of(wrong) != list_of(right) || !std::all_of(leaves.begin(), leaves.end(), has)) continue;
       std::vector<Expression> kept;
       bool is_had = true, changes = false;

@@ -129,7 +129,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
   const ShownGlass glass(settings_, surroundings_, running());
   const auto [half_width, half_height] = glass.half_size();
   return effect::drops_layer(running().colour(), colour_as_half(surroundings_.colour, parallel::rows_of(executor)), executor,
-                             [&](int column, int row) -> effect::DropPixel {
+                             [&, half_width = half_width, half_height = half_height](int column, int row) -> effect::DropPixel {
                                const Shown shown = glass.at(column, row);
                                if (!shown.is_behind || !shown.is_wet) return {};
                                return {1, 0.5 * shown.x / half_width - (column + 0.5) / settings_.width + 0.5,
