@@ -154,7 +154,7 @@ struct Bound : Inputs<P> {
         to.out = out;
         to.channels = from.channels;
         to.rounding = from.rounding;
-        if (from.is_given) out += from.channels;
+        if (out && from.is_given) out += from.channels;  // null: a pass over records gives no texels
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
       } else if constexpr (requires { to.records; }) {
