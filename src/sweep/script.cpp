@@ -30,7 +30,7 @@ void require_plain(const ScriptAsked& asked) {
   const std::pair<const char*, std::string> texts[] = {
       {"program", asked.program.string()}, {"PLAN", asked.plan.string()}, {"--output", asked.out.string()}, {"--image", asked.image}};
   for (const auto& [name, text] : texts) {
-    const auto refuse = [&](const char* expected) {
+    const auto refuse = [name = name, &text = text](const char* expected) {
       throw Error(ExitCode::usage, fmt::format("{}: expected {}, found {}", name, expected, scene::toml_string(text)));
     };
     const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
