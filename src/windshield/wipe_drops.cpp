@@ -48,7 +48,8 @@ struct Range {
   int begin, end;
 };
 Range range_of(double low, double high, int size) {
-  const auto whole = [&](double x) { return static_cast<int>(std::clamp(x, -1.0, size + 1.0)); };
+  // What is not a number lies before the first texel.
+  const auto whole = [&](double x) { return x > -1 ? static_cast<int>(std::min(x, size + 1.0)) : -1; };
   return {std::clamp(whole(low) - 1, 0, size), std::clamp(whole(high) + 1, 0, size)};
 }
 
