@@ -127,13 +127,13 @@ std::optional<effect::Display> Instance::display() const { return effect::Displa
 
 effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) const {
   const ShownGlass glass(settings_, surroundings_, running());
-  const auto [half_width, half_height] = glass.half_size();
+  const std::array<double, 2> half = glass.half_size();
   return effect::drops_layer(running().colour(), colour_as_half(surroundings_.colour, parallel::rows_of(executor)), executor,
-                             [&, half_width = half_width, half_height = half_height](int column, int row) -> effect::DropPixel {
+                             [&](int column, int row) -> effect::DropPixel {
                                const Shown shown = glass.at(column, row);
                                if (!shown.is_behind || !shown.is_wet) return {};
-                               return {1, 0.5 * shown.x / half_width - (column + 0.5) / settings_.width + 0.5,
-                                       0.5 * shown.y / half_height - (row + 0.5) / settings_.height + 0.5};
+                               return {1, 0.5 * shown.x / half[0] - (column + 0.5) / settings_.width + 0.5,
+                                       0.5 * shown.y / half[1] - (row + 0.5) / settings_.height + 0.5};
                              });
 }
 

@@ -99,14 +99,13 @@ std::optional<effect::Display> Instance::display() const { return effect::Displa
 
 effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) const {
   const ShownDrops drops(settings_, running());
-  const auto [half_width, half_height] = drops.half_size();
-  return effect::drops_layer(running().colour(), copy_of(running().background()), executor,
-                             [&, half_width = half_width, half_height = half_height](int column, int row) -> effect::DropPixel {
-                               const Shown shown = drops.at(column, row);
-                               const double z = std::max(shown.bent.z, 0.05);  // as the pass has it
-                               return {shown.cover, 0.5 * shown.bent.x / (z * half_width) - (column + 0.5) / settings_.width + 0.5,
-                                       0.5 * shown.bent.y / (z * half_height) - (row + 0.5) / settings_.height + 0.5};
-                             });
+  const std::array<double, 2> half = drops.half_size();
+  return effect::drops_layer(running().colour(), copy_of(running().background()), executor, [&](int column, int row) -> effect::DropPixel {
+    const Shown shown = drops.at(column, row);
+    const double z = std::max(shown.bent.z, 0.05);  // as the pass has it
+    return {shown.cover, 0.5 * shown.bent.x / (z * half[0]) - (column + 0.5) / settings_.width + 0.5,
+            0.5 * shown.bent.y / (z * half[1]) - (row + 0.5) / settings_.height + 0.5};
+  });
 }
 
 effect::Effect entry() {

@@ -106,14 +106,16 @@ std::string text_of(const std::vector<Cause>& causes) {
 class ListFaults : public testing::TestWithParam<PackPasses> {};
 
 // Whatever changes a record is outside, and the cause that is found gives the same records: the mistake itself, or one
-// that nobody could tell from it here.
+// that nobody could tell from it here. Each mistake is explained by trying all: here every fifth, in scripts/full/samples each.
 TEST_P(ListFaults, EachIsCaughtAndNamed) {
-  std::int64_t made = 0, named_first = 0;
+  const std::int64_t step = count_from("RAINREF_FAULTS_STEP", 5);
+  std::int64_t made = 0, named_first = 0, applicable = 0;
   for (const ListCase& l : list_cases(GetParam())) {
     for (const Fault& d : l.faults()) {
       if (!d.alter_list || d.for_diagnosis) continue;
       const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
       if (!port || same_records(*port, l.reference())) continue;
+      if (applicable++ % step != 0) continue;
       ++made;
       const KeyedJudgement j = l.judged(*port);
       EXPECT_GT(j.failing, 0) << l.text(d);
@@ -125,7 +127,7 @@ TEST_P(ListFaults, EachIsCaughtAndNamed) {
     }
   }
   fmt::print("{}: {} of {} named first\n", GetParam().name, named_first, made);
-  EXPECT_GT(made, 15 * static_cast<std::int64_t>(GetParam().passes.size()));
+  EXPECT_GT(applicable, 15 * static_cast<std::int64_t>(GetParam().passes.size()));
   // The others: one record has no neighbour, resting drops have no stale velocity, a pass that changes two fields leaves
   // the rest as they were.
   EXPECT_GT(10 * named_first, 7 * made);

@@ -120,8 +120,8 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       // What a sum of many taps spreads by grows as a root of their number, its envelope as the number. So do the six roundings of
       // the weights of a lookup between two levels. A hash has few roundings, magnified alike: to nearest, devices give few numbers.
       const std::string& what = pass.pass_and_variant;
-      // So it is with the blends of falling_rain: devices differ there by 1 ULP or not at all (RAINREF_TRACE=1 prints them), while the
-      // four roundings of a blend are bounded by some ULP each time.
+      // So it is with the blends of falling_rain: devices differ there by 2 ULP at most, often not at all (RAINREF_TRACE=1 prints them),
+      // while a blend's four roundings are bounded by several ULP.
       const double most = what == "screen_drops-corrected background"                           ? 7
                           : what == "puddle-as-published raindrops"                             ? 8
                           : pass.pass == "falling_rain" && (name == "d3d" || name == "typical") ? 9
