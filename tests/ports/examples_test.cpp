@@ -47,7 +47,7 @@ TEST(Examples, EachEditOfEachMutantAppliesOnceAndChangesTheFile) {
 // docs/notes/devices.md says how many passes of each effect ran there.
 TEST(Examples, AreAsManyAsTheNoteOfDevicesSays) {
   const std::string note = contents(source + "/docs/notes/devices.md");
-  for (const char* effect : {"windshield", "edge_splash", "screen_drops", "rainy_glass"}) {
+  for (const char* effect : {"puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"}) {
     std::set<std::string> passes;
     const nlohmann::json programs = port_runner::parse_json(examples + "/" + effect + "/bindings.json").at("programs");
     for (const auto& [formula, program] : programs.items()) passes.insert(formula.substr(0, formula.find('/')));
