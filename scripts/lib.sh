@@ -53,6 +53,21 @@ build() {
   say "Building $folder"
   NINJA_STATUS="[%f/%t] " cmake --build "$folder" ${1:+--target "$@"} >&2 || die "Build of $folder failed"
 }
+# run_tests FOLDER: every test of a build. A suite is one entry of ctest, so the tests in them are counted from its log, and what was skipped is
+# named. The last line is "N passed, N failed".
+run_tests() {
+  local result=0
+  ctest --test-dir "$1" --output-on-failure --progress -j "$(nproc)" || result=$?
+  awk '
+    / Testing: / { known = failed; cases = 0 }
+    / ms\)$/ && /^\[       OK \]/ { ++passed; ++cases }
+    / ms\)$/ && /^\[  SKIPPED \]/ { print "skipped: " $4; ++cases }
+    / ms\)$/ && /^\[  FAILED  \]/ { print "failed: " $4; ++failed; ++cases }
+    /^Test Passed\.$/ && !cases { ++passed }
+    /^Test Failed\.$/ && failed == known { ++failed }  # a program of another kind, or one that ended early
+    END { printf "%d passed, %d failed\n", passed, failed }' "$1/Testing/Temporary/LastTest.log"
+  return "$result"
+}
 # port_device DEVICE: sets `at`, the options that give a runner of ports its device: cpu (the software device), gpu (the first GPU), or
 # a number of port_runner --list; and `blend`, port_runner's own beside them.
 port_device() {
