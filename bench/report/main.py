@@ -7,10 +7,8 @@ import subprocess
 import sys
 import time
 
-import bounds
 import document
 import frames
-import gathers
 import growth
 import machine
 import peers
@@ -37,7 +35,6 @@ def arguments():
     parser.add_argument("--wait", type=float, default=60, metavar="S", help="longest wait for an idle machine (default: 60)")
     parser.add_argument("--title", default="", metavar="TEXT", help="heading of this run in the document")
     parser.add_argument("--growth", action="store_true", help="time and peak memory over drops, pixels and frames, against what is stated")
-    parser.add_argument("--bounds", action="store_true", help="what the ports of the processor allow some rows on one thread (llvm-mca), beside what they reach")
     parser.add_argument("--quick", action="store_true", help="with --growth: small sizes only")
     parser.add_argument("--table", metavar="JSON", help="print the tables of an older run, write its plots to --out, and measure nothing")
     parser.add_argument("--document", action="store_true", help="make docs/notes/performance.md and its plots of docs/notes/performance/*.json")
@@ -181,14 +178,6 @@ def main():
             write(os.path.join(given.out, "growth.md"), growth.markdown(result))
             print(growth.markdown(result))
             return GREW if result["faults"] else 0
-        if given.bounds:
-            os.makedirs(given.out, exist_ok=True)
-            clock = bounds.clock_ghz()
-            found = bounds.measure(given, clock, lambda row: bounds.rate_of(given, row), say)
-            text = bounds.markdown(found, clock) + ("\n" + gathers.sentence(clock, found[0]["lanes"]) if found else "")
-            write(os.path.join(given.out, "bounds.md"), text)
-            print(text)
-            return 0
         result = measure(given)
         write(os.path.join(given.out, "bench.json"), dumps(result))
         report(given, result)
@@ -196,7 +185,7 @@ def main():
     except rows.Malformed as problem:
         say(f"scripts/bench: {problem}")
         return WRONG_INPUT
-    except (subprocess.CalledProcessError, OSError, bounds.CannotStep) as problem:
+    except (subprocess.CalledProcessError, OSError) as problem:
         say(f"scripts/bench: {problem}")
         return 1
 

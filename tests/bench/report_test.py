@@ -2,7 +2,6 @@
 import copy
 import json
 import os
-import pathlib
 import re
 import shutil
 import subprocess
@@ -14,11 +13,8 @@ from unittest import mock
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "bench/report"))
-import bounds  # noqa: E402
-import branches  # noqa: E402
 import document  # noqa: E402
 import frames  # noqa: E402
-import gathers  # noqa: E402
 import growth  # noqa: E402
 import peers  # noqa: E402
 import plots  # noqa: E402
@@ -402,56 +398,6 @@ class Captures(unittest.TestCase):
         found, skipped = peers.prepare_ports("/nowhere", "/nowhere", lambda row: True)
         self.assertEqual((found, skipped[0]["peer"]), ([], "lavapipe"))
         self.assertTrue(re.search("is not built", skipped[0]["reason"]))
-
-
-class Bounds(unittest.TestCase):
-    @unittest.skipUnless(os.environ.get("RAINREF_BENCH_PROGRAM") and shutil.which("nm"), "the benchmarks, or nm, are not there")
-    def test_each_row_names_a_kernel_of_the_program(self):
-        for _, namespace, *_ in bounds.TARGETS:
-            entries = bounds.entries_of(os.environ["RAINREF_BENCH_PROGRAM"], namespace)
-            self.assertEqual(len(entries), len(bounds.ROWS))
-
-    def test_the_busiest_ports_decide(self):
-        pressure = {"a": {"Port0": 0.5, "Port1": 0.5}, "b": {"Port0": 1.0}, "c": {"Port2": 1.0}}
-        self.assertEqual(bounds.port_bound({"a": 2, "b": 4, "c": 3}, pressure), (4.0, ("Port0",)))
-        self.assertEqual(bounds.port_bound({"a": 8, "b": 4, "c": 3}, pressure), (6.0, ("Port0", "Port1")))
-
-    def test_an_instruction_that_repeats_itself_is_one(self):
-        texts = {1: "mov %rax,%rcx", 2: "rep movsb %ds:(%rsi),%es:(%rdi)", 3: "jne 1"}
-        self.assertEqual(bounds.once_a_string([1, 2, 2, 2, 3, 1, 2, 3, 3], texts), [1, 2, 3, 1, 2, 3, 3])
-
-
-class Gathers(unittest.TestCase):
-    @unittest.skipUnless("avx2" in pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii"), "no instruction gathers here")
-    def test_of_each_size_it_says_how_long_one_takes(self):
-        cycles = [int(n) for n in re.findall(r"(\d+) cycles from", gathers.sentence(10.0, 8))]
-        self.assertEqual(len(cycles), len(gathers.KIB))
-        self.assertGreater(min(cycles), 0)
-
-
-class Branches(unittest.TestCase):
-    TEXTS = {10: "cmp %rax,%rcx", 20: "jne    28", 30: "inc %rax", 40: "jmp    a"}
-    PLACES = {at: ("program", at) for at in TEXTS}
-
-    def calls(self, taken):
-        """A loop whose branch at 20 leaves the instruction at 30 out where it is taken."""
-        return [[at for t in taken for at in ((10, 20, 40) if t else (10, 20, 30, 40))]]
-
-    def test_outcomes_are_those_of_the_trace(self):
-        self.assertEqual([(at, taken) for _, at, taken in branches.outcomes(self.calls((1, 0, 0, 1))[0], self.TEXTS, self.PLACES)],
-                         [(20, True), (20, False), (20, False), (20, True)])
-
-    def test_a_pattern_is_foreseen_and_chance_is_not(self):
-        def share(taken):
-            calls = self.calls(taken)
-            return branches.wrong_branches(calls, self.TEXTS, self.PLACES)[0] / (len(taken) / 2)
-        self.assertEqual(share([0] * 2000), 0)
-        self.assertEqual(share([k % 7 == 0 for k in range(2000)]), 0)
-        chance, state = [], 1
-        for _ in range(4000):  # 31 bits of Lehmer's generator
-            state = state * 48271 % 0x7fffffff
-            chance.append(state >> 20 & 1)
-        self.assertAlmostEqual(share(chance), 0.5, delta=0.045)  # four standard deviations of 2000 throws
 
 
 if __name__ == "__main__":
