@@ -63,14 +63,13 @@ def peers_table(result):
 
 def scaling_table(result):
     """The wave on 16 threads beside one; "" for a run on fewer."""
-    lines, registers = [], frames.gains_of_registers(result)
+    lines = []
     for c in rows.scaling(result):
         verdict = f"{frames.GOAL_SCALING} {'met' if c['ratio'] >= frames.GOAL_SCALING else '**not met**'}"
         if verdict.endswith("**") and c["stream"] is not None:
             verdict += f", {c['stream']:.0f} % of its stream"
-        lines.append([f"`{c['row']}`", str(c["threads"]), rate_text(c["one"], c["unit"]), rate_text(c["all"], c["unit"]), f"{c['ratio']:.2f}",
-                      registers.get(c["threads"], ""), verdict])
-    return table(["row", "threads", "one thread", "all", "ratio", "registers", "goal"], lines) if lines else ""
+        lines.append([f"`{c['row']}`", str(c["threads"]), rate_text(c["one"], c["unit"]), rate_text(c["all"], c["unit"]), f"{c['ratio']:.2f}", verdict])
+    return table(["row", "threads", "one thread", "all", "ratio", "goal"], lines) if lines else ""
 
 
 def rows_table(result):

@@ -30,17 +30,10 @@ def _quartiles(values):
     return {"q1_ms": round(q[0], 4), "median_ms": round(q[1], 4), "q3_ms": round(q[2], 4)}
 
 
-def _registers(bench, threads):
-    """Milliseconds of a loop in registers."""
-    done = subprocess.run([bench, f"--benchmark_filter=^registers/threads:{threads}/", "--benchmark_min_time=0.0000001", "--benchmark_format=json"], check=True, capture_output=True,
-                          env={**os.environ, "RAINREF_BENCH_SECONDS": "0.3"})
-    return json.loads(done.stdout)["benchmarks"][0]["median_ms"]
-
-
-def measure(rainref, bench, out, counts, only, say):
-    """({"frames": rows, "registers": rows, "starts": rows}, what is skipped). Threads in turns, so that what else the machine does meets them alike."""
+def measure(rainref, out, counts, only, say):
+    """({"frames": rows, "starts": rows}, what is skipped). Threads in turns, so that what else the machine does meets them alike."""
     folder, cache = (os.path.abspath(os.path.join(out, name)) for name in ("frames-run", "frames-cache"))  # a relative cache is none: XDG
-    found, skipped, registers = {"frames": [], "registers": [], "starts": []}, [], {n: [] for n in counts}
+    found, skipped = {"frames": [], "starts": []}, []
     try:
         for scene in (s for s in SCENES if re.search(only, f"frames/{s}")):
             say(f"frames/{scene}")
@@ -50,9 +43,7 @@ def measure(rainref, bench, out, counts, only, say):
                 summary, _ = _run(rainref, folder, cache, scene, FRAMES, ["--image", "none", "--threads", str(n)])
                 times[n].append(summary["ms_per_frame"])
                 hashes[n] = summary["last_frame"][-1]["xxh3"][:16]
-                registers[n].append(_registers(bench, n))
             found["frames"] += [{"scene": scene, "threads": n, **_quartiles(times[n]), "hash": hashes[n]} for n in counts]
-        found["registers"] = [{"threads": n, **_quartiles(registers[n])} for n in counts if registers[n]]
         for scene in (f"{e}/default" for e in EFFECTS if re.search(only, f"start/{e}/default")):
             say(f"start/{scene}")
             shutil.rmtree(cache, ignore_errors=True)
@@ -71,26 +62,19 @@ def measure(rainref, bench, out, counts, only, say):
     return found, skipped
 
 
-def gains_of_registers(result):
-    """By the number of threads, what a loop in registers gains over one, as text; {} for a run without it."""
-    times = {row["threads"]: row["median_ms"] for row in result.get("registers", [])}
-    return {n: f"{times[1] / t:.2f}" for n, t in times.items() if 1 in times}
-
-
 def markdown(result):
     """The tables of a run; "" where it has none (older files)."""
     parts, lines = [], []
     one = {row["scene"]: row["median_ms"] for row in result.get("frames", []) if row["threads"] == 1}
-    registers = gains_of_registers(result)
     for row in result.get("frames", []):
         ratio = one[row["scene"]] / row["median_ms"]
         goal = "" if row["threads"] != 16 else f"{GOAL_SCALING} {'met' if ratio >= GOAL_SCALING else '**not met**'}"
         spread = 50 * (row["q3_ms"] - row["q1_ms"]) / row["median_ms"]
         lines.append([f"`{row['scene']}`", str(row["threads"]), f"{row['median_ms']:.3g}", f"{spread:.0f} %", f"{ratio:.2f}",
-                      registers.get(row["threads"], ""), goal, row["hash"]])
+                      goal, row["hash"]])
     if lines:
-        parts.append(f"Frames of scenes without pictures, a mean of {FRAMES} but for the first and the last; beside them, in turns, what a loop in registers gains by the threads:\n\n" +
-                     rows.table(["scene", "threads", "ms a frame", "±", "over one thread", "registers", "goal", "hash"], lines))
+        parts.append(f"Frames of scenes without pictures, a mean of {FRAMES} but for the first and the last:\n\n" +
+                     rows.table(["scene", "threads", "ms a frame", "±", "over one thread", "goal", "hash"], lines))
     lines = [[f"`{row['scene']}`", f"{row['kept_s']:.2f}", f"{GOAL_START:g} {'met' if row['kept_s'] <= GOAL_START else '**not met**'}",
               *(f"{row[key]:.2f}" if key in row else "" for key in ("frame_s", "png_s", "first_s"))] for row in result.get("starts", [])]
     if lines:

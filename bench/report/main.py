@@ -123,7 +123,7 @@ def measure(given):
     say("Mesa's software device")
     found, missing = peers.ports(given.build, given.out, prepared, counts[-1], given.peer_seconds)
     beside, skipped = beside + found, skipped + missing
-    whole, missing = frames.measure(os.path.join(given.build, "bin/rainref"), os.path.join(given.build, "bench/rainref_bench"), given.out, thread_counts(), given.only, say)
+    whole, missing = frames.measure(os.path.join(given.build, "bin/rainref"), given.out, thread_counts(), given.only, say)
     skipped = skipped + missing
     if not ours and not any(whole.values()):
         raise rows.Malformed(f"--only {given.only}: no row has such a name (--benchmark_list_tests prints those of passes)")

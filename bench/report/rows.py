@@ -6,7 +6,7 @@ of items a second. Ours may have "stream_percent", which is of the fastest go; p
 """
 import re
 
-UNITS = {"Gcell/s": ("cell", 1e3), "Mpix/s": ("pixel", 1.0), "Mdrop/s": ("drop", 1.0), "Mray/s": ("ray", 1.0), "Gop/s": ("op", 1e3)}
+UNITS = {"Gcell/s": ("cell", 1e3), "Mpix/s": ("pixel", 1.0), "Mdrop/s": ("drop", 1.0), "Mray/s": ("ray", 1.0)}
 
 
 class Malformed(Exception):
