@@ -51,28 +51,27 @@ def idle_text(result):
 
 
 def peers_table(result):
-    lines = []
+    """A line for each row and peer, with the ratio by the number of threads; "" without peers."""
+    ratios, goals = {}, {}
     for c in rows.comparisons(result):
-        verdict = "" if c["goal"] is None else f"{c['goal']:g} {'met' if c['ratio'] >= c['goal'] else '**not met**'}"
-        if verdict.endswith("**") and c["stream"] is not None:
-            verdict += f", {c['stream']:.0f} % of its stream"
-        lines.append([f"`{c['row']}`", str(c["threads"]), c["peer"], rate_text(c["ours"], c["unit"]), rate_text(c["theirs"], c["unit"]),
-                      f"{c['ratio']:.2f}", "" if c["ratio_best"] is None else f"{c['ratio_best']:.2f}", verdict])
-    return table(["row", "threads", "peer", "ours", "peer's", "ratio", "of the fastest", "goal"], lines)
+        stream = f" ({c['stream']:.0f} %)" if c["goal"] is not None and c["ratio"] < c["goal"] and c["stream"] is not None else ""
+        key = (c["peer"], c["row"])
+        ratios.setdefault(key, {})[c["threads"]] = rows.judged(c["ratio"], c["goal"]) + stream
+        goals[key] = "" if c["goal"] is None else f"{c['goal']:g}"
+    counts = sorted({n for of in ratios.values() for n in of})
+    lines = [[f"`{row}`", peer, *(of.get(n, "") for n in counts), goals[peer, row]] for (peer, row), of in ratios.items()]
+    return table(["row", "peer", *map(str, counts), "goal"], lines) if lines else ""
 
 
-def scaling_table(result):
-    """The wave on 16 threads beside one; "" for a run on fewer."""
-    lines = []
-    for c in rows.scaling(result):
-        verdict = f"{frames.GOAL_SCALING} {'met' if c['ratio'] >= frames.GOAL_SCALING else '**not met**'}"
-        if verdict.endswith("**") and c["stream"] is not None:
-            verdict += f", {c['stream']:.0f} % of its stream"
-        lines.append([f"`{c['row']}`", str(c["threads"]), rate_text(c["one"], c["unit"]), rate_text(c["all"], c["unit"]), f"{c['ratio']:.2f}", verdict])
-    return table(["row", "threads", "one thread", "all", "ratio", "goal"], lines) if lines else ""
+def passes_table(result):
+    """The rate of each corrected pass on all threads; "" without one."""
+    lines = [[f"`{s['row'].replace('/corrected', '')}`", rate_text(s["rate"], s["unit"]), "" if s["ratio"] is None else rows.judged(s["ratio"], s["goal"]),
+              "" if s["stream"] is None else f"{s['stream']:.0f}"] for s in rows.on_all_threads(result) if "/as-published" not in s["row"]]
+    return table(["row", "rate", "over one thread", "stream %"], lines) if lines else ""
 
 
 def rows_table(result):
+    """Every row on every number of threads; ± is half the distance of the quartiles, in percent of the median."""
     lines = [[f"`{r['row']}`", str(r["threads"]), rate_text(r["rate"], r["unit"]), f"{r['median_ms']:.3g}", spread_text(r),
               f"{r['stream_percent']:.0f}" if "stream_percent" in r else "", r["hash"].replace(" ", "<br>")] for r in result["rows"]]
     return table(["row", "threads", "rate", "ms", "±", "stream %", "hash"], lines)
@@ -86,8 +85,8 @@ def without_folders(reason):
 def markdown(result, pictures):
     """The tables of a run. pictures: folder and stem of its plots, as a link goes there."""
     m = result["machine"]
-    out = [f"{m['processor']}, {m['cores']} cores, {m['simd']}, {m['caches']}, {m['memory_gib']} GiB. {idle_text(result)} "
-           f"{len(result['rows'])} rows in {result.get('seconds', 0)} s.", ""]
+    out = [f"{m['processor']}, {m['cores']} cores, {', '.join(filter(None, (m['simd'], m['caches'])))}, {m['memory_gib']} GiB. {idle_text(result)} "
+           f"{len(result['rows'])} rows in {result.get('seconds', 0)} s. Bold: a goal is missed.", ""]
     reasons = {}
     for s in result["skipped"]:
         reasons.setdefault(s["reason"], []).append(s["peer"] + (", " + s["row"] if "row" in s else ""))
@@ -98,12 +97,12 @@ def markdown(result, pictures):
         out += [whole]
     if not result["rows"]:
         return "\n".join(out)
-    out += ["Beside peers, in the same run; the ratio is of medians (Embree, with the update of the water for a frame on both sides, and Numba: the median of turns):", "", peers_table(result)]
-    if waves := scaling_table(result):
-        out += ["The wave on many threads over one, of medians:", "", waves]
+    if text := peers_table(result):
+        out += ["How many times as fast as a peer, by the number of threads; beside a goal that is missed, the percentage of its stream that the row reaches:", "", text]
+    if text := passes_table(result):
+        out += ["Passes as corrected on all threads, medians" + (f"; goal of waves of 2048 and 4096 columns over one thread: {rows.GOAL_SCALING}:" if max(row["threads"] for row in result["rows"]) == 16 else ":"), "", text]
     for name in plots.PLOTS:
         out += [f"![{name}]({pictures}{name}.svg)", ""]
-    out += ["Medians; ± is half the distance of the quartiles, in percent of the median:", "", rows_table(result)]
     return "\n".join(out)
 
 
@@ -122,7 +121,8 @@ def made(folder):
             continue
         result, stem = read(os.path.join(folder, name)), name[: -len(".json")]
         files.update({os.path.join(folder, path): text for path, text in write_plots(result, stem + ".").items()})
-        parts.append(f"## {result.get('title', stem)}\n\n{markdown(result, 'performance/' + stem + '.')}")
+        again = "**This run is to be made again, for what is absent.** " if result["skipped"] else ""
+        parts.append(f"## {result.get('title', stem)}\n\n{again}{markdown(result, 'performance/' + stem + '.')}")
     for name in sorted(os.listdir(folder)):
         if name.startswith("growth") and name.endswith(".json"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:

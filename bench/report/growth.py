@@ -106,15 +106,13 @@ def markdown(result):
     for row in result["rows"]:
         series.setdefault(row["series"], []).append(row)
     for name, of in series.items():
-        stated, taken = per_item(of) if len(of) > 1 else (0, 0)
-        for row in of:
-            last = row is of[-1] and len(of) > 1 and not name.startswith("frames")
-            lines.append([name, str(row["size"]), f"{row['seconds']:.2f}", f"{row['stated_mib']:.1f}", f"{row['taken_mib']:.1f}",
-                          f"{stated:.1f}" if last else "", f"{taken:.1f}" if last else ""])
+        first, last = of[0], of[-1]
+        items = ["", ""] if first is last or name.startswith("frames") else [f"{bytes_of:.1f}" for bytes_of in per_item(of)]
+        lines.append([name, str(first["size"]), f"{first['taken_mib']:.1f}", str(last["size"]), f"{last['taken_mib']:.1f}", f"{last['stated_mib']:.1f}", f"{last['seconds']:.2f}", *items])
     others = result.get("others_percent")
     said = "Others used the machine meanwhile: times here are no measure, memory is." if others is None else \
         f"Others took {others} % of the machine meanwhile; memory does not depend on it."
-    text = said + "\n\n" + table(["series", "size", "s", "stated MiB", "taken MiB", "stated bytes an item", "taken"], lines)
+    text = said + "\n\n" + table(["series", "from", "taken MiB", "to", "taken MiB", "stated MiB", "s", "stated bytes an item", "taken"], lines)
     for s in result["skipped"]:
         text += f"\n- Skipped: {s['series']}, {s['size']}: {s['reason']}"
     text += "".join(f"\n- **Grew**: {fault}" for fault in result["faults"])

@@ -138,7 +138,7 @@ def report(given, result):
     os.makedirs(given.out, exist_ok=True)
     for path, text in document.write_plots(result, os.path.join(given.out, "")).items():
         write(path, text)
-    text = document.markdown(result, "")
+    text = document.markdown(result, "") + ("\n" + document.rows_table(result) if result["rows"] else "")
     write(os.path.join(given.out, "bench.md"), text)
     print(text)
 

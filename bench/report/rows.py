@@ -83,16 +83,10 @@ def of_times(peer, row, threads, unit, items, seconds, digest, **more):
             "median_ms": significant(median * 1e3), "q3_ms": significant(quantile(seconds, 0.75) * 1e3), **more}
 
 
-def _best_rate(row):
-    """Of its fastest go."""
-    return row["rate"] * row["median_ms"] / row["best_ms"]
-
-
 def comparisons(result):
-    """For each row of a peer that has one of ours on as many threads: {"row", "threads", "peer", "ours", "theirs", "ratio", "ratio_best", "goal", "stream"}.
+    """For each row of a peer that has one of ours on as many threads: {"row", "threads", "peer", "ratio", "goal", "stream"}.
 
-    ratio: of medians, or where the bench measured in turns the median of these, with Embree the water's update on both sides; ratio_best: of the fastest goes; stream:
-    percent of the stream of ours, or None.
+    ratio: of medians, or where the bench measured in turns the median of these, with Embree the water's update on both sides; stream: percent of the stream of ours, or None.
     """
     ours = {(r["row"], r["threads"]): r for r in result["rows"]}
     found = []
@@ -104,24 +98,26 @@ def comparisons(result):
                 row = ours.get((name, 1))
             if row is None:
                 continue
-            best = _best_rate(row) / _best_rate(peer) if "best_ms" in peer and "best_ms" in row else None
-            found.append({"row": name, "threads": peer["threads"], "peer": peer["peer"], "ours": row["rate"], "theirs": peer["rate"],
-                          "unit": peer["unit"], "ratio": significant(peer.get("ratios", {}).get(name, peer.get("ratio_with_update", row["rate"] / peer["rate"]))),
-                          "ratio_best": None if best is None else significant(best), "goal": goal(peer),
-                          "stream": row.get("stream_percent")})
+            ratio = peer.get("ratios", {}).get(name, peer.get("ratio_with_update", row["rate"] / peer["rate"]))
+            found.append({"row": name, "threads": peer["threads"], "peer": peer["peer"], "ratio": significant(ratio), "goal": goal(peer), "stream": row.get("stream_percent")})
     return found
 
 
-def scaling(result):
-    """Of the waves of 2048 and 4096 columns, for each row and 16 threads: {"row", "threads", "one", "all", "ratio", "stream"}; medians."""
+GOAL_SCALING = 12  # of 16 threads, where these are all, over one: of frames, and of waves of 2048 and 4096 columns
+
+
+def on_all_threads(result):
+    """For each row on as many threads as any has: {"row", "unit", "rate", "ratio", "goal", "stream"}; ratio: over one thread, of medians, or None."""
     ours = {(r["row"], r["threads"]): r for r in result["rows"]}
+    most = max((threads for _, threads in ours), default=0)
     found = []
     for (name, threads), row in ours.items():
-        one = ours.get((name, 1))
-        if threads != 16 or one is None or not name.startswith("wave_step/") or not {"2048", "4096"} & set(name.split("/")):
+        if threads != most:
             continue
-        found.append({"row": name, "threads": threads, "unit": row["unit"], "one": one["rate"], "all": row["rate"], "ratio": significant(row["rate"] / one["rate"]),
-                      "stream": row.get("stream_percent")})
+        one = ours.get((name, 1))
+        has_goal = threads == 16 and name.startswith("wave_step/") and {"2048", "4096"} & set(name.split("/"))
+        found.append({"row": name, "unit": row["unit"], "rate": row["rate"], "ratio": None if one is None else significant(row["rate"] / one["rate"]),
+                      "goal": GOAL_SCALING if has_goal else None, "stream": row.get("stream_percent")})
     return found
 
 
@@ -135,6 +131,11 @@ def goal(peer):
     if peer["peer"] == "embree":
         return {"camera": 2.0, "reflection": 4.0, "grazing": 1.5}.get(name.split("/")[1])
     return None
+
+
+def judged(ratio, least):
+    """The ratio as text, bold where it is below a goal, and then never rounded up to it."""
+    return f"**{min(ratio, least - 0.01):.2f}**" if least is not None and ratio < least else f"{ratio:.2f}"
 
 
 def table(heads, lines):

@@ -80,11 +80,11 @@ class Rows(unittest.TestCase):
 
     def test_a_loop_of_steps_is_beside_a_step_and_the_steps_of_a_frame(self):
         name = "wave_step/corrected/rg32f/1024"
-        ours = [dict(rows.of_benchmark(ENTRY), row=name + steps, threads=1, rate=rate, median_ms=2.0, best_ms=1.0)
+        ours = [dict(rows.of_benchmark(ENTRY), row=name + steps, threads=1, rate=rate)
                 for steps, rate in (("", 100.0), ("/steps:5", 150.0))]
-        numba = rows.of_times("numba", name, 1, "cell", 1000, [1e-5, 2e-5, 3e-5], "")  # 50 million a second; 100 by its fastest go
-        found = [(c["row"], c["ratio"], c["ratio_best"]) for c in rows.comparisons({"rows": ours, "peers": [numba]})]
-        self.assertEqual(found, [(name, 2.0, 2.0), (name + "/steps:5", 3.0, 3.0)])
+        numba = rows.of_times("numba", name, 1, "cell", 1000, [1e-5, 2e-5, 3e-5], "")  # 50 million a second
+        found = [(c["row"], c["ratio"]) for c in rows.comparisons({"rows": ours, "peers": [numba]})]
+        self.assertEqual(found, [(name, 2.0), (name + "/steps:5", 3.0)])
 
     def test_ratios_of_turns_come_before_those_of_medians(self):
         name = "wave_step/corrected/rg32f/1024"
@@ -152,12 +152,15 @@ class Frames(unittest.TestCase):
 
     def test_the_ratio_is_to_one_thread_and_a_goal_is_met_from_its_value_on(self):
         text = frames.markdown(self.RUN)
-        self.assertIn("| `puddle/stress` | 1 | 96 | 10 % | 1.00 |  | 0123 |", text)
-        self.assertIn("| `puddle/stress` | 16 | 8 | 10 % | 12.00 | 12 met | 0123 |", text)
-        self.assertIn("| `puddle/default` | 0.30 | 0.3 met | 0.50 |  | 1.50 |", text)
+        self.assertIn("quartiles within ± 10 %; goal over one thread: 12:", text)
+        self.assertIn("| scene | 1 | 16 | over one thread |", text)
+        self.assertIn("| `puddle/stress` | 96 | 8 | 12.00 |", text)
+        self.assertIn("| `puddle/default` | 0.30 | 0.50 |  | 1.50 |", text)
         slower = copy.deepcopy(self.RUN)
         slower["frames"][1]["median_ms"], slower["starts"][0]["kept_s"] = 8.01, 0.31
-        self.assertEqual(frames.markdown(slower).count("**not met**"), 2)
+        text = frames.markdown(slower)
+        self.assertIn("| `puddle/stress` | 96 | 8.01 | **11.99** |", text)
+        self.assertIn("| `puddle/default` | **0.31** |", text)
 
     def test_a_run_without_them_has_no_tables(self):
         self.assertEqual(frames.markdown({"rows": []}), "")
@@ -224,26 +227,40 @@ class Documents(unittest.TestCase):
     def test_a_goal_is_met_from_its_value_on(self):
         result = committed()
         result["rows"] = [dict(rows.of_benchmark(ENTRY), row="composite/corrected/1920x1080", unit="pixel", rate=rate, threads=n)
-                          for n, rate in ((1, 35.0), (2, 34.9))]
+                          for n, rate in ((1, 35.0), (2, 34.99))]
         result["peers"] = [dict(result["rows"][0], peer="lavapipe", rate=10.0, threads=n) for n in (1, 2)]
         text = document.peers_table(result)
-        self.assertEqual((text.count("3.5 met"), text.count("3.5 **not met**")), (1, 1), text)
-        # A row that moves its bytes as fast as anything could says so where it misses a goal, and only there.
-        result["rows"] = [dict(row, stream_percent=98.6) for row in result["rows"]]
-        text = document.peers_table(result)
-        self.assertEqual(text.count("99 % of its stream"), 1, text)
-        self.assertIn("3.5 **not met**, 99 % of its stream", text)
+        # A goal that is missed is bold, and not rounded up to what it should be.
+        self.assertIn("| `composite/corrected/1920x1080` | lavapipe | 3.50 | **3.49** (50 %) | 3.5 |", text)
+        # The percentage of the stream stands only where a goal is missed and there is a stream.
+        for row in result["rows"]:
+            del row["stream_percent"]
+        self.assertIn("| 3.50 | **3.49** | 3.5 |", document.peers_table(result))
 
     def test_the_wave_on_sixteen_threads_is_beside_one(self):
         def row(name, threads, rate):
             return dict(rows.of_benchmark(ENTRY), row=name, unit="cell", threads=threads, rate=rate, stream_percent=75.2)
         result = {"rows": [row("wave_step/corrected/rg32f/" + side, n, rate)
                            for side, rates in (("1024", (1, 1, 1)), ("2048/steps:5", (10, 20, 120)), ("4096", (10, 20, 119.9))) for n, rate in zip((1, 2, 16), rates)]}
-        text = document.scaling_table(result)
-        self.assertIn("| `wave_step/corrected/rg32f/2048/steps:5` | 16 | 0.01 Gcell/s | 0.12 Gcell/s | 12.00 | 12 met |", text)
-        self.assertIn("| `wave_step/corrected/rg32f/4096` | 16 | 0.01 Gcell/s | 0.12 Gcell/s | 11.99 | 12 **not met**, 75 % of its stream |", text)
-        self.assertEqual(text.count("wave_step"), 2)
-        self.assertEqual(document.scaling_table({"rows": [r for r in result["rows"] if r["threads"] < 16]}), "")
+        text = document.passes_table(result)
+        self.assertIn("| `wave_step/rg32f/2048/steps:5` | 0.12 Gcell/s | 12.00 | 75 |", text)
+        self.assertIn("| `wave_step/rg32f/4096` | 0.12 Gcell/s | **11.99** | 75 |", text)
+        self.assertIn("| `wave_step/rg32f/1024` | 0.001 Gcell/s | 1.00 | 75 |", text)  # of this size no goal is missed: there is none
+        self.assertNotIn("**", document.passes_table({"rows": [r for r in result["rows"] if r["threads"] < 16]}))
+
+    def test_every_row_stands_in_a_report_and_corrected_ones_in_the_document(self):
+        result = committed()
+        every, corrected = document.rows_table(result), document.passes_table(result)
+        self.assertEqual(every.count("\n"), 2 + len(result["rows"]))
+        self.assertEqual(corrected.count("\n"), 2 + len({row["row"] for row in result["rows"] if "/as-published" not in row["row"]}))
+        self.assertEqual(document.passes_table({"rows": []}), "")
+
+    def test_a_run_that_lacks_something_is_to_be_made_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for skipped, count in (([{"peer": "numba", "reason": "not installed"}], 1), ([], 0)):
+                with open(os.path.join(folder, "a.json"), "w", encoding="utf-8") as file:
+                    json.dump({**committed(), "skipped": skipped}, file)
+                self.assertEqual(document.made(folder)[None].count("**This run is to be made again"), count)
 
     def test_starts_keep_nothing_in_the_users_cache(self):
         caches = []
@@ -359,6 +376,13 @@ class Growth(unittest.TestCase):
         result = {"rows": [self.row("drops: x", 1, 20, 20)], "skipped": [], "faults": [], "others_percent": None}
         self.assertIn("times here are no measure", growth.markdown(result))
         self.assertIn("Others took 3.5 %", growth.markdown({**result, "others_percent": 3.5}))
+
+    def test_a_series_is_a_line_from_its_smallest_to_its_largest_size(self):
+        result = {"rows": [self.row("pixels: x", 1 << 10, 20, 21), self.row("pixels: x", 1 << 15, 25, 26), self.row("pixels: x", (1 << 20) + (1 << 10), 30, 32),
+                           self.row("frames: x", 1, 20, 21), self.row("frames: x", 100, 20, 22)], "skipped": [], "faults": []}
+        text = growth.markdown(result)
+        self.assertIn("| pixels: x | 1024 | 21.0 | 1049600 | 32.0 | 30.0 | 1.00 | 10.0 | 11.0 |", text)
+        self.assertIn("| frames: x | 1 | 21.0 | 100 | 22.0 | 20.0 | 1.00 |  |  |", text)
 
     def test_bytes_of_an_item(self):
         self.assertEqual(growth.per_item([self.row("p", 0, 1, 2), self.row("p", 1 << 20, 9, 12)]), [8.0, 10.0])
