@@ -16,5 +16,13 @@ void* operator new(std::size_t bytes) {
     handler();
   }
 }
+// As the standard library's does. A sanitizer brings its own one, which does not call the one above.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(bytes);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
