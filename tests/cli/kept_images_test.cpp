@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "cli/support.h"
+#include "math/simd_target.h"
 
 namespace rainref::cli {
 namespace {
@@ -43,7 +44,7 @@ TEST_F(RunKeeps, TheSamePicturesWithKeptImagesAndWithout) {
     EXPECT_EQ(kept(), 0u) << effect;
     const std::string first = run(effect);
     EXPECT_GT(kept(), 0u) << effect;
-    const std::string second = run(effect, {"--simd", "scalar", "--threads", "1"});
+    const std::string second = run(effect, {"--simd", simd_targets().back(), "--threads", "1"});
     ASSERT_FALSE(without.empty()) << effect;
     EXPECT_TRUE(without == first) << effect;
     EXPECT_TRUE(without == second) << effect;
