@@ -162,10 +162,10 @@ TEST_F(Installation, EachHeaderStandsAlone) {
 // The installed headers are all that a program has; pkg-config finds them where the installation lies now, not where it was made.
 TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   installed();
-  const std::string by_cmake =
-      fmt::format(RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/examples -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
-                                " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' '-DCMAKE_PREFIX_PATH={}'",
-                  (folder / "moved").string());
+  const std::string by_cmake = fmt::format(
+      RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/examples -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
+                    " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' '-DCMAKE_C_FLAGS=" RAINREF_C_FLAGS "' '-DCMAKE_PREFIX_PATH={}'",
+      (folder / "moved").string());
   output(by_cmake);
   output(RAINREF_CMAKE " --build outside");
   const std::string said = output("outside/every_effect");
@@ -211,7 +211,7 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   EXPECT_EQ(output("./by_pkg_config"), "");
   EXPECT_EQ(contents(folder / "splashes.png"), splashes);
   output(fmt::format("cc -std=c11 -pedantic -Werror " RAINREF_SOURCE_DIR
-                     "/examples/c/water.c -o c_by_pkg_config $(PKG_CONFIG_PATH='{}' pkg-config --cflags --libs rainref-c)",
+                     "/examples/c/water.c -o c_by_pkg_config $(PKG_CONFIG_PATH='{}' pkg-config --cflags --libs rainref-c) " RAINREF_C_FLAGS,
                      pc));
   EXPECT_EQ(output("LD_LIBRARY_PATH=moved/" +
                    std::filesystem::relative(std::filesystem::path(pc).parent_path(), folder / "moved").string() + " ./c_by_pkg_config"),
