@@ -1,9 +1,6 @@
 // A sixth effect of two passes gets everything that the five have from its room alone: nothing outside names it.
-#include "breath/breath.h"
-
 #include "cli/support.h"
 #include "math/simd_target.h"
-#include "registry/registry.h"
 
 namespace rainref::cli {
 namespace {
@@ -12,22 +9,15 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-// Before main, or what was made of the registry before would lack it.
-[[maybe_unused]] const bool is_registered = [] {
-  registry::add(breath::entry());
-  return true;
-}();
-
 class SixthEffect : public testing::Test {
  protected:
   SixthEffect() {
     put(folder / "breath.toml", "effect = 'breath'\nvariant = 'corrected'\n[run]\nframes = 4\nsize = [37, 23]\n");
     put(folder / "published.toml", "effect = 'breath'\nvariant = 'as-published'\n[run]\nframes = 4\nsize = [37, 23]\n");
   }
-  /// The command line of this process: the installed program does not know the effect.
   Outcome rainref(const std::vector<std::string>& arguments) const {
     Circumstances c;
-    c.is_copy = true;
+    c.program = RAINREF_BREATH_PROGRAM;
     return run_rainref(folder.path(), arguments, c);
   }
   std::string said(const std::vector<std::string>& arguments, int code = 0) const {
