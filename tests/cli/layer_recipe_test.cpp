@@ -37,9 +37,9 @@ class LayerRecipe : public SceneFiles {
   int run(const std::string& line) const {
     return std::system(fmt::format("cd '{}' && {} >/dev/null", folder.path().string(), line).c_str());
   }
-  /// Lays the drops of frame.exr over its own background with each command of `recipe`, and compares over.exr with the picture. The file's
-  /// values are the drops in halves, added up in floats, stored as halves or floats.
-  void expect_the_picture_of(const std::vector<std::string>& recipe) const {
+  /// Lays the drops of frame.exr over its own background with the commands of `recipe`, and compares over.exr, of format `stored`, with the
+  /// picture.
+  void expect_the_picture_of(const std::vector<std::string>& recipe, Format stored) const {
     // Lamps of 30 between black, so that a rim that held some of them would show.
     put_npy(folder / "lamps.npy", 96, 64, 3, [](int x, int y, int) { return x / 6 % 2 == 0 && y / 6 % 2 == 0 ? 30.0f : 0.02f; });
     for (const std::string& scene :
@@ -56,6 +56,7 @@ class LayerRecipe : public SceneFiles {
       for (const std::string& line : recipe) ASSERT_EQ(run(line), 0) << line;
       const Image seen = image_io::read(folder / "frame.exr").image, over = image_io::read(folder / "over.exr").image,
                   drops = image_io::read(folder / "frame.exr", "drops").image;
+      ASSERT_EQ(over.format(), stored);
       ASSERT_EQ(over.width(), 96);
       ASSERT_EQ(over.height(), 64);
       int rims = 0;
@@ -80,7 +81,7 @@ TEST_F(LayerRecipe, TheDropsOverTheirBackgroundAreThePicture) {
   std::vector<std::string> recipe = printed_code("sh");
   std::erase_if(recipe, [](const std::string& line) { return !line.starts_with("oiiotool "); });
   ASSERT_EQ(recipe.size(), 2u);
-  expect_the_picture_of({recipe[1], recipe[0]});  // the second makes the plate of the first
+  expect_the_picture_of({recipe[1], recipe[0]}, Format::rgba16f);  // the second makes the plate of the first
 }
 
 TEST_F(LayerRecipe, InBlenderToo) {
@@ -90,7 +91,7 @@ TEST_F(LayerRecipe, InBlenderToo) {
   for (const std::string& line : printed_code("python")) script += line + "\n";
   ASSERT_FALSE(script.empty());
   put(folder / "over.py", script);
-  expect_the_picture_of({printed_code("sh").back(), "blender --background --python-exit-code 1 --python over.py"});
+  expect_the_picture_of({printed_code("sh").back(), "blender --background --python-exit-code 1 --python over.py"}, Format::rgba32f);
 }
 
 }  // namespace
