@@ -21,7 +21,7 @@ constexpr double outside_by = 0.02;  // m before a pane's outer side
 constexpr double least_share = 1.0 / 2048;
 constexpr double asymmetry = 0.75;
 
-Vector3 vector(const Real3& a) { return {a[0], a[1], a[2]}; }
+Vector3 vector_of(const Real3& a) { return {a[0], a[1], a[2]}; }
 
 /// [1/sr], of the cosine of the angle by which light is turned.
 double phase(double cosine) {
@@ -76,7 +76,7 @@ class Projection {
 
 bool is_outside(std::span<const Glass> panes, const Vector3& p) {
   return std::any_of(panes.begin(), panes.end(),
-                     [&](const Glass& g) { return glm::dot(p - vector(g.origin), vector(g.normal)) > outside_by; });
+                     [&](const Glass& g) { return glm::dot(p - vector_of(g.origin), vector_of(g.normal)) > outside_by; });
 }
 
 Vector3 lit(const Vector3& at, const Vector3& eye, const Vector3& ambient, std::span<const RainLamp> lamps) {
@@ -119,7 +119,7 @@ std::vector<FallingDrop> falling_drops(const FallingRainSettings& s, std::uint64
     const double smallest = s.smallest_drop + k * width, fall = rain::terminal_velocity(smallest + 0.5 * width);
     const double mean = (sizes.in_air(smallest) - sizes.in_air(smallest + width)) * cell * cell * cell;
     const random::PoissonTable number(std::min(mean, random::PoissonTable::max_mean));
-    const Vector3 velocity = vector(air.wind) - Vector3(0, 0, fall), moved = vector(air.moved) - Vector3(0, 0, fall * air.time);
+    const Vector3 velocity = vector_of(air.wind) - Vector3(0, 0, fall), moved = vector_of(air.moved) - Vector3(0, 0, fall * air.time);
     // Cells of the air, which moved with it.
     const Vector3 first = glm::floor((low - moved) / cell), last = glm::floor((high - moved) / cell);
     for (double i = first.x; i <= last.x; ++i)

@@ -9,7 +9,7 @@ namespace {
 
 Real3 minus(const Real3& a, const Real3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double length(const Real3& a) { return __builtin_sqrt(dot(a, a)); }
-std::string text(const Real3& a) { return fmt::format("[{:g}, {:g}, {:g}]", a[0], a[1], a[2]); }
+std::string place_text(const Real3& a) { return fmt::format("[{:g}, {:g}, {:g}]", a[0], a[1], a[2]); }
 
 }  // namespace
 
@@ -26,7 +26,7 @@ Glass make_glass(const Corners& corners, std::string_view keys) {
   g.area = __builtin_sqrt(determinant);
   if (!(g.area > 1e-6 * length(g.e_u) * length(g.e_v))) {
     throw Error(ExitCode::usage, fmt::format("{}: expected three corners of a plane, found {}, {}, {}, which lie on one line", keys,
-                                             text(corners[0]), text(corners[1]), text(corners[2])));
+                                             place_text(corners[0]), place_text(corners[1]), place_text(corners[2])));
   }
   // Seen from inside u runs to the right and v up: their product looks into the car.
   g.normal = {0 - across[0] / g.area, 0 - across[1] / g.area, 0 - across[2] / g.area};

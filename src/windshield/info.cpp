@@ -22,7 +22,7 @@ void append(std::vector<T>& all, std::vector<T> more) {
   for (T& one : more) all.push_back(std::move(one));
 }
 
-EffectInfo make() {
+EffectInfo make_info() {
   EffectInfo info;
   info.name = "windshield";
   info.up_axis = "z";
@@ -62,7 +62,7 @@ EffectInfo make() {
 }  // namespace
 
 const EffectInfo& effect_info() {
-  static const EffectInfo info = make();
+  static const EffectInfo info = make_info();
   return info;
 }
 

@@ -110,7 +110,7 @@ const std::vector<MemberParameter<Settings>>& step_members() {
   return table;
 }
 
-std::vector<Parameter> make() {
+std::vector<Parameter> make_parameters() {
   std::vector<Parameter> all = motion_parameters();
   append(all, drops::parameters("windshield"));
   append(all, parameters_of(step_members()));
@@ -130,7 +130,7 @@ std::vector<Parameter> make() {
 }  // namespace
 
 std::span<const Parameter> parameters() {
-  static const std::vector<Parameter> all = make();
+  static const std::vector<Parameter> all = make_parameters();
   return all;
 }
 

@@ -26,7 +26,7 @@ void put(const Real2& from, float (&to)[2]) {
   to[1] = static_cast<float>(from[1]);
 }
 
-Wiper record(const Blade& b, double half_width, const PlaneFrame& plane, double angle0, double angle1, double duration) {
+Wiper record_of(const Blade& b, double half_width, const PlaneFrame& plane, double angle0, double angle1, double duration) {
   Wiper w{};
   const Real2 axis0{cos_real(Real64(angle0)).v, sin_real(Real64(angle0)).v}, axis1{cos_real(Real64(angle1)).v, sin_real(Real64(angle1)).v};
   const auto end = [&](const Real2& axis, double radius) {
@@ -112,7 +112,7 @@ std::vector<Wiper> wipers_between(const WiperSettings& s, const PlaneFrame& plan
       cycles.push_back(last);
       for (std::size_t i = 1; i < cycles.size(); ++i) {
         const double duration = corrected && rate > 0 ? (cycles[i] - cycles[i - 1]) / rate : end - begin;
-        records.push_back(record(b, s.half_width, plane, angle_at(b, cycles[i - 1]), angle_at(b, cycles[i]), duration));
+        records.push_back(record_of(b, s.half_width, plane, angle_at(b, cycles[i - 1]), angle_at(b, cycles[i]), duration));
       }
     }
   }
@@ -123,7 +123,7 @@ std::vector<Wiper> wipers_at(const WiperSettings& s, const PlaneFrame& plane, do
   std::vector<Wiper> records;
   for (const Blade& b : s.blades) {
     const double angle = s.keyed ? angle_at(b, s.keyed->cycles(t) + b.phase) : wiper_angle(b, s.cycles_per_minute, t);
-    records.push_back(record(b, s.half_width, plane, angle, angle, 1));
+    records.push_back(record_of(b, s.half_width, plane, angle, angle, 1));
   }
   return records;
 }
