@@ -4,7 +4,7 @@
 #include "drops/records.h"
 #include "effect/effect.h"
 #include "rainref/windshield.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 #include "windshield/scene_pictures.h"
 
 namespace rainref::windshield {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "windshield/glass.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 
 namespace rainref::windshield {
 

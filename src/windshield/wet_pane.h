@@ -6,7 +6,7 @@
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/wet_glass.h"
 #include "rainref/windshield.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 #include "windshield/shelter.h"
 #include "windshield/weather.h"
 

@@ -16,7 +16,7 @@
 #include "windshield/falling_rain.h"
 #include "windshield/memory.h"
 #include "windshield/panes.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 #include "windshield/street.h"
 #include "windshield/wet_pane.h"
 

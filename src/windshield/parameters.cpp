@@ -1,4 +1,4 @@
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 
 #include <fmt/format.h>
 
