@@ -9,7 +9,6 @@
 #include "night_street/memory.h"
 #include "rain/rain.h"
 #include "rainref/windshield.h"
-#include "windshield/panes.h"
 #include "windshield/street.h"
 #include "windshield/wet_pane.h"
 

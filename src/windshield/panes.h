@@ -1,11 +1,11 @@
-// The panes of a car: the windshield, and others of one scene.
+// The panes of a car: the windshield, and others that a scene names.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "windshield/glass.h"
-#include "windshield/parameters.h"
 
 namespace rainref::windshield {
 
@@ -15,9 +15,5 @@ std::vector<Corners> parse_panes(std::string_view text);
 
 /// "windshield.panes, pane 2", of pane number k from 1 on; "the glass" of the windshield, number 0.
 std::string pane_name(int number);
-
-/// The settings of one pane. Number 0 is the windshield: all as they are. The others have their own corners, textures with texels of the
-/// windshield's size, wipers and drops of their own, and as published the windshield's new drops by area.
-Settings settings_of_pane(const Settings& car, int number);
 
 }  // namespace rainref::windshield

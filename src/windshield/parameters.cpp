@@ -1,5 +1,7 @@
 #include "windshield/parameters.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "effect/picture_sequence.h"
@@ -8,6 +10,7 @@
 #include "scene/member_parameter.h"
 #include "windshield/memory.h"
 #include "windshield/motion_parameters.h"
+#include "windshield/panes.h"
 #include "windshield/picture_info.h"
 
 namespace rainref::windshield {
@@ -127,6 +130,14 @@ std::vector<Parameter> make_parameters() {
   return all;
 }
 
+constexpr int fewest_texels = 8, most_texels = 16384;
+// Odd, so that panes of one scene, and of scenes with seeds beside one another, draw other numbers.
+constexpr std::uint64_t next_seed = 0x9e3779b97f4a7c15;
+
+int texels(double of_windshield, double metres, double metres_of_windshield) {
+  return std::clamp(static_cast<int>(of_windshield * metres / metres_of_windshield + 0.5), fewest_texels, most_texels);
+}
+
 }  // namespace
 
 std::span<const Parameter> parameters() {
@@ -187,6 +198,25 @@ Settings settings_from(const Config& config) {
                 fmt::format("falling_rain.far: expected at most {:.0f} drops in view, found {:.0f}: nearer, or with a larger "
                             "falling_rain.smallest_drop",
                             most, falling));
+  return s;
+}
+
+Settings settings_of_pane(const Settings& car, int number) {
+  Settings s = car;
+  if (number == 0) return s;
+  s.corners = car.panes[static_cast<std::size_t>(number) - 1];
+  const Glass glass = make_glass(s.corners, pane_name(number)), windshield = make_glass(car.corners);
+  const PaneWipers& own = car.pane_wipers[static_cast<std::size_t>(number) - 1];
+  s.wipers = own.wipers;
+  s.capture = own.capture;
+  s.surface.half_width = own.wipers.half_width;
+  s.drops.seed += static_cast<std::uint64_t>(number) * next_seed;
+  s.drops_share = glass.area / windshield.area;
+  s.drops.spawn_rate *= s.drops_share;
+  const PlaneFrame plane = s.corrected ? glass.plane() : glass.axes(), of_windshield = s.corrected ? windshield.plane() : windshield.axes();
+  s.surface.frame = s.splat.frame = plane.frame;
+  s.surface.width = s.splat.keys.width = texels(car.surface.width, plane.frame[0], of_windshield.frame[0]);
+  s.surface.height = s.splat.keys.height = texels(car.surface.height, plane.frame[2], of_windshield.frame[2]);
   return s;
 }
 

@@ -56,5 +56,8 @@ struct Settings {
 std::span<const scene::Parameter> parameters();
 /// Throws Error(usage) where a value cannot be, alone or with others.
 Settings settings_from(const scene::Config& config);
+/// The settings of one pane. Number 0 is the windshield: all as they are. The others have their own corners, textures with texels of the
+/// windshield's size, wipers and drops of their own, and as published the windshield's new drops by area.
+Settings settings_of_pane(const Settings& car, int number);
 
 }  // namespace rainref::windshield

@@ -15,7 +15,6 @@
 #include "windshield/blades_seen.h"
 #include "windshield/falling_rain.h"
 #include "windshield/memory.h"
-#include "windshield/panes.h"
 #include "windshield/parameters.h"
 #include "windshield/street.h"
 #include "windshield/wet_pane.h"
