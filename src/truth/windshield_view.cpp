@@ -5,7 +5,7 @@
 
 #include "math/real64.h"
 #include "truth/falling_rain_index.h"
-#include "windshield/glass.h"
+#include "windshield/motion/glass.h"
 #include "windshield/street.h"
 
 namespace rainref::truth {

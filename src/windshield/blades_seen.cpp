@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "math/half.h"
-#include "windshield/extent_between.h"
+#include "windshield/motion/extent_between.h"
 
 namespace rainref::windshield {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "rainref/executor.h"
 #include "scene/camera.h"
-#include "windshield/glass.h"
+#include "windshield/motion/glass.h"
 #include "windshield/street.h"
 #include "windshield/uniforms.h"
 

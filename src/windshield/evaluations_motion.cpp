@@ -9,7 +9,7 @@
 #include "pass/record_model.h"
 #include "windshield/motion_scalar.h"
 #include "windshield/evaluations.h"
-#include "windshield/wipe_drops.h"
+#include "windshield/motion/wipe_drops.h"
 
 namespace rainref::windshield {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "rainref/image.h"
 #include "scene/camera.h"
-#include "windshield/glass.h"
+#include "windshield/motion/glass.h"
 #include "windshield/uniforms.h"
 
 namespace rainref::windshield {

@@ -5,12 +5,12 @@
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
 #include "pass/info.h"
-#include "windshield/motion_info.h"
+#include "windshield/motion/info.h"
+#include "windshield/motion/windshield_frame.pass.h"
+#include "windshield/motion/wipe_drops.pass.h"
 #include "windshield/picture_info.h"
 #include "windshield/smear.pass.h"
 #include "windshield/surface.h"
-#include "windshield/windshield_frame.pass.h"
-#include "windshield/wipe_drops.pass.h"
 
 namespace rainref::windshield {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "math/half.h"
 #include "night_street/vec.h"
-#include "windshield/glass.h"
+#include "windshield/motion/glass.h"
 
 namespace rainref::windshield {
 namespace {

@@ -6,8 +6,8 @@
 #include "math/enclosure.h"
 #include "math/scalar.h"
 #include "math/rearranged.h"
-#include "windshield/windshield_frame.pass.h"
-#include "windshield/wipe_drops.pass.h"
+#include "windshield/motion/windshield_frame.pass.h"
+#include "windshield/motion/wipe_drops.pass.h"
 
 namespace rainref::windshield::motion_scalar {
 using namespace rainref::scalar;
@@ -15,8 +15,8 @@ using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "drops/drop-inl.h"
-#include "windshield/windshield_frame.pass.h"
-#include "windshield/wipe_drops.pass.h"
+#include "windshield/motion/windshield_frame.pass.h"
+#include "windshield/motion/wipe_drops.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

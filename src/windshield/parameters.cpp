@@ -9,8 +9,8 @@
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
 #include "windshield/memory.h"
-#include "windshield/motion_parameters.h"
-#include "windshield/panes.h"
+#include "windshield/motion/panes.h"
+#include "windshield/motion/parameters.h"
 #include "windshield/picture_info.h"
 
 namespace rainref::windshield {

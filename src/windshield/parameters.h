@@ -12,13 +12,13 @@
 #include "windshield/condensation.h"
 #include "windshield/falling_rain.h"
 #include "windshield/interior.h"
-#include "windshield/motion_host.h"
+#include "windshield/motion/host.h"
+#include "windshield/motion/vehicle.h"
+#include "windshield/motion/weather.h"
+#include "windshield/motion/wiper_parameters.h"
 #include "windshield/picture.h"
 #include "windshield/smear.h"
 #include "windshield/surface.h"
-#include "windshield/vehicle.h"
-#include "windshield/weather.h"
-#include "windshield/wiper_parameters.h"
 
 namespace rainref::windshield {
 

@@ -11,7 +11,7 @@
 #include "rainref/storage.h"
 #include "scene/camera.h"
 #include "windshield/composite.pass.h"
-#include "windshield/glass.h"
+#include "windshield/motion/glass.h"
 
 namespace rainref::windshield {
 

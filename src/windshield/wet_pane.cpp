@@ -5,10 +5,10 @@
 
 #include "pass/run.h"
 #include "windshield/mist.pass.h"
-#include "windshield/motion_host.h"
-#include "windshield/panes.h"
+#include "windshield/motion/host.h"
+#include "windshield/motion/panes.h"
+#include "windshield/motion/wipe_drops.h"
 #include "windshield/soften.pass.h"
-#include "windshield/wipe_drops.h"
 
 namespace rainref::windshield {
 namespace {

@@ -12,7 +12,7 @@
 #include "math/path_enumeration.h"
 #include "rainref/error.h"
 #include "windshield/evaluations.h"
-#include "windshield/motion.h"
+#include "windshield/motion/uniforms.h"
 
 namespace rainref::judge {
 namespace {

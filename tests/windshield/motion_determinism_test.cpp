@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include "math/simd_target.h"
+#include "windshield/motion/wipe_drops.h"
 #include "windshield/motion_scalar.h"
 #include "windshield/support.h"
-#include "windshield/wipe_drops.h"
 
 namespace rainref::windshield {
 namespace {

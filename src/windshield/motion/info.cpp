@@ -1,4 +1,4 @@
-#include "windshield/motion_info.h"
+#include "windshield/motion/info.h"
 
 #include "windshield/uniforms.h"
 

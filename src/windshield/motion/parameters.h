@@ -6,16 +6,16 @@
 
 #include "math/constants.h"
 #include "scene/config.h"
-#include "windshield/motion_host.h"
-#include "windshield/weather.h"
-#include "windshield/wiper_parameters.h"
+#include "windshield/motion/host.h"
+#include "windshield/motion/weather.h"
+#include "windshield/motion/wiper_parameters.h"
 
 namespace rainref::windshield {
 
 /// windshield.corner_*, windshield.panes, vehicle.*, world.*, rain.key_frames, rain.shelter, wipers.* and pane_1_wipers.* on
 std::vector<scene::Parameter> motion_parameters();
 
-/// What these parameters say, checked. With vehicle(), wipers_between() and the uniforms of motion_host.h it is all
+/// What these parameters say, checked. With vehicle(), wipers_between() and the uniforms of host.h it is all
 /// that the two passes take.
 struct MotionSettings : PaneWipers {
   Corners corners{{{1.9, 0.7, 1.0}, {1.9, -0.7, 1.0}, {1.18719478064930573, 0.7, 1.36319239979163742}}};

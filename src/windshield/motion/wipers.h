@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "math/constants.h"
-#include "windshield/glass.h"
+#include "windshield/motion/glass.h"
+#include "windshield/motion/wiper_motion.h"
 #include "windshield/uniforms.h"
-#include "windshield/wiper_motion.h"
 
 namespace rainref::windshield {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "windshield/kernels_motion.h"
+#include "windshield/motion/kernels.h"
 
 namespace rainref::windshield {
 

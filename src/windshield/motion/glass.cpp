@@ -1,4 +1,4 @@
-#include "windshield/glass.h"
+#include "windshield/motion/glass.h"
 
 #include <fmt/format.h>
 

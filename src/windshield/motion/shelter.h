@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "windshield/vehicle.h"
-#include "windshield/weather.h"
+#include "windshield/motion/vehicle.h"
+#include "windshield/motion/weather.h"
 
 namespace rainref::windshield {
 

@@ -1,12 +1,12 @@
-#include "windshield/motion_parameters.h"
+#include "windshield/motion/parameters.h"
 
 #include <fmt/format.h>
 
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
 #include "scene/value_text.h"
-#include "windshield/panes.h"
-#include "windshield/shelter.h"
+#include "windshield/motion/panes.h"
+#include "windshield/motion/shelter.h"
 
 namespace rainref::windshield {
 namespace {

@@ -1,4 +1,4 @@
-#include "windshield/key_frames.h"
+#include "windshield/motion/key_frames.h"
 
 #include <utility>
 

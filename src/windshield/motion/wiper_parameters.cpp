@@ -1,4 +1,4 @@
-#include "windshield/wiper_parameters.h"
+#include "windshield/motion/wiper_parameters.h"
 
 #include <array>
 

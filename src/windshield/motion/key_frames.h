@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "windshield/pchip.h"
+#include "windshield/motion/pchip.h"
 
 namespace rainref::windshield {
 

@@ -1,4 +1,4 @@
-#include "windshield/wipers.h"
+#include "windshield/motion/wipers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "windshield/wiper_motion.h"
+#include "windshield/motion/wiper_motion.h"
 
 #include <algorithm>
 #include <cmath>

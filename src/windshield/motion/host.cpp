@@ -1,4 +1,4 @@
-#include "windshield/motion_host.h"
+#include "windshield/motion/host.h"
 
 namespace rainref::windshield {
 namespace {

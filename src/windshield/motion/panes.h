@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "windshield/glass.h"
+#include "windshield/motion/glass.h"
 
 namespace rainref::windshield {
 

@@ -1,10 +1,10 @@
-#include "windshield/wipe_drops.h"
+#include "windshield/motion/wipe_drops.h"
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "windshield/extent_between.h"
+#include "windshield/motion/extent_between.h"
 
 namespace rainref::windshield {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "windshield/drive_cycle.h"
-#include "windshield/glass.h"
+#include "windshield/motion/drive_cycle.h"
+#include "windshield/motion/glass.h"
 
 namespace rainref::windshield {
 

@@ -1,11 +1,11 @@
 // Shells of windshield_frame and wipe_drops; compiled once for each SIMD target.
-#include "windshield/kernels_motion.h"
+#include "windshield/motion/kernels.h"
 
 #include <algorithm>
 
 #include "pass/stored_record.h"
 
-#define RAINREF_KERNELS "windshield/kernels_motion.cpp"
+#define RAINREF_KERNELS "windshield/motion/kernels.cpp"
 #include "math/foreach_target.h"
 #include "math/lane_pair-inl.h"
 #include "math/lanes-inl.h"
@@ -15,8 +15,8 @@ RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #include "math/cube_root_lanes-inl.h"
 #include "drops/drop-inl.h"
-#include "windshield/windshield_frame.pass.h"
-#include "windshield/wipe_drops.pass.h"
+#include "windshield/motion/windshield_frame.pass.h"
+#include "windshield/motion/wipe_drops.pass.h"
 #undef RAINREF_FN
 
 constexpr std::size_t lane_room = HWY_MAX_BYTES / sizeof(float);

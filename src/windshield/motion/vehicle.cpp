@@ -1,4 +1,4 @@
-#include "windshield/vehicle.h"
+#include "windshield/motion/vehicle.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "windshield/pchip.h"
+#include "windshield/motion/pchip.h"
 
 namespace rainref::windshield {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/config.h"
-#include "windshield/motion_host.h"
+#include "windshield/motion/host.h"
 
 namespace rainref::windshield {
 

@@ -1,4 +1,4 @@
-#include "windshield/pchip.h"
+#include "windshield/motion/pchip.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "windshield/shelter.h"
+#include "windshield/motion/shelter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include "drops/records.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
-#include "windshield/windshield_frame.pass.h"
-#include "windshield/wipe_drops.pass.h"
+#include "windshield/motion/windshield_frame.pass.h"
+#include "windshield/motion/wipe_drops.pass.h"
 
 namespace rainref::windshield {
 

@@ -1,9 +1,9 @@
 // What the host computes for windshield_frame and wipe_drops: uniforms, in double, each rounded once.
 #pragma once
 
-#include "windshield/motion.h"
-#include "windshield/vehicle.h"
-#include "windshield/wipers.h"
+#include "windshield/motion/uniforms.h"
+#include "windshield/motion/vehicle.h"
+#include "windshield/motion/wipers.h"
 
 namespace rainref::windshield {
 

@@ -1,4 +1,4 @@
-#include "windshield/drive_cycle.h"
+#include "windshield/motion/drive_cycle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "windshield/panes.h"
+#include "windshield/motion/panes.h"
 
 #include <fmt/format.h>
 

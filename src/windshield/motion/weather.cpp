@@ -1,6 +1,6 @@
-#include "windshield/weather.h"
+#include "windshield/motion/weather.h"
 
-#include "windshield/key_frames.h"
+#include "windshield/motion/key_frames.h"
 
 namespace rainref::windshield {
 

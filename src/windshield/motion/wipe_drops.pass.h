@@ -13,7 +13,7 @@
 #include "drops/records.h"
 #include "pass/definition.h"
 #include "scene/uniform_block.h"
-#include "windshield/motion.h"
+#include "windshield/motion/uniforms.h"
 #include "windshield/uniforms.h"
 
 namespace rainref::windshield {

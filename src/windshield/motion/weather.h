@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "windshield/glass.h"
-#include "windshield/pchip.h"
+#include "windshield/motion/glass.h"
+#include "windshield/motion/pchip.h"
 
 namespace rainref::windshield {
 
