@@ -5,7 +5,7 @@
 
 #include "rainref/image.h"
 #include "windshield/condense.pass.h"
-#include "windshield/mist.pass.h"
+#include "windshield/picture/mist.pass.h"
 #include "windshield/surface.h"
 
 namespace rainref::windshield {

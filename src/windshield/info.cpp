@@ -1,6 +1,6 @@
 #include "windshield/condense.pass.h"
-#include "windshield/falling_rain.pass.h"
 #include "windshield/info.h"
+#include "windshield/picture/falling_rain.pass.h"
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
@@ -8,7 +8,7 @@
 #include "windshield/motion/info.h"
 #include "windshield/motion/windshield_frame.pass.h"
 #include "windshield/motion/wipe_drops.pass.h"
-#include "windshield/picture_info.h"
+#include "windshield/picture/info.h"
 #include "windshield/smear.pass.h"
 #include "windshield/surface.h"
 

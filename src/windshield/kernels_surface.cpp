@@ -4,9 +4,9 @@
 
 #include "pass/run.h"
 #include "windshield/condense.pass.h"
-#include "windshield/falling_rain.pass.h"
 #include "windshield/normals.pass.h"
 #include "windshield/persist.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
 #include "windshield/wipe_texture.pass.h"
 #include "windshield/wiper_reach.h"
 
@@ -22,7 +22,7 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
 #include "windshield/condense.pass.h"
-#include "windshield/falling_rain.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

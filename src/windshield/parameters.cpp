@@ -11,7 +11,7 @@
 #include "windshield/memory.h"
 #include "windshield/motion/panes.h"
 #include "windshield/motion/parameters.h"
-#include "windshield/picture_info.h"
+#include "windshield/picture/info.h"
 
 namespace rainref::windshield {
 namespace {

@@ -8,12 +8,12 @@
 #include "math/enclosure.h"
 #include "math/scalar.h"
 #include "math/rearranged.h"
-#include "windshield/composite.pass.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
-#include "windshield/mist.pass.h"
+#include "windshield/picture/composite.pass.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/join_panes.pass.h"
+#include "windshield/picture/mist.pass.h"
 #include "windshield/smear.pass.h"
-#include "windshield/soften.pass.h"
+#include "windshield/picture/soften.pass.h"
 #include "windshield/surface_scalar.h"
 
 namespace rainref::windshield::scalar {
@@ -26,12 +26,12 @@ using namespace rainref::scalar;
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
 #include "image/sampling_rearranged-inl.h"
-#include "windshield/composite.pass.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
-#include "windshield/mist.pass.h"
+#include "windshield/picture/composite.pass.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/join_panes.pass.h"
+#include "windshield/picture/mist.pass.h"
 #include "windshield/smear.pass.h"
-#include "windshield/soften.pass.h"
+#include "windshield/picture/soften.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "rainref/image.h"
+#include "windshield/picture/soften.pass.h"
 #include "windshield/smear.pass.h"
-#include "windshield/soften.pass.h"
 #include "windshield/surface.h"
 
 namespace rainref::windshield {

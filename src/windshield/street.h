@@ -11,7 +11,7 @@
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "scene/camera.h"
-#include "windshield/falling_rain.h"
+#include "windshield/picture/falling_rain.h"
 
 namespace rainref::windshield {
 

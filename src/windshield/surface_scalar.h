@@ -7,7 +7,7 @@
 #include "math/scalar.h"
 #include "math/rearranged.h"
 #include "windshield/condense.pass.h"
-#include "windshield/falling_rain.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
 #include "windshield/segment_distance_enclosed.h"
 #include "windshield/surface.h"
 
@@ -20,7 +20,7 @@ using namespace rainref::scalar;
 #include "windshield/persist.pass.h"
 #include "windshield/condense.pass.h"
 #include "windshield/wipe_texture.pass.h"
-#include "windshield/falling_rain.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

@@ -13,9 +13,9 @@
 #include "rainref/windshield.h"
 #include "state/items.h"
 #include "windshield/blades_seen.h"
-#include "windshield/falling_rain.h"
 #include "windshield/memory.h"
 #include "windshield/parameters.h"
+#include "windshield/picture/falling_rain.h"
 #include "windshield/street.h"
 #include "windshield/wet_pane.h"
 

@@ -14,7 +14,7 @@
 #include "pass/run.h"
 #include "pass/display.h"
 #include "pass/display_scalar.h"
-#include "windshield/picture.h"
+#include "windshield/picture/picture.h"
 #include "windshield/scalar.h"
 #include "windshield/street.h"
 

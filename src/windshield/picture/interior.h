@@ -5,8 +5,8 @@
 
 #include "rainref/executor.h"
 #include "rainref/image.h"
-#include "windshield/interior.pass.h"
-#include "windshield/picture.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/picture.h"
 
 namespace rainref::windshield {
 

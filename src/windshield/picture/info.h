@@ -5,7 +5,7 @@
 
 #include "capture/pass_info.h"
 #include "scene/member_parameter.h"
-#include "windshield/picture.h"
+#include "windshield/picture/picture.h"
 
 namespace rainref::windshield {
 

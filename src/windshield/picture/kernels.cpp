@@ -1,12 +1,12 @@
 // composite, soften, mist, join_panes and interior in lanes; compiled once for each SIMD target.
 #include "pass/run.h"
-#include "windshield/composite.pass.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
-#include "windshield/mist.pass.h"
-#include "windshield/soften.pass.h"
+#include "windshield/picture/composite.pass.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/join_panes.pass.h"
+#include "windshield/picture/mist.pass.h"
+#include "windshield/picture/soften.pass.h"
 
-#define RAINREF_KERNELS "windshield/kernels_picture.cpp"
+#define RAINREF_KERNELS "windshield/picture/kernels.cpp"
 #include "math/foreach_target.h"
 #include "math/lanes-inl.h"
 #include "pass/rows-inl.h"
@@ -17,11 +17,11 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
 #include "image/sampling_lanes-inl.h"
-#include "windshield/composite.pass.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
-#include "windshield/mist.pass.h"
-#include "windshield/soften.pass.h"
+#include "windshield/picture/composite.pass.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/join_panes.pass.h"
+#include "windshield/picture/mist.pass.h"
+#include "windshield/picture/soften.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 RAINREF_PASS_ROWS(CompositePass)

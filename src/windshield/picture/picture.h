@@ -10,8 +10,8 @@
 #include "rainref/image.h"
 #include "rainref/storage.h"
 #include "scene/camera.h"
-#include "windshield/composite.pass.h"
 #include "windshield/motion/glass.h"
+#include "windshield/picture/composite.pass.h"
 
 namespace rainref::windshield {
 

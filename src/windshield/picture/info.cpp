@@ -1,11 +1,11 @@
-#include "windshield/picture_info.h"
+#include "windshield/picture/info.h"
 
 #include "pass/display.h"
 #include "pass/info.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
-#include "windshield/mist.pass.h"
-#include "windshield/soften.pass.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/join_panes.pass.h"
+#include "windshield/picture/mist.pass.h"
+#include "windshield/picture/soften.pass.h"
 
 namespace rainref::windshield {
 using namespace rainref::scene;

@@ -2,7 +2,7 @@
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_JOIN_PANES_PASS_H_
 #define RAINREF_WINDSHIELD_JOIN_PANES_PASS_H_
-#include "windshield/composite.pass.h"
+#include "windshield/picture/composite.pass.h"
 
 namespace rainref::windshield {
 

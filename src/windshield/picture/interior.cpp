@@ -1,4 +1,4 @@
-#include "windshield/interior.h"
+#include "windshield/picture/interior.h"
 
 #include <algorithm>
 #include <cmath>

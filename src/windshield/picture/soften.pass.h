@@ -4,7 +4,7 @@
 #define RAINREF_WINDSHIELD_SOFTEN_PASS_H_
 #include <cstdint>
 
-#include "windshield/composite.pass.h"
+#include "windshield/picture/composite.pass.h"
 
 namespace rainref::windshield {
 

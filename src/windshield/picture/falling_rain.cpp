@@ -1,4 +1,4 @@
-#include "windshield/falling_rain.h"
+#include "windshield/picture/falling_rain.h"
 
 #include <algorithm>
 #include <cmath>

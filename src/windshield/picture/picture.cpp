@@ -1,4 +1,4 @@
-#include "windshield/picture.h"
+#include "windshield/picture/picture.h"
 
 #include <cmath>
 
