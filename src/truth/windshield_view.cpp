@@ -6,7 +6,7 @@
 #include "math/real64.h"
 #include "truth/falling_rain_index.h"
 #include "windshield/motion/glass.h"
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
 namespace rainref::truth {
 namespace {

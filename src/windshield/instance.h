@@ -5,7 +5,7 @@
 #include "effect/effect.h"
 #include "rainref/windshield.h"
 #include "windshield/parameters.h"
-#include "windshield/scene_pictures.h"
+#include "windshield/scene/pictures.h"
 
 namespace rainref::windshield {
 

@@ -16,7 +16,7 @@
 #include "pass/display_scalar.h"
 #include "windshield/picture/picture.h"
 #include "windshield/scalar.h"
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
 namespace rainref::windshield {
 namespace {

@@ -1,4 +1,4 @@
-#include "windshield/blades_seen.h"
+#include "windshield/scene/blades_seen.h"
 
 #include <algorithm>
 #include <cmath>

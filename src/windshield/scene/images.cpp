@@ -1,9 +1,9 @@
-#include "windshield/scene_images.h"
+#include "windshield/scene/images.h"
 
 #include <algorithm>
 
 #include "math/half.h"
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
 namespace rainref::windshield {
 

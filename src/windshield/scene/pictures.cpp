@@ -1,10 +1,10 @@
-#include "windshield/scene_pictures.h"
+#include "windshield/scene/pictures.h"
 
 #include "effect/scene_pictures.h"
 #include "effect/run_memory.h"
 #include "rainref/error.h"
-#include "windshield/scene_images.h"
-#include "windshield/street.h"
+#include "windshield/scene/images.h"
+#include "windshield/scene/street.h"
 
 namespace rainref::windshield {
 

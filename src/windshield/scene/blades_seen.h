@@ -8,7 +8,7 @@
 #include "rainref/executor.h"
 #include "scene/camera.h"
 #include "windshield/motion/glass.h"
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 #include "windshield/uniforms.h"
 
 namespace rainref::windshield {

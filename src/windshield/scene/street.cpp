@@ -1,4 +1,4 @@
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
 #include <algorithm>
 #include <cmath>

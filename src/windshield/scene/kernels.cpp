@@ -1,9 +1,9 @@
 // Shell of the views between keyframes; compiled once for each SIMD target.
 #include <type_traits>
 
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
-#define RAINREF_KERNELS "windshield/kernels_street.cpp"
+#define RAINREF_KERNELS "windshield/scene/kernels.cpp"
 #include "math/foreach_target.h"
 #include "math/lanes-inl.h"
 
@@ -12,7 +12,7 @@ RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "image/sampling-inl.h"
 #include "image/sampling_lanes-inl.h"
-#include "windshield/reproject.pass.h"
+#include "windshield/scene/reproject.pass.h"
 
 void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view,
                    const parallel::Tile& tile) {
