@@ -16,7 +16,7 @@
 #include "pass/run.h"
 #include "stream.h"
 #include "thread_counts.h"
-#include "windshield/surface.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref {
 namespace {

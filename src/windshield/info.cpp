@@ -1,6 +1,6 @@
-#include "windshield/condense.pass.h"
 #include "windshield/info.h"
 #include "windshield/picture/falling_rain.pass.h"
+#include "windshield/surface/condense.pass.h"
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
@@ -9,8 +9,8 @@
 #include "windshield/motion/windshield_frame.pass.h"
 #include "windshield/motion/wipe_drops.pass.h"
 #include "windshield/picture/info.h"
-#include "windshield/smear.pass.h"
-#include "windshield/surface.h"
+#include "windshield/surface/smear.pass.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {

@@ -9,7 +9,6 @@
 #include "math/constants.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
-#include "windshield/condensation.h"
 #include "windshield/motion/host.h"
 #include "windshield/motion/vehicle.h"
 #include "windshield/motion/weather.h"
@@ -17,8 +16,9 @@
 #include "windshield/picture/falling_rain.h"
 #include "windshield/picture/interior.h"
 #include "windshield/picture/picture.h"
-#include "windshield/smear.h"
-#include "windshield/surface.h"
+#include "windshield/surface/condensation.h"
+#include "windshield/surface/smear.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 

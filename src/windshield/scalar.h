@@ -12,7 +12,7 @@
 #include "windshield/picture/interior.pass.h"
 #include "windshield/picture/join_panes.pass.h"
 #include "windshield/picture/mist.pass.h"
-#include "windshield/smear.pass.h"
+#include "windshield/surface/smear.pass.h"
 #include "windshield/picture/soften.pass.h"
 #include "windshield/surface_scalar.h"
 
@@ -30,7 +30,7 @@ using namespace rainref::scalar;
 #include "windshield/picture/interior.pass.h"
 #include "windshield/picture/join_panes.pass.h"
 #include "windshield/picture/mist.pass.h"
-#include "windshield/smear.pass.h"
+#include "windshield/surface/smear.pass.h"
 #include "windshield/picture/soften.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

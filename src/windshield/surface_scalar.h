@@ -6,20 +6,20 @@
 #include "math/enclosure.h"
 #include "math/scalar.h"
 #include "math/rearranged.h"
-#include "windshield/condense.pass.h"
+#include "windshield/surface/condense.pass.h"
 #include "windshield/picture/falling_rain.pass.h"
-#include "windshield/segment_distance_enclosed.h"
-#include "windshield/surface.h"
+#include "windshield/surface/segment_distance_enclosed.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield::scalar {
 using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
-#include "windshield/normals.pass.h"
-#include "windshield/persist.pass.h"
-#include "windshield/condense.pass.h"
-#include "windshield/wipe_texture.pass.h"
+#include "windshield/surface/normals.pass.h"
+#include "windshield/surface/persist.pass.h"
+#include "windshield/surface/condense.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
 #include "windshield/picture/falling_rain.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

@@ -7,7 +7,7 @@
 #include "pass/run.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/scalar.h"
-#include "windshield/surface.h"
+#include "windshield/surface/surface.h"
 #include "windshield/sweep_geometry.h"
 
 namespace rainref::windshield {

@@ -8,7 +8,7 @@
 #include "math/half.h"
 #include "pass/run.h"
 #include "rainref/executor.h"
-#include "windshield/surface.h"
+#include "windshield/surface/surface.h"
 #include "windshield/surface_scalar.h"
 
 namespace rainref::windshield {

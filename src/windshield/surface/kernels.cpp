@@ -3,14 +3,14 @@
 #include <vector>
 
 #include "pass/run.h"
-#include "windshield/condense.pass.h"
-#include "windshield/normals.pass.h"
-#include "windshield/persist.pass.h"
 #include "windshield/picture/falling_rain.pass.h"
-#include "windshield/wipe_texture.pass.h"
-#include "windshield/wiper_reach.h"
+#include "windshield/surface/condense.pass.h"
+#include "windshield/surface/normals.pass.h"
+#include "windshield/surface/persist.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
+#include "windshield/surface/wiper_reach.h"
 
-#define RAINREF_KERNELS "windshield/kernels_surface.cpp"
+#define RAINREF_KERNELS "windshield/surface/kernels.cpp"
 #include "math/foreach_target.h"
 #include "math/lanes-inl.h"
 #include "pass/rows-inl.h"
@@ -18,10 +18,10 @@
 RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
-#include "windshield/normals.pass.h"
-#include "windshield/persist.pass.h"
-#include "windshield/wipe_texture.pass.h"
-#include "windshield/condense.pass.h"
+#include "windshield/surface/normals.pass.h"
+#include "windshield/surface/persist.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
+#include "windshield/surface/condense.pass.h"
 #include "windshield/picture/falling_rain.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "rainref/image.h"
-#include "windshield/condense.pass.h"
 #include "windshield/picture/mist.pass.h"
-#include "windshield/surface.h"
+#include "windshield/surface/condense.pass.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 

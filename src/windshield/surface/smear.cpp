@@ -1,4 +1,4 @@
-#include "windshield/smear.h"
+#include "windshield/surface/smear.h"
 
 #include <algorithm>
 #include <cmath>

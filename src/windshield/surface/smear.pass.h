@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "rainref/executor.h"
-#include "windshield/wipe_texture.pass.h"
-#include "windshield/wiper_reach.h"
+#include "windshield/surface/wipe_texture.pass.h"
+#include "windshield/surface/wiper_reach.h"
 
 namespace rainref::windshield {
 

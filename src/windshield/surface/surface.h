@@ -9,10 +9,10 @@
 #include "rainref/image.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
-#include "windshield/normals.pass.h"
-#include "windshield/persist.pass.h"
+#include "windshield/surface/normals.pass.h"
+#include "windshield/surface/persist.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
 #include "windshield/uniforms.h"
-#include "windshield/wipe_texture.pass.h"
 
 namespace rainref::windshield {
 

@@ -1,4 +1,4 @@
-#include "windshield/condensation.h"
+#include "windshield/surface/condensation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // smear in lanes; compiled once for each SIMD target.
 #include "pass/run.h"
-#include "windshield/smear.pass.h"
+#include "windshield/surface/smear.pass.h"
 
-#define RAINREF_KERNELS "windshield/kernels_smear.cpp"
+#define RAINREF_KERNELS "windshield/surface/kernels_smear.cpp"
 #include "math/foreach_target.h"
 #include "math/lanes-inl.h"
 #include "pass/rows-inl.h"
@@ -12,8 +12,8 @@ RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "image/sampling-inl.h"
 #include "image/sampling_lanes-inl.h"
-#include "windshield/wipe_texture.pass.h"
-#include "windshield/smear.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
+#include "windshield/surface/smear.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 RAINREF_PASS_ROWS(SmearPass)

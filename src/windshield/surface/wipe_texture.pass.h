@@ -24,7 +24,7 @@ struct WipeTextureUniforms {
 };
 static_assert(sizeof(WipeTextureUniforms) == 48);
 
-/// In place. Its lanes leave wipers out that cannot reach them: see kernels_surface.cpp.
+/// In place. Its lanes leave wipers out that cannot reach them: see kernels.cpp.
 struct WipeTexturePass {
   static constexpr pass::About about{
       "wipe_texture", "What the blades take off the height, and the mask of freshly wiped glass.", {1}, {1}, {"dot", "length"}};

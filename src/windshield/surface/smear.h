@@ -6,8 +6,8 @@
 
 #include "rainref/image.h"
 #include "windshield/picture/soften.pass.h"
-#include "windshield/smear.pass.h"
-#include "windshield/surface.h"
+#include "windshield/surface/smear.pass.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 
