@@ -14,7 +14,6 @@
 #include "rainy_glass/rain_on_glass_text.h"
 #include "screen_drops/scalar.h"
 #include "windshield/scalar.h"
-#include "windshield/surface_scalar.h"
 
 namespace rainref::devices {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "windshield/motion/wipe_drops.h"
-#include "windshield/motion_scalar.h"
+#include "windshield/scalar.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {
