@@ -1,9 +1,9 @@
 #include "drops/info.h"
 
-#include "drops/integrate.pass.h"
-#include "drops/merge.pass.h"
-#include "drops/necks.pass.h"
-#include "drops/spawn.pass.h"
+#include "drops/motion/integrate.pass.h"
+#include "drops/motion/merge.pass.h"
+#include "drops/motion/necks.pass.h"
+#include "drops/motion/spawn.pass.h"
 #include "drops/splat.pass.h"
 #include "pass/info.h"
 #include "scene/variant_names.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "drops/drops.h"
-#include "drops/kernels.h"
+#include "drops/motion/kernels.h"
 #include "drops/splat_kernels.h"
 #include "image/memory.h"
 #include "rainref/image.h"

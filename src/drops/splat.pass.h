@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "drops/drops.h"
-#include "drops/necks.pass.h"
+#include "drops/motion/necks.pass.h"
 #include "drops/records.h"
 #include "drops/splat_uniforms.h"
 #include "pass/definition.h"

@@ -1,8 +1,8 @@
 // The text of splat with every number but lanes.
 #pragma once
 
-#include "drops/drop_scalar.h"
 #include "drops/half_sum.h"
+#include "drops/motion/scalar.h"
 #include "drops/splat.pass.h"
 
 namespace rainref::drops::scalar {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "drops/host.h"
-#include "drops/passes.h"
+#include "drops/motion/passes.h"
 #include "drops/splat.h"
 #include "pass/definition.h"
 #include "pass/moment.h"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "drops/evaluations.h"
-#include "drops/scalar.h"
+#include "drops/motion/scalar.h"
 #include "judge/lists.h"
 #include "math/path_enumeration.h"
 #include "rainref/error.h"

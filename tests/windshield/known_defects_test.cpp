@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "drops/host.h"
-#include "drops/scalar.h"
+#include "drops/motion/scalar.h"
 #include "math/half.h"
 #include "pass/run.h"
 #include "windshield/golden_scenes.h"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "drops/passes.h"
-#include "drops/spawn.pass.h"
+#include "drops/motion/passes.h"
+#include "drops/motion/spawn.pass.h"
 #include "rainref/error.h"
 #include "random/draws.h"
 #include "random/poisson.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "drops/drops.h"
-#include "drops/integrate.pass.h"
-#include "drops/merge_grid.h"
+#include "drops/motion/integrate.pass.h"
+#include "drops/motion/merge_grid.h"
 #include "drops/records.h"
 #include "drops/uniforms.h"
 

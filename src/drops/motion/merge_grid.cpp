@@ -1,9 +1,9 @@
-#include "drops/merge_grid.h"
+#include "drops/motion/merge_grid.h"
 
 #include <algorithm>
 #include <span>
 
-#include "drops/kernels.h"
+#include "drops/motion/kernels.h"
 
 namespace rainref::drops {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "drops/bucket_sort.h"
 #include "drops/drops.h"
+#include "drops/motion/bucket_sort.h"
 #include "drops/uniforms.h"
 #include "rainref/executor.h"
 

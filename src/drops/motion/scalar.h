@@ -1,7 +1,10 @@
-// A drop with every number but lanes: Scalar, Enclosure, Rearranged and Perturbed. A namespace of their own, so that argument types of
-// this room do not pull them into the lanes.
+// A drop, and the texts of integrate, merge and necks, with every number but lanes: Scalar, Enclosure, Rearranged and Perturbed. A
+// namespace of their own, so that argument types of this room do not pull them into the lanes.
 #pragma once
 
+#include "drops/motion/integrate.pass.h"
+#include "drops/motion/merge.pass.h"
+#include "drops/motion/necks.pass.h"
 #include "drops/records.h"
 #include "math/perturbed.h"
 #include "math/enclosure.h"
@@ -21,9 +24,14 @@ inline bool is_ended(enclosed::Enclosure life) { return life.lo == 0 && life.hi 
 inline bool is_ended(const enclosed::Rearranged& life) { return is_ended(life.settled()); }
 
 #define RAINREF_FN inline
+#define RAINREF_LAMBDA
 #include "drops/drop-inl.h"
 #include "drops/neck-inl.h"
+#include "drops/motion/integrate.pass.h"
+#include "drops/motion/merge.pass.h"
+#include "drops/motion/necks.pass.h"
 #undef RAINREF_FN
+#undef RAINREF_LAMBDA
 
 }  // namespace rainref::drops::scalar
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drops/drops.h"
-#include "drops/necks.h"
+#include "drops/motion/necks.h"
 #include "drops/uniforms.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"

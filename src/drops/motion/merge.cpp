@@ -3,10 +3,10 @@
 #include <numeric>
 #include <tuple>
 
-#include "drops/kernels.h"
-#include "drops/merge_grid.h"
-#include "drops/passes.h"
-#include "drops/scalar.h"
+#include "drops/motion/kernels.h"
+#include "drops/motion/merge_grid.h"
+#include "drops/motion/passes.h"
+#include "drops/motion/scalar.h"
 
 namespace rainref::drops {
 namespace {

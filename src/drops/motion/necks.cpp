@@ -1,9 +1,9 @@
-#include "drops/necks.h"
+#include "drops/motion/necks.h"
 
 #include <algorithm>
 #include <memory>
 
-#include "drops/scalar.h"
+#include "drops/motion/scalar.h"
 
 namespace rainref::drops {
 namespace {

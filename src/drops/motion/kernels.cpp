@@ -1,9 +1,9 @@
 // Shells of integrate and merge; compiled once for each SIMD target.
-#include "drops/kernels.h"
+#include "drops/motion/kernels.h"
 
 #include <algorithm>
 
-#define RAINREF_KERNELS "drops/kernels.cpp"
+#define RAINREF_KERNELS "drops/motion/kernels.cpp"
 #include "math/foreach_target.h"
 #include "math/lane_pair-inl.h"
 #include "math/lanes-inl.h"
@@ -13,8 +13,8 @@ RAINREF_TARGET_BEGIN(drops)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #include "math/cube_root_lanes-inl.h"
 #include "drops/drop-inl.h"
-#include "drops/integrate.pass.h"
-#include "drops/merge.pass.h"
+#include "drops/motion/integrate.pass.h"
+#include "drops/motion/merge.pass.h"
 #undef RAINREF_FN
 
 HWY_INLINE DropState<Lanes> load_drops(const Slots& s, std::int64_t i) {

@@ -1,5 +1,5 @@
-#include "drops/kernels.h"
-#include "drops/passes.h"
+#include "drops/motion/kernels.h"
+#include "drops/motion/passes.h"
 
 namespace rainref::drops {
 
