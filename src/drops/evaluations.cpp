@@ -5,7 +5,7 @@
 #include "drops/motion/passes.h"
 #include "drops/motion/scalar.h"
 #include "drops/motion/spawn.pass.h"
-#include "drops/splat_scalar.h"
+#include "drops/splat/scalar.h"
 #include "pass/record_model.h"
 
 namespace rainref::drops {

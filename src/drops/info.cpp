@@ -4,7 +4,7 @@
 #include "drops/motion/merge.pass.h"
 #include "drops/motion/necks.pass.h"
 #include "drops/motion/spawn.pass.h"
-#include "drops/splat.pass.h"
+#include "drops/splat/splat.pass.h"
 #include "pass/info.h"
 #include "scene/variant_names.h"
 

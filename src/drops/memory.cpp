@@ -4,7 +4,7 @@
 
 #include "drops/drops.h"
 #include "drops/motion/kernels.h"
-#include "drops/splat_kernels.h"
+#include "drops/splat/kernels.h"
 #include "image/memory.h"
 #include "rainref/image.h"
 

@@ -10,7 +10,7 @@
 
 #include "drops/host.h"
 #include "drops/motion/passes.h"
-#include "drops/splat.h"
+#include "drops/splat/splat.h"
 #include "pass/definition.h"
 #include "pass/moment.h"
 #include "rainref/recorder.h"

@@ -5,7 +5,7 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/settings.h"
-#include "drops/splat.h"
+#include "drops/splat/splat.h"
 #include "math/constants.h"
 #include "scene/config.h"
 #include "scene/parameter.h"

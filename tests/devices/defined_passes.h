@@ -5,7 +5,7 @@
 
 #include "blur_pyramid/scalar.h"
 #include "capture/pass_case.h"
-#include "drops/splat_scalar.h"
+#include "drops/splat/scalar.h"
 #include "edge_splash/scalar.h"
 #include "pass/display_scalar.h"
 #include "pass/model.h"

@@ -26,14 +26,14 @@
 #include "drops/drops.h"
 #include "drops/motion/necks.pass.h"
 #include "drops/records.h"
-#include "drops/splat_uniforms.h"
+#include "drops/splat/uniforms.h"
 #include "pass/definition.h"
 #include "rainref/executor.h"
 #include "scene/uniform_block.h"
 
 namespace rainref::drops {
 
-/// Its lanes are written by hand, drop by drop: see splat_kernels.cpp.
+/// Its lanes are written by hand, drop by drop: see kernels.cpp.
 struct SplatPass {
   static constexpr pass::About about{
       "splat", "The height of the water: every live drop, in slot order; corrected: on the film.", {1}, {3}, {"length"}, "ordered_scatter"};

@@ -1,14 +1,14 @@
 // Shells of splat; compiled once for each SIMD target.
-#include "drops/splat_kernels.h"
+#include "drops/splat/kernels.h"
 
-#include "drops/splat.pass.h"
+#include "drops/splat/splat.pass.h"
 
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
 #include <vector>
 
-#define RAINREF_KERNELS "drops/splat_kernels.cpp"
+#define RAINREF_KERNELS "drops/splat/kernels.cpp"
 #include "math/foreach_target.h"
 #include "math/lane_pair-inl.h"
 #include "math/lanes-inl.h"
@@ -19,7 +19,7 @@ RAINREF_TARGET_BEGIN(drops)
 #include "math/cube_root_lanes-inl.h"
 #include "drops/drop-inl.h"
 #include "drops/neck-inl.h"
-#include "drops/splat.pass.h"
+#include "drops/splat/splat.pass.h"
 #undef RAINREF_FN
 
 // Where a texel may get something: a little more than the pass says, because its own arithmetic is rounded. What is

@@ -10,7 +10,7 @@
 #include "drops/host.h"
 #include "drops/physics.h"
 #include "drops/records.h"
-#include "drops/splat_kernels.h"
+#include "drops/splat/kernels.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "scene/config.h"

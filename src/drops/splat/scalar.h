@@ -1,9 +1,9 @@
 // The text of splat with every number but lanes.
 #pragma once
 
-#include "drops/half_sum.h"
 #include "drops/motion/scalar.h"
-#include "drops/splat.pass.h"
+#include "drops/splat/half_sum.h"
+#include "drops/splat/splat.pass.h"
 
 namespace rainref::drops::scalar {
 
@@ -17,7 +17,7 @@ inline enclosed::Enclosure over_larger(enclosed::Enclosure x, float least) {
 }
 
 #define RAINREF_FN inline
-#include "drops/splat.pass.h"
+#include "drops/splat/splat.pass.h"
 #undef RAINREF_FN
 
 }  // namespace rainref::drops::scalar

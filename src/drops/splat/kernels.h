@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drops/records.h"
-#include "drops/splat_uniforms.h"
+#include "drops/splat/uniforms.h"
 #include "rainref/image.h"
 
 namespace rainref::drops {

@@ -1,4 +1,4 @@
-#include "drops/splat.h"
+#include "drops/splat/splat.h"
 
 #include <algorithm>
 
