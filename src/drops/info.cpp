@@ -22,7 +22,7 @@ std::vector<UniformBlock> records() {
 
 std::vector<BufferInfo> buffers() {
   const auto list = [](const char* name, const char* sentence, std::array<double, 2> range, const char* record, const char* variant) {
-    return BufferInfo{name, "records", sentence, "1", range, "none", "none", "none", "", record, variant};
+    return BufferInfo{.name = name, .format = "records", .sentence = sentence, .range = range, .record = record, .variant = variant};
   };
   std::vector<BufferInfo> all = pass::buffers_of<SpawnPass>();
   all.push_back(list("glass_frame", "What moves drops, in glass coordinates.", {-1000, 1000}, "GlassFrame", ""));

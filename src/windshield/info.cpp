@@ -1,6 +1,4 @@
 #include "windshield/info.h"
-#include "windshield/picture/falling_rain.pass.h"
-#include "windshield/surface/condense.pass.h"
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
@@ -8,7 +6,9 @@
 #include "windshield/motion/info.h"
 #include "windshield/motion/windshield_frame.pass.h"
 #include "windshield/motion/wipe_drops.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
 #include "windshield/picture/info.h"
+#include "windshield/surface/condense.pass.h"
 #include "windshield/surface/smear.pass.h"
 #include "windshield/surface/surface.h"
 
@@ -45,8 +45,12 @@ EffectInfo make_info() {
   append(info.buffers, drops::buffers());
   append(info.buffers, wiper_buffers());
   append(info.buffers, drops::splat_buffers());
-  info.buffers.push_back(
-      {"previous_height", "r16f", "Height of the frame before, wiped.", "mm", {0, 8}, "none", "none", "none", "", "", "as-published"});
+  info.buffers.push_back({.name = "previous_height",
+                          .format = "r16f",
+                          .sentence = "Height of the frame before, wiped.",
+                          .unit = "mm",
+                          .range = {0, 8},
+                          .variant = "as-published"});
   append(info.buffers, pass::buffers_of<WipeTexturePass>());
   append(info.buffers, pass::buffers_of<SmearPass>());
   append(info.buffers, pass::buffers_of<CondensePass>());

@@ -8,16 +8,11 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 std::vector<BufferInfo> wiper_buffers() {
-  return {{"wipers",
-           "records",
-           "A record for each blade; corrected: for each of its moves in one direction.",
-           "1",
-           {-1, 1},
-           "none",
-           "none",
-           "none",
-           "",
-           "Wiper"}};
+  return {{.name = "wipers",
+           .format = "records",
+           .sentence = "A record for each blade; corrected: for each of its moves in one direction.",
+           .range = {-1, 1},
+           .record = "Wiper"}};
 }
 
 std::vector<UniformBlock> wiper_records() {

@@ -17,31 +17,46 @@ std::vector<PassInfo> picture_passes() {
 }
 
 std::vector<BufferInfo> picture_buffers() {
-  const std::array<double, 2> one{0, 1};
-  std::vector<BufferInfo> all{{"glints", "records", "Lights that drops mirror.", "1", one, "none", "none", "none", "", "Glint"}};
-  all.push_back(
-      {"streaks", "records", "Drops that fall behind the glass, far ones first.", "1", {-1e6, 1e6}, "none", "none", "none", "", "Streak"});
-  all.push_back({"profile", "r16f", "Thickness of the film that a blade leaves, from its inner end to its outer one.", "1", one, "none",
-                 "none", "none", "", "", "corrected"});
-  all.push_back({"deflections",
-                 "records",
-                 "Angles by which a blade's film turns light.",
-                 "1",
-                 {-1, 1},
-                 "none",
-                 "none",
-                 "none",
-                 "",
-                 "Deflection",
-                 "corrected"});
-  all.push_back({"taps", "records", "Places that the picture behind the mist is the mean of.", "1", one, "none", "none", "none", "", "Tap",
-                 "corrected"});
+  std::vector<BufferInfo> all{{.name = "glints", .format = "records", .sentence = "Lights that drops mirror.", .record = "Glint"}};
+  all.push_back({.name = "streaks",
+                 .format = "records",
+                 .sentence = "Drops that fall behind the glass, far ones first.",
+                 .range = {-1e6, 1e6},
+                 .record = "Streak"});
+  all.push_back({.name = "profile",
+                 .format = "r16f",
+                 .sentence = "Thickness of the film that a blade leaves, from its inner end to its outer one.",
+                 .variant = "corrected"});
+  all.push_back({.name = "deflections",
+                 .format = "records",
+                 .sentence = "Angles by which a blade's film turns light.",
+                 .range = {-1, 1},
+                 .record = "Deflection",
+                 .variant = "corrected"});
+  all.push_back({.name = "taps",
+                 .format = "records",
+                 .sentence = "Places that the picture behind the mist is the mean of.",
+                 .record = "Tap",
+                 .variant = "corrected"});
   const std::vector<BufferInfo> colour = pass::buffers_of<CompositePass>();
   all.insert(all.end(), colour.begin(), colour.end());
-  all.push_back({"pane_colour", "rgba16f", "As colour, through a pane behind the first.", "1", one, "none", "linear Rec. 709", "opaque"});
-  all.push_back({"interior", "rgba16f", "What of the car stands before the glass.", "1", one, "none", "linear Rec. 709", "premultiplied",
-                 "", "", "corrected"});
-  all.push_back({"picture", "rgba8", "Display code; alpha 1.", "1", one, "sRGB", "sRGB", "opaque"});
+  all.push_back({.name = "pane_colour",
+                 .format = "rgba16f",
+                 .sentence = "As colour, through a pane behind the first.",
+                 .colour_space = "linear Rec. 709",
+                 .alpha = "opaque"});
+  all.push_back({.name = "interior",
+                 .format = "rgba16f",
+                 .sentence = "What of the car stands before the glass.",
+                 .colour_space = "linear Rec. 709",
+                 .alpha = "premultiplied",
+                 .variant = "corrected"});
+  all.push_back({.name = "picture",
+                 .format = "rgba8",
+                 .sentence = "Display code; alpha 1.",
+                 .encoding = "sRGB",
+                 .colour_space = "sRGB",
+                 .alpha = "opaque"});
   return all;
 }
 
