@@ -123,9 +123,14 @@ capture::PassInfo blur_info(const std::string& colour_from, const std::string& d
   return info;
 }
 std::vector<capture::BufferInfo> blur_buffers() {
-  return {{"scene_colour", "rgba16f", "Opaque scene without fog: linear radiance.", "1", {0, 1}, "none", "linear Rec. 709", "unused"},
-          {"scene_depth", "r32f", "Distance of the scene along the view axis.", "m", {0, 1000}},
-          pass::buffers_of<HalvePass>().front()};
+  return {
+      {.name = "scene_colour",
+       .format = "rgba16f",
+       .sentence = "Opaque scene without fog: linear radiance.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused"},
+      {.name = "scene_depth", .format = "r32f", .sentence = "Distance of the scene along the view axis.", .unit = "m", .range = {0, 1000}},
+      pass::buffers_of<HalvePass>().front()};
 }
 std::unique_ptr<capture::PassModel> bind_blur(const capture::PassCase& c) {
   return c.level == 0 ? pass::bind<FogPass, scalar::FogPassText>(c) : pass::bind<HalvePass, scalar::HalvePassText>(c);

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "drops/passes.h"
-#include "drops/scalar.h"
-#include "drops/spawn.pass.h"
-#include "drops/splat_scalar.h"
+#include "drops/motion/passes.h"
+#include "drops/motion/scalar.h"
+#include "drops/motion/spawn.pass.h"
+#include "drops/splat/scalar.h"
 #include "pass/record_model.h"
 
 namespace rainref::drops {

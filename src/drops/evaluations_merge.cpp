@@ -10,7 +10,7 @@
 #include <numeric>
 #include <type_traits>
 
-#include "drops/scalar.h"
+#include "drops/motion/scalar.h"
 #include "drops/evaluations.h"
 #include "math/whole.h"
 #include "pass/record_model.h"

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "drops/evaluations.h"
-#include "drops/scalar.h"
+#include "drops/motion/scalar.h"
 #include "pass/record_model.h"
 
 namespace rainref::drops {

@@ -1,10 +1,10 @@
 #include "drops/info.h"
 
-#include "drops/integrate.pass.h"
-#include "drops/merge.pass.h"
-#include "drops/necks.pass.h"
-#include "drops/spawn.pass.h"
-#include "drops/splat.pass.h"
+#include "drops/motion/integrate.pass.h"
+#include "drops/motion/merge.pass.h"
+#include "drops/motion/necks.pass.h"
+#include "drops/motion/spawn.pass.h"
+#include "drops/splat/splat.pass.h"
 #include "pass/info.h"
 #include "scene/variant_names.h"
 
@@ -22,7 +22,7 @@ std::vector<UniformBlock> records() {
 
 std::vector<BufferInfo> buffers() {
   const auto list = [](const char* name, const char* sentence, std::array<double, 2> range, const char* record, const char* variant) {
-    return BufferInfo{name, "records", sentence, "1", range, "none", "none", "none", "", record, variant};
+    return BufferInfo{.name = name, .format = "records", .sentence = sentence, .range = range, .record = record, .variant = variant};
   };
   std::vector<BufferInfo> all = pass::buffers_of<SpawnPass>();
   all.push_back(list("glass_frame", "What moves drops, in glass coordinates.", {-1000, 1000}, "GlassFrame", ""));

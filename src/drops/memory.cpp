@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "drops/drops.h"
-#include "drops/kernels.h"
-#include "drops/splat_kernels.h"
+#include "drops/motion/kernels.h"
+#include "drops/splat/kernels.h"
 #include "image/memory.h"
 #include "rainref/image.h"
 

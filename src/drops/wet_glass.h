@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "drops/host.h"
-#include "drops/passes.h"
-#include "drops/splat.h"
+#include "drops/motion/passes.h"
+#include "drops/splat/splat.h"
 #include "pass/definition.h"
 #include "pass/moment.h"
 #include "rainref/recorder.h"

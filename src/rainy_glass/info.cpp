@@ -35,38 +35,60 @@ EffectInfo make() {
       pass::info_of<RainOnGlassPass>(),
       pass::display_info("rain_on_glass"),
   };
-  const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
+  const std::array<double, 2> signed_one{-1, 1};
   info.buffers = {
-      {"droplets", "records", "Droplets of the raindrop map, largest first; they do not overlap.", "1", one, "none", "none", "none", "",
-       "Droplet"},
-      {"trails", "records", "Rivulets of the rivulet map.", "1", one, "none", "none", "none", "", "Trail"},
-      {"lattice", "rgba32f", "Unit gradients of the flow across (x, y) and along (z, w) the glass.", "1", signed_one},
+      {.name = "droplets",
+       .format = "records",
+       .sentence = "Droplets of the raindrop map, largest first; they do not overlap.",
+       .record = "Droplet"},
+      {.name = "trails", .format = "records", .sentence = "Rivulets of the rivulet map.", .record = "Trail"},
+      {.name = "lattice",
+       .format = "rgba32f",
+       .sentence = "Unit gradients of the flow across (x, y) and along (z, w) the glass.",
+       .range = signed_one},
   };
   const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
   append(pass::buffers_of<BakeRaindropsPass>());
   append(pass::buffers_of<BakeRivuletsPass>());
   append({
-      {"surface", "rgba32f", "Place on the glass u, v; distance along the view axis, 0 beside the glass; 0.", "m, m, m, 1", {-10, 10}},
-      {"orientation", "rgba16f", "World normal toward the rain; 1 on the glass.", "1", signed_one},
-      {"scene", "rgba16f", "The scene without the glass, linear radiance.", "1", one, "none", "linear Rec. 709", "unused"},
-      {"scene_depth", "r32f", "Its depth along the view axis.", "m", {0, 1000}, "none", "none", "none", "", "", correct},
-      {"near_depth",
-       "r32f",
-       "Least depth of a texel and its eight neighbours, times 1 - 2^-16.",
-       "m",
-       {0, 1000},
-       "none",
-       "none",
-       "none",
-       "",
-       "",
-       correct},
-      {"probe", "rgba32f", "Radiance by direction, with mips.", "1", one, "none", "linear Rec. 709", "unused",
-       "latitude/longitude: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down"},
+      {.name = "surface",
+       .format = "rgba32f",
+       .sentence = "Place on the glass u, v; distance along the view axis, 0 beside the glass; 0.",
+       .unit = "m, m, m, 1",
+       .range = {-10, 10}},
+      {.name = "orientation", .format = "rgba16f", .sentence = "World normal toward the rain; 1 on the glass.", .range = signed_one},
+      {.name = "scene",
+       .format = "rgba16f",
+       .sentence = "The scene without the glass, linear radiance.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused"},
+      {.name = "scene_depth",
+       .format = "r32f",
+       .sentence = "Its depth along the view axis.",
+       .unit = "m",
+       .range = {0, 1000},
+       .variant = correct},
+      {.name = "near_depth",
+       .format = "r32f",
+       .sentence = "Least depth of a texel and its eight neighbours, times 1 - 2^-16.",
+       .unit = "m",
+       .range = {0, 1000},
+       .variant = correct},
+      {.name = "probe",
+       .format = "rgba32f",
+       .sentence = "Radiance by direction, with mips.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused",
+       .orientation =
+           "latitude/longitude: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down"},
   });
   append(pass::buffers_of<RainOnGlassPass>());
-  info.buffers.push_back(
-      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"});
+  info.buffers.push_back({.name = "picture",
+                          .format = "rgba8",
+                          .sentence = "Display code, alpha 1. Row 0 is the bottom of the picture.",
+                          .encoding = "sRGB (IEC 61966-2-1)",
+                          .colour_space = "sRGB",
+                          .alpha = "1"});
   info.records = {droplet, trail};
   return info;
 }

@@ -5,7 +5,7 @@
 #include "drops/info.h"
 #include "drops/evaluations.h"
 #include "drops/settings.h"
-#include "drops/splat.h"
+#include "drops/splat/splat.h"
 #include "math/constants.h"
 #include "scene/variant_names.h"
 #include "screen_drops/flow.h"

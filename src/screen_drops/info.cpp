@@ -29,23 +29,32 @@ EffectInfo make() {
        }) {
     info.passes.push_back(pass);
   }
-  const std::array<double, 2> one{0, 1};
   info.buffers = flow_buffers();
   const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
   append({
-      {"scene", "rgba16f", "The scene without the glass and without blur, linear radiance, with mips.", "1", one, "none", "linear Rec. 709",
-       "unused"},
-      {"taps", "records", "Places that the background is the mean of.", "1", one, "none", "none", "none", "", "Tap", correct},
+      {.name = "scene",
+       .format = "rgba16f",
+       .sentence = "The scene without the glass and without blur, linear radiance, with mips.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused"},
+      {.name = "taps", .format = "records", .sentence = "Places that the background is the mean of.", .record = "Tap", .variant = correct},
   });
   append(pass::buffers_of<BackgroundPass>());
   append({
-      {"noise", "rgba8", "Noise, a tile: x and y displace the grid; x keeps a cell's drop, y is its time offset, z its rate.", "1", one,
-       "none", "none", "none", "", "", published},
+      {.name = "noise",
+       .format = "rgba8",
+       .sentence = "Noise, a tile: x and y displace the grid; x keeps a cell's drop, y is its time offset, z its rate.",
+       .variant = published},
   });
   append(pass::buffers_of<CellsPass>());
   append(pass::buffers_of<PublishedDropsPass, DropsPass>());
   append({
-      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"},
+      {.name = "picture",
+       .format = "rgba8",
+       .sentence = "Display code, alpha 1. Row 0 is the bottom of the picture.",
+       .encoding = "sRGB (IEC 61966-2-1)",
+       .colour_space = "sRGB",
+       .alpha = "1"},
   });
   info.records = flow_records();
   info.records.push_back(tap);

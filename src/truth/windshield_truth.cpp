@@ -7,7 +7,7 @@
 #include "truth/pixels.h"
 #include "pass/display.h"
 #include "windshield/shown.h"
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
 namespace rainref::truth {
 Image display(const windshield::Settings& settings, const Image& radiance, const parallel::Executor& executor) {

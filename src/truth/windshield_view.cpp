@@ -5,8 +5,8 @@
 
 #include "math/real64.h"
 #include "truth/falling_rain_index.h"
-#include "windshield/glass.h"
-#include "windshield/street.h"
+#include "windshield/motion/glass.h"
+#include "windshield/scene/street.h"
 
 namespace rainref::truth {
 namespace {

@@ -11,7 +11,7 @@
 #include "night_street/night_street.h"
 #include "rainref/windshield.h"
 #include "truth/picture_relief.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 #include "truth/tracer_names.h"
 
 namespace rainref::truth {

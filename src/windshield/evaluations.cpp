@@ -5,7 +5,6 @@
 #include "pass/display.h"
 #include "pass/model.h"
 #include "windshield/scalar.h"
-#include "windshield/surface_scalar.h"
 #include "windshield/wipe_from_ends.h"
 
 namespace rainref::windshield {

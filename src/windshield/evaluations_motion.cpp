@@ -7,9 +7,9 @@
 #include "drops/evaluations.h"
 #include "math/whole.h"
 #include "pass/record_model.h"
-#include "windshield/motion_scalar.h"
 #include "windshield/evaluations.h"
-#include "windshield/wipe_drops.h"
+#include "windshield/motion/wipe_drops.h"
+#include "windshield/scalar.h"
 
 namespace rainref::windshield {
 namespace {
@@ -22,7 +22,7 @@ using enclosed::Enclosure;
 using perturbed::Perturbed;
 using Number = scalar::Scalar<float>;
 
-using WipedPass = pass::Bound<WipeDropsPass, motion_scalar::WipeDropsPassText>;
+using WipedPass = pass::Bound<WipeDropsPass, scalar::WipeDropsPassText>;
 
 /// What wipe_drops corrected takes.
 struct Sweep {
@@ -35,12 +35,12 @@ struct Sweep {
   int row(int texel) const { return texel / uniforms.columns; }
   float film(int texel) const { return *pass.captured.film.at(column(texel), row(texel)); }
   template <class N>
-  motion_scalar::WipedDrop<N> wiped(const Drop& drop) const {
+  scalar::WipedDrop<N> wiped(const Drop& drop) const {
     return pass.record<N, true>(drop);
   }
   template <class N>
-  motion_scalar::SweptTexel<N> swept(int texel) const {
-    return motion_scalar::swept_texel<N>(uniforms, wipers.data(), column(texel), row(texel));
+  scalar::SweptTexel<N> swept(int texel) const {
+    return scalar::swept_texel<N>(uniforms, wipers.data(), column(texel), row(texel));
   }
   /// Texels with water that a record may sweep.
   std::vector<int> wet_texels() const {
@@ -102,11 +102,11 @@ class SweptDrops : public capture::KeyedModel {
     const std::size_t first = out.size();
     for (const std::size_t i : groups_[static_cast<std::size_t>(group)]) {
       const Drop& drop = s_.drops[i];
-      const motion_scalar::WipedDrop<Enclosure> d = s_.wiped<Enclosure>(drop);
+      const scalar::WipedDrop<Enclosure> d = s_.wiped<Enclosure>(drop);
       const Place place = decided_place(s_.uniforms, d);
       // That the others of this place are in the group was settled beforehand.
       if (!std::binary_search(places_[i].begin(), places_[i].end(), place)) enclosed::give_up();
-      out.push_back(pass::keyed_record<motion_scalar::DropState<Enclosure>>(d, d.lives(), drop.id));
+      out.push_back(pass::keyed_record<scalar::DropState<Enclosure>>(d, d.lives(), drop.id));
       if (place == none) continue;
       const auto [taker, is_first] = takers.emplace(place, out.size() - 1);
       if (!is_first && drop.id < out[taker->second].id) taker->second = out.size() - 1;
@@ -198,16 +198,16 @@ class SweptDrops : public capture::KeyedModel {
   std::vector<std::byte> list() const {
     std::map<Place, std::uint64_t> film;
     for (const int texel : s_.wet_texels()) {
-      const motion_scalar::SweptTexel<N> swept = s_.swept<N>(texel);
+      const scalar::SweptTexel<N> swept = s_.swept<N>(texel);
       const Place place = place_of(s_.uniforms, swept.wiper.v, swept.bin.v);
       if (place != none) film[place] += mass_units_of(s_.film(texel));
     }
     std::vector<Drop> out;
     std::map<Place, std::size_t> takers;
     for (const Drop& drop : s_.drops) {
-      const motion_scalar::WipedDrop<N> d = s_.wiped<N>(drop);
+      const scalar::WipedDrop<N> d = s_.wiped<N>(drop);
       if (!d.lives()) continue;
-      out.push_back(pass::stored<motion_scalar::DropState<N>>(d, drop));
+      out.push_back(pass::stored<scalar::DropState<N>>(d, drop));
       const Place place = place_of(s_.uniforms, d.wiper.v, d.bin.v);
       if (place == none) continue;
       const auto [taker, is_first] = takers.emplace(place, out.size() - 1);
@@ -235,12 +235,12 @@ class WipeCorrected : public capture::ModelOf<WipedPass> {
 }  // namespace
 
 std::unique_ptr<PassModel> bind_windshield_frame(const PassCase& c) {
-  return pass::bind_records<WindshieldFramePass, motion_scalar::WindshieldFramePassText>(c);
+  return pass::bind_records<WindshieldFramePass, scalar::WindshieldFramePassText>(c);
 }
 
 std::unique_ptr<PassModel> bind_wipe_drops(const PassCase& c) {
-  if (!c.corrected()) return pass::bind_records<WipeDropsPass, motion_scalar::WipeDropsPassText>(c);
-  return std::make_unique<WipeCorrected>(pass::bound<WipeDropsPass, motion_scalar::WipeDropsPassText>(c));
+  if (!c.corrected()) return pass::bind_records<WipeDropsPass, scalar::WipeDropsPassText>(c);
+  return std::make_unique<WipeCorrected>(pass::bound<WipeDropsPass, scalar::WipeDropsPassText>(c));
 }
 
 }  // namespace rainref::windshield

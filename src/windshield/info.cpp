@@ -1,16 +1,16 @@
-#include "windshield/condense.pass.h"
-#include "windshield/falling_rain.pass.h"
 #include "windshield/info.h"
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
 #include "pass/info.h"
-#include "windshield/motion_info.h"
-#include "windshield/picture_info.h"
-#include "windshield/smear.pass.h"
-#include "windshield/surface.h"
-#include "windshield/windshield_frame.pass.h"
-#include "windshield/wipe_drops.pass.h"
+#include "windshield/motion/info.h"
+#include "windshield/motion/windshield_frame.pass.h"
+#include "windshield/motion/wipe_drops.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
+#include "windshield/picture/info.h"
+#include "windshield/surface/condense.pass.h"
+#include "windshield/surface/smear.pass.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {
@@ -22,7 +22,7 @@ void append(std::vector<T>& all, std::vector<T> more) {
   for (T& one : more) all.push_back(std::move(one));
 }
 
-EffectInfo make() {
+EffectInfo make_info() {
   EffectInfo info;
   info.name = "windshield";
   info.up_axis = "z";
@@ -45,8 +45,12 @@ EffectInfo make() {
   append(info.buffers, drops::buffers());
   append(info.buffers, wiper_buffers());
   append(info.buffers, drops::splat_buffers());
-  info.buffers.push_back(
-      {"previous_height", "r16f", "Height of the frame before, wiped.", "mm", {0, 8}, "none", "none", "none", "", "", "as-published"});
+  info.buffers.push_back({.name = "previous_height",
+                          .format = "r16f",
+                          .sentence = "Height of the frame before, wiped.",
+                          .unit = "mm",
+                          .range = {0, 8},
+                          .variant = "as-published"});
   append(info.buffers, pass::buffers_of<WipeTexturePass>());
   append(info.buffers, pass::buffers_of<SmearPass>());
   append(info.buffers, pass::buffers_of<CondensePass>());
@@ -62,7 +66,7 @@ EffectInfo make() {
 }  // namespace
 
 const EffectInfo& effect_info() {
-  static const EffectInfo info = make();
+  static const EffectInfo info = make_info();
   return info;
 }
 

@@ -11,8 +11,8 @@
 #include "windshield/evaluations.h"
 #include "windshield/info.h"
 #include "windshield/memory.h"
+#include "windshield/scene/street.h"
 #include "windshield/shown.h"
-#include "windshield/street.h"
 
 namespace rainref::windshield {
 namespace {

@@ -4,8 +4,8 @@
 #include "drops/records.h"
 #include "effect/effect.h"
 #include "rainref/windshield.h"
-#include "windshield/scene_keys.h"
-#include "windshield/scene_pictures.h"
+#include "windshield/parameters.h"
+#include "windshield/scene/pictures.h"
 
 namespace rainref::windshield {
 

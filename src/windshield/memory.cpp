@@ -9,8 +9,7 @@
 #include "night_street/memory.h"
 #include "rain/rain.h"
 #include "rainref/windshield.h"
-#include "windshield/panes.h"
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 #include "windshield/wet_pane.h"
 
 namespace rainref::windshield {

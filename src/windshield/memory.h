@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/memory.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 
 namespace rainref::windshield {
 

@@ -13,7 +13,7 @@
 #include "parallel/rows.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
-#include "windshield/falling_rain.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
 #include "windshield/windshield_state.h"
 
 namespace rainref::windshield {

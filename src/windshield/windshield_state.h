@@ -12,12 +12,11 @@
 #include "rainref/error.h"
 #include "rainref/windshield.h"
 #include "state/items.h"
-#include "windshield/blades_seen.h"
-#include "windshield/falling_rain.h"
 #include "windshield/memory.h"
-#include "windshield/panes.h"
-#include "windshield/scene_keys.h"
-#include "windshield/street.h"
+#include "windshield/parameters.h"
+#include "windshield/picture/falling_rain.h"
+#include "windshield/scene/blades_seen.h"
+#include "windshield/scene/street.h"
 #include "windshield/wet_pane.h"
 
 namespace rainref::windshield {

@@ -1,7 +1,7 @@
 #include "windshield/wipe_from_ends.h"
 
 #include "pass/model.h"
-#include "windshield/surface_scalar.h"
+#include "windshield/scalar.h"
 
 namespace rainref::windshield {
 namespace {

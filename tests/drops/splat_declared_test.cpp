@@ -3,7 +3,7 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
-#include "drops/splat.h"
+#include "drops/splat/splat.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "drops/splat.h"
-#include "drops/splat_scalar.h"
+#include "drops/splat/scalar.h"
+#include "drops/splat/splat.h"
 #include "math/half.h"
 #include "rainref/executor.h"
 

@@ -8,7 +8,7 @@
 
 #include "capture/bound_texture.h"
 #include "drops/records.h"
-#include "drops/splat_uniforms.h"
+#include "drops/splat/uniforms.h"
 #include "drops/uniforms.h"
 #include "judge/alternatives.h"
 #include "judge/mini_port.h"

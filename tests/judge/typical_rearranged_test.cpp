@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/mini_port.h"
-#include "windshield/wipe_texture.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
 
 namespace rainref::judge::test {
 namespace {

@@ -1,10 +1,12 @@
 // The floors: an include points down or stays in its room, and each library is named in one room only.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -127,6 +129,41 @@ TEST(Layers, EachLibraryIsNamedInOneRoom) {
       }
     }
   }
+}
+
+// A room's parts: each of its sub-rooms as a whole, and of the files beside them those of one stem.
+std::string part_of(const std::string& file) {
+  const std::size_t room = file.find('/') + 1, next = file.find_first_of("/.", room);
+  return file.substr(0, next);
+}
+using Arrows = std::map<std::string, std::set<std::string>>;
+/// Whether includes lead from `part` to `sought`, over any parts of its room.
+bool leads_to(const Arrows& arrows, const std::string& part, const std::string& sought, std::set<std::string>& seen) {
+  const auto from = arrows.find(part);
+  if (from == arrows.end() || !seen.insert(part).second) return false;
+  return std::any_of(from->second.begin(), from->second.end(),
+                     [&](const std::string& to) { return to == sought || leads_to(arrows, to, sought, seen); });
+}
+bool is_in_a_circle(const Arrows& arrows, const std::string& part) {
+  std::set<std::string> seen;
+  return leads_to(arrows, part, part, seen);
+}
+
+TEST(Layers, SubRoomsAreInNoCircle) {
+  Arrows arrows;
+  std::set<std::string> sub_rooms;
+  for (const Include& include : includes_below(root / "src")) {
+    const std::string file = fs::relative(include.file, root / "src").string(), part = part_of(file), to = part_of(include.target);
+    if (file.starts_with(part + "/")) sub_rooms.insert(part);
+    if (to != part && include.target.starts_with(room_of(include.file) + "/")) arrows[part].insert(to);
+  }
+  for (const std::string& part : sub_rooms) EXPECT_FALSE(is_in_a_circle(arrows, part)) << part;
+  EXPECT_TRUE(sub_rooms.contains("image_io/openimageio"));
+
+  EXPECT_EQ(part_of("windshield/motion/glass.h"), "windshield/motion");
+  EXPECT_EQ(part_of("windshield/uniforms.h"), "windshield/uniforms");
+  EXPECT_TRUE(is_in_a_circle({{"a/x", {"a/y"}}, {"a/y", {"a/z"}}, {"a/z", {"a/x"}}}, "a/x"));
+  EXPECT_FALSE(is_in_a_circle({{"a/x", {"a/y"}}, {"a/y", {"a/z"}}, {"a/z", {"a/y"}}}, "a/x"));
 }
 
 // The checker itself: it must refuse what it is there to refuse.

@@ -82,7 +82,7 @@ TEST(PublicGuard, EveryPublicFunctionBeginsWithIt) {
   std::map<std::string, std::vector<std::string>> sources;  // by room
   for (const char* room :
        {"base", "image", "parallel", "puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass", "simulation", "judging"}) {
-    for (const auto& entry : fs::directory_iterator(root / "src" / room)) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / "src" / room)) {
       if (entry.path().extension() == ".cpp" && !entry.path().filename().string().starts_with("kernels"))
         sources[room].push_back(text_of(entry.path()));
     }

@@ -1,5 +1,5 @@
 // Blades in the scene's picture: where they are drawn, and that nothing else changes.
-#include "windshield/blades_seen.h"
+#include "windshield/scene/blades_seen.h"
 
 #include <cmath>
 #include <cstring>

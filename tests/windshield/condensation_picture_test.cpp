@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "math/half.h"
-#include "windshield/condensation.h"
 #include "windshield/golden_scenes.h"
+#include "windshield/surface/condensation.h"
 
 namespace rainref::windshield {
 namespace {

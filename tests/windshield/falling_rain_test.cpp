@@ -6,9 +6,9 @@
 #include "math/half.h"
 #include "pass/run.h"
 #include "rain/rain.h"
-#include "windshield/falling_rain.h"
-#include "windshield/falling_rain.pass.h"
 #include "windshield/golden_scenes.h"
+#include "windshield/picture/falling_rain.h"
+#include "windshield/picture/falling_rain.pass.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {

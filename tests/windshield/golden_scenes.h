@@ -13,7 +13,7 @@
 #include "rainref/windshield.h"
 #include "scene/effect_table.h"
 #include "scene/toml.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 
 namespace rainref::windshield {
 

@@ -6,10 +6,10 @@
 #include "drops/uniforms.h"
 #include "rain/rain.h"
 #include "windshield/golden_scenes.h"
-#include "windshield/key_frames.h"
+#include "windshield/motion/key_frames.h"
+#include "windshield/motion/weather.h"
+#include "windshield/motion/wiper_motion.h"
 #include "windshield/support.h"
-#include "windshield/weather.h"
-#include "windshield/wiper_motion.h"
 
 namespace rainref::windshield {
 namespace {

@@ -66,7 +66,7 @@ TEST(MotionFilm, FilmIsClearedWhereItIsSwept) {
         std::uint64_t swept = 0;
         for (int y = 0; y < film.height(); ++y) {
           for (int x = 0; x < film.width(); ++x) {
-            const bool is_swept = motion_scalar::swept_texel<N>(u, records.data(), x, y).wiper.v >= 0;
+            const bool is_swept = scalar::swept_texel<N>(u, records.data(), x, y).wiper.v >= 0;
             ASSERT_EQ(film.row<float>(y)[x], is_swept ? 0 : 3) << x << "," << y;
             swept += is_swept;
           }
@@ -93,7 +93,7 @@ TEST(MotionFilm, TheFirstRecordTakesATexel) {
       }
       if (!in_both) continue;
       ++shared;
-      ASSERT_EQ(motion_scalar::swept_texel<N>(u, records.data(), x, y).wiper.v, 0) << x << "," << y;
+      ASSERT_EQ(scalar::swept_texel<N>(u, records.data(), x, y).wiper.v, 0) << x << "," << y;
     }
   }
   EXPECT_GT(shared, 100);

@@ -3,7 +3,7 @@
 
 #include "pass/info.h"
 #include "scene/toml.h"
-#include "windshield/motion_info.h"
+#include "windshield/motion/info.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "windshield/golden_scenes.h"
-#include "windshield/panes.h"
+#include "windshield/parameters.h"
 #include "windshield/sweep_geometry.h"
 
 namespace rainref::windshield {

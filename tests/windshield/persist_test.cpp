@@ -9,7 +9,7 @@
 #include "source_folder.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/support.h"
-#include "windshield/surface.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {

@@ -14,9 +14,9 @@
 #include "pass/run.h"
 #include "pass/display.h"
 #include "pass/display_scalar.h"
-#include "windshield/picture.h"
+#include "windshield/picture/picture.h"
 #include "windshield/scalar.h"
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
 namespace rainref::windshield {
 namespace {

@@ -10,7 +10,7 @@
 #include "windshield/evaluations.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/info.h"
-#include "windshield/smear.h"
+#include "windshield/surface/smear.h"
 
 namespace rainref::windshield {
 namespace {

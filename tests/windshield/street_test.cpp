@@ -1,5 +1,5 @@
 // The street that passes: views between two keyframes against the street itself.
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "scene/toml.h"
 #include "pass/info.h"
 #include "windshield/info.h"
-#include "windshield/surface.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {

@@ -8,8 +8,8 @@
 #include "math/half.h"
 #include "pass/run.h"
 #include "rainref/executor.h"
-#include "windshield/surface.h"
-#include "windshield/surface_scalar.h"
+#include "windshield/scalar.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 

@@ -1,0 +1,47 @@
+#include "windshield/scene/pictures.h"
+
+#include "effect/scene_pictures.h"
+#include "effect/run_memory.h"
+#include "rainref/error.h"
+#include "windshield/scene/images.h"
+#include "windshield/scene/street.h"
+
+namespace rainref::windshield {
+
+ScenePictures::ScenePictures(const scene::Config& config, effect::Inputs& files) {
+  effect::refuse_unused_sequence(config, {"scene.image", "scene.depth_image"});
+  const bool has_depth = effect::is_named(config, "scene.depth_image");
+  if (effect::is_named(config, "scene.image"))
+    colour_.emplace(config, "scene.image", files);
+  else if (has_depth)
+    throw Error(ExitCode::usage, config.entry("scene.depth_image").origin.at,
+                "scene.depth_image: expected scene.image beside it, found none");
+  if (!has_depth) return;
+  depth_.emplace(config, "scene.depth_image", files, &*colour_);
+  depth_scale_ = config.real("scene.depth_scale");
+}
+
+ScenePictures::Shown ScenePictures::shown_in(int frame) const {
+  return {colour_ ? colour_->shown_in(frame) : 0, depth_ ? depth_->shown_in(frame) : 0};
+}
+
+Surroundings ScenePictures::read(int frame, effect::Inputs& files) const {
+  Surroundings s;
+  if (!colour_) return s;
+  const auto [of_colour, of_depth] = shown_in(frame);
+  const Image colour = effect::linear_of(colour_->read(of_colour, files));
+  s.colour = opaque_half(colour);
+  if (!depth_) {
+    s.depth = far_depth(colour.width(), colour.height());
+    return s;
+  }
+  const image_io::Picture picture = depth_->read(of_depth, files);
+  try {
+    s.depth = effect::depth_of(picture, depth_scale_, street_far, colour);
+  } catch (const Error& e) {
+    throw depth_->about(e, of_depth);
+  }
+  return s;
+}
+
+}  // namespace rainref::windshield
