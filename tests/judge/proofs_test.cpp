@@ -188,7 +188,7 @@ TEST(Proofs, TheDocumentNamesWhatHasNoSecondTier) {
               testing::HasSubstr(fmt::format("The first tier alone is there for {}.", fmt::join(alone, ", "))));
 }
 
-// A folder without its scene, or a pass that a pack's manifest does not have, would be in no proof without a word.
+// A pack whose scene is gone, or a pass that a pack's manifest does not have, would be in no proof without a word.
 TEST(Proofs, EveryPackIsFoundWithItsPasses) {
   std::size_t folders = 0;
   for (const auto& entry : std::filesystem::directory_iterator(rainref::test::packs_folder())) folders += entry.is_directory();
