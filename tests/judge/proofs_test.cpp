@@ -107,7 +107,7 @@ std::vector<Proof> proofs() {
   for (const documents::Written& w : documents::all_written())
     for (const std::string& of : w.packs) written.insert(of + " " + w.pass);
   return {
-      {"packed", "tests/packs/small_packs_test.cpp, tests/judge/own_outputs_test.cpp", packed},
+      {"packed", "tests/judge/small_packs_test.cpp, own_outputs_test.cpp", packed},
       {"alternatives", "tests/judge/coverage_test.cpp", counted},
       {"honest", "tests/judge/honesty_test.cpp, list_proofs_test.cpp", modelled},
       {"tight", "tests/judge/tightness_test.cpp, list_proofs_test.cpp", modelled},

@@ -2,11 +2,12 @@
 // compares (the test PackHashes).
 #include <filesystem>
 
+#include <gtest/gtest.h>
+
 #include "capture/pack_read.h"
-#include "cli/support.h"
 #include "shipped_packs.h"
 
-namespace rainref::cli {
+namespace rainref::judge {
 namespace {
 
 using rainref::test::pack_folder, rainref::test::PackPasses;
@@ -44,4 +45,4 @@ TEST_P(SmallPack, IsUnder350Kilobytes) {
 INSTANTIATE_TEST_SUITE_P(Packs, SmallPack, testing::ValuesIn(rainref::test::shipped_packs()), rainref::test::name_of_pack_test);
 
 }  // namespace
-}  // namespace rainref::cli
+}  // namespace rainref::judge
