@@ -3,5 +3,6 @@
 namespace rainref::test {
 
 std::string source_folder() { return RAINREF_SOURCE_DIR; }
+std::string packs_folder() { return RAINREF_PACKS; }
 
 }  // namespace rainref::test

@@ -21,6 +21,7 @@
 #include "night_street/night_street.h"
 #include "rainref.h"
 #include "rainref/executor.h"
+#include "shipped_packs.h"
 #include "source_folder.h"
 #include "windshield/golden_scenes.h"
 
@@ -222,7 +223,7 @@ TEST_F(CLibrary, LetsNothingThroughThatACallbackThrows) {
   EXPECT_STREQ(error(), "state: the callback that reads it threw an exception");
   close(simulation);
   const auto judge = find(&rr_judge_folder, "rr_judge_folder");
-  const std::string pack = test::source_folder() + "/tests/packs/edge_splash-corrected";
+  const std::string pack = test::pack_folder("edge_splash-corrected");
   const TemporaryFolder port;
   fs::copy(pack, port / "port", fs::copy_options::recursive);
   rr_folder_options options{};
@@ -236,7 +237,7 @@ TEST_F(CLibrary, LetsNothingThroughThatACallbackThrows) {
 // The reports are those of the command line, of a port of which one pass fails and one has no files.
 TEST_F(CLibrary, JudgesAFolderAsTheCommandLineDoes) {
   const TemporaryFolder folder;
-  const fs::path pack = fs::path(test::source_folder()) / "tests/packs/edge_splash-corrected", port = folder / "port";
+  const fs::path pack = test::pack_folder("edge_splash-corrected"), port = folder / "port";
   fs::copy(pack, port, fs::copy_options::recursive);
   bool is_first = true;
   for (const auto& entry : fs::directory_iterator(port)) {

@@ -1,6 +1,6 @@
 // Runs that are interrupted, killed, or two in one folder.
 #include "cli/running.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::cli {
 namespace {
@@ -90,7 +90,7 @@ TEST_F(Interrupted, ARefusedRunKeepsTheOlderSummary) {
 }
 
 TEST_F(Interrupted, APortsCommandEndsWithAllItStarted) {
-  const std::string pack = rainref::test::source_folder() + "/tests/packs/puddle-corrected";
+  const std::string pack = rainref::test::pack_folder("puddle-corrected");
   const auto running = start_rainref(
       folder.path(), {"validate", pack, "--exec",
                       "echo {out} > where; setsid sh -c 'echo $$ > daemon; sleep 600' & echo $$ > shell; sleep 600", "--html", "r.html"});

@@ -95,7 +95,7 @@ TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
                                                  {"flow.warm_up", "0.1"},
                                                  {"falling_rain.far", "1"},
                                                  {"falling_rain.smallest_drop", "4"}};
-  const std::string packs = rainref::test::packs_folder().string() + "/", scene = rainref::test::pack_scene(GetParam().name);
+  const std::string packs = rainref::test::pack_sources().string() + "/", scene = rainref::test::pack_scene(GetParam().name);
   // The street would take seconds to make.
   std::vector<std::string> always{"run.frames=2"};
   if (name == "windshield") always.insert(always.end(), {fmt::format("scene.image='{}sky.png'", packs), "vehicle.key_frames=''"});

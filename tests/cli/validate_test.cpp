@@ -10,7 +10,7 @@
 
 #include "cli/port_command.h"
 #include "cli/running.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::cli {
 namespace {
@@ -20,8 +20,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const std::string pack = rainref::test::source_folder() + "/tests/packs/puddle-corrected";
-const std::string published = rainref::test::source_folder() + "/tests/packs/puddle-as-published";
+const std::string pack = rainref::test::pack_folder("puddle-corrected");
+const std::string published = rainref::test::pack_folder("puddle-as-published");
 
 class Validate : public CommandLine {
  protected:
@@ -403,10 +403,9 @@ TEST_F(Validate, VerboseSaysMore) {
 
 // A whole run of each effect: lists of drops, and mip levels that are shared between the runs of a capture.
 TEST_F(Validate, TheReferencesOwnRunOfEachEffectPassesAsAShadow) {
-  const std::filesystem::path scenes = rainref::test::source_folder() + "/tests/packs";
   for (const std::string effect : {"windshield", "screen_drops", "rainy_glass", "edge_splash"}) {
     for (const std::string variant : {"as-published", "corrected"}) {
-      const std::string name = effect + "-" + variant, scene = (scenes / (name + ".toml")).string();
+      const std::string name = effect + "-" + variant, scene = rainref::test::pack_scene(name);
       ASSERT_EQ(rainref({"run", scene, "--frames", "3", "--every", "1", "--capture", "all", "--image", "none", "-o", name}).code, 0);
       for (const bool with_scene : {false, true}) {
         std::vector<std::string> arguments{"--shadow", name + "/capture"};
@@ -420,8 +419,7 @@ TEST_F(Validate, TheReferencesOwnRunOfEachEffectPassesAsAShadow) {
 }
 
 TEST_F(Validate, ALostDropIsNamed) {
-  const std::string windshield = rainref::test::source_folder() + "/tests/packs/windshield-corrected",
-                    list = "windshield.merge/0012.0/out.drops.npy";
+  const std::string windshield = rainref::test::pack_folder("windshield-corrected"), list = "windshield.merge/0012.0/out.drops.npy";
   copy_to("port", windshield);
   // The last record of 32 bytes; the header's length of the list stays as long as it is.
   std::string bytes = contents(folder / "port" / list);

@@ -25,7 +25,7 @@ std::string faces() {
   return image_io::png(4, 24, 8, 2, rows);
 }
 
-const std::string ground = rainref::test::source_folder() + "/tests/packs/ground.png";
+const std::string ground = rainref::test::pack_sources() / "ground.png";
 
 const std::vector<Branch> branches{
     {"StepBetweenTexels", "puddle-as-published", {"puddle.step=1.5"}, "wave_step"},
@@ -98,7 +98,7 @@ class PrintedBranches : public testing::TestWithParam<Branch> {
 
   static Outcome pack(const Branch& b) {
     // One frame: a formula takes the same way in each.
-    std::vector<std::string> arguments{"pack", (small_packs / (b.pack + ".toml")).string(), "--at", "12", "-o", b.name};
+    std::vector<std::string> arguments{"pack", rainref::test::pack_scene(b.pack).string(), "--at", "12", "-o", b.name};
     for (const std::string& setting : b.settings) arguments.insert(arguments.end(), {"--set", setting});
     Circumstances c;
     c.is_copy = true;

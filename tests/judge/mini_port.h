@@ -20,11 +20,11 @@
 #include "judge/slots.h"
 #include "judge/validate.h"
 #include "rainref/error.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::judge {
 
-inline const std::filesystem::path small_packs = rainref::test::source_folder() + "/tests/packs";
+inline const std::filesystem::path small_packs = rainref::test::packs_folder();
 
 inline const parallel::Executor& test_executor() {
   static const parallel::Executor executor(2);

@@ -10,7 +10,7 @@
 #include "math/half.h"
 #include "rainref/error.h"
 #include "simulation/small_scenes.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref {
 namespace {
@@ -212,7 +212,7 @@ TEST_F(Judging, ErrorsSayWhatWasExpected) {
 }
 
 TEST(JudgingAPack, SaysWhatValidateSays) {
-  const std::string pack = test::source_folder() + "/tests/packs/edge_splash-corrected";
+  const std::string pack = test::pack_folder("edge_splash-corrected");
   Cases cases(pack, {"display"});
   ASSERT_GT(cases.size(), 1u);
   for (std::size_t i = 0; i < cases.size(); ++i) {

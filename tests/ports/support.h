@@ -18,9 +18,7 @@ namespace rainref::ports {
 namespace fs = std::filesystem;
 using test::PackPasses, test::pack_folder, test::packed_effects, test::proven_packs;
 inline const std::string source = RAINREF_SOURCE_DIR, spirv = RAINREF_SPIRV, examples = source + "/examples/ports";
-inline std::string pack_of(const std::string& variant, const std::string& effect = "puddle") {
-  return source + "/tests/packs/" + effect + "-" + variant;
-}
+inline std::string pack_of(const std::string& variant, const std::string& effect = "puddle") { return pack_folder(effect + "-" + variant); }
 
 struct Outcome {
   int code;
@@ -42,7 +40,7 @@ inline Outcome run_port(const std::string& pack, const fs::path& out, const std:
 /// port_mutants on a file of tests/ports/mutants, or another one.
 inline Outcome run_mutants(const fs::path& file, const std::string& ids, const std::string& more = "") {
   return call(quiet + RAINREF_PORT_MUTANTS " --device cpu --glslang '" RAINREF_GLSLANG "' --mutants '" +
-              (fs::path(source) / "tests/ports/mutants" / file).string() + "' --packs '" + source + "/tests/packs' --ports '" + examples +
+              (fs::path(source) / "tests/ports/mutants" / file).string() + "' --packs '" + test::packs_folder() + "' --ports '" + examples +
               "' --spirv '" + spirv + "' --ids " + ids + " " + more);
 }
 /// The same, and each is judged.

@@ -7,7 +7,7 @@ import os from "node:os";
 import path from "node:path";
 import {launch, open, serve} from "./browser.mjs";
 
-const [folder, name, rainref, sources, shots] = process.argv.slice(2);
+const [folder, name, rainref, sources, shots] = process.argv.slice(2), packs = path.resolve(sources, "build/release/packs");
 const site = await serve(path.resolve(folder)), browser = await launch(name), errors = [];
 const work = fs.mkdtempSync(path.join(os.tmpdir(), "judge-page-"));
 const mostMs = 60000;
@@ -58,7 +58,7 @@ async function step(what, test) {
 /// A port of a small pack: its expected outputs, with the pictures of one pass turned over and another pass left out.
 function brokenPort() {
   const port = path.join(work, "dumped");
-  fs.cpSync(path.join(sources, "tests/packs/puddle-corrected"), port, {recursive: true});
+  fs.cpSync(path.join(packs, "puddle-corrected"), port, {recursive: true});
   fs.rmSync(path.join(port, "manifest.json"));
   fs.rmSync(path.join(port, "puddle.shade"), {recursive: true});
   for (const run of fs.readdirSync(path.join(port, "puddle.display"))) {
@@ -73,9 +73,9 @@ function brokenPort() {
 }
 /// What the native program says of it, where the pack lies as the page says that it lies.
 function natively(...options) {
-  fs.symlinkSync(path.resolve(sources, "tests"), path.join(work, "tests"));
-  const made = spawnSync(path.resolve(rainref), ["validate", "tests/packs/puddle-corrected", "--port", "dumped", ...options], {cwd: work, encoding: "utf8"});
-  fs.unlinkSync(path.join(work, "tests"));
+  fs.symlinkSync(packs, path.join(work, "packs"));
+  const made = spawnSync(path.resolve(rainref), ["validate", "packs/puddle-corrected", "--port", "dumped", ...options], {cwd: work, encoding: "utf8"});
+  fs.unlinkSync(path.join(work, "packs"));
   assert.equal(made.status, 1, made.stderr);
   return made.stdout;
 }
@@ -237,7 +237,7 @@ try {
   });
 
   await step("a pack of one's own", async () => {
-    fs.cpSync(path.join(sources, "tests/packs/edge_splash-corrected"), path.join(work, "mine"), {recursive: true});
+    fs.cpSync(path.join(packs, "edge_splash-corrected"), path.join(work, "mine"), {recursive: true});
     execFileSync("tar", ["-cf", path.join(work, "mine.tar"), "-C", work, "mine"]);
     await (await page.$("#archive-input")).uploadFile(path.join(work, "mine.tar"));
     await page.waitForFunction(() => document.getElementById("pack").value === "mine", {timeout: mostMs});

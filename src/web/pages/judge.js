@@ -153,7 +153,7 @@ async function judged(portFolder, options) {
   working("Loading the judge");
   await engine.start();
   working("Judging");
-  const ownPack = await folder(), path = pack().folder ? ownPack.name : `tests/packs/${pack().name}`;
+  const ownPack = await folder(), path = pack().folder ? ownPack.name : `packs/${pack().name}`;
   const result = await engine.run("judgeFolder", {
     pack: {path, files: [...ownPack.files]},
     port: {path: portFolder.name === path ? `port/${portFolder.name}` : portFolder.name, files: [...portFolder.files]},
