@@ -40,15 +40,17 @@ need() {
   rm -f "$log"
 }
 
-# build PRESET [TARGET...]: configures when needed and builds with a progress line.
+# build PRESET [TARGET...]: configures when needed and builds with a progress line. With simd=machine a new folder gets kernels for this
+# machine and the oldest one alone, which is half of the time; everything else wants all of them, and adds those that a folder lacks.
+simd=all
 build() {
   [ -z "${RAINREF_NO_BUILD-}" ] || return 0
   local preset=$1
   shift
   local folder="build/$preset"
-  if [ ! -f "$folder/build.ninja" ]; then
+  if [ ! -f "$folder/build.ninja" ] || { [ "$simd" = all ] && grep -q '^RAINREF_SIMD:STRING=machine' "$folder/CMakeCache.txt"; }; then
     say "Configuring $folder"
-    cmake --preset "$preset" "${configure_options[@]}" >"$folder.log" 2>&1 || { mkdir -p build; cmake --preset "$preset" "${configure_options[@]}" >&2 || die "Configuration of $folder failed"; }
+    cmake --preset "$preset" -DRAINREF_SIMD="$simd" "${configure_options[@]}" >"$folder.log" 2>&1 || { cat "$folder.log" >&2; die "Configuration of $folder failed"; }
   fi
   say "Building $folder"
   NINJA_STATUS="[%f/%t] " cmake --build "$folder" ${1:+--target "$@"} >&2 || die "Build of $folder failed"

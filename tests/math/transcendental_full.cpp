@@ -5,6 +5,8 @@
 //
 // Exits with 1 if some result is more than 1 ULP off, if more results than documented are not correctly rounded, or if
 // some bit differs.
+#include "math/disabled_targets.h"
+
 #include <fmt/format.h>
 #include <hwy/targets.h>
 

@@ -1,5 +1,7 @@
 #include "math/transcendental.h"
 
+#include "math/disabled_targets.h"
+
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
