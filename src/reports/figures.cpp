@@ -146,8 +146,9 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
   };
   t.got = text(f.got, f.got_is_negative_zero);
   t.expected = text(f.expected, f.expected_is_negative_zero);
-  t.accepted = f.low == f.high && f.low == f.expected ? t.expected
-               : f.low == f.high                      ? enclosed::code_text(kind, f.low)
+  t.accepted = f.low == INT64_MIN                       ? "any number"  // a range without ends, whose codes are none of the format
+               : f.low == f.high && f.low == f.expected ? t.expected
+               : f.low == f.high                        ? enclosed::code_text(kind, f.low)
                                  : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
   t.distance = f.not_a_number ? "is not a number" : fmt::format("off by {} code{}", f.distance, f.distance == 1 ? "" : "s");
   const QuantityJudgement* quantity = quantity_at(o, f);
