@@ -171,6 +171,31 @@ bool fails_worse(const OutputJudgement& a, const OutputJudgement& b) {
   return !of_b && (of_a || a.failing > b.failing);
 }
 
+std::vector<Shown> shown_of(const PassJudgement& p) {
+  std::vector<const CaseJudgement*> failing, cases;
+  const CaseJudgement* sample = nullptr;
+  const auto differing = [](const CaseJudgement& c) { return figures_of(c).differing; };
+  for (const CaseJudgement& c : p.cases) {
+    if (c.status == Status::fail || c.status == Status::known)
+      failing.push_back(&c);
+    else if (!c.outputs.empty() && (!sample || differing(c) >= differing(*sample)))
+      sample = &c;  // what differs most shows most; of equals the last
+  }
+  if (!failing.empty()) cases.push_back(failing[0]);
+  std::stable_sort(failing.begin(), failing.end(), [](const auto* a, const auto* b) { return a->failing > b->failing; });
+  for (const CaseJudgement* c : failing)
+    if (cases.size() < pictured_failures && c != cases[0]) cases.push_back(c);
+  if (sample) cases.push_back(sample);
+  std::vector<Shown> out;
+  for (const CaseJudgement* c : cases) {
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    for (const OutputJudgement& o : c->outputs)
+      if (c->failing == 0 || o.failing > 0) out.push_back({c, &o});
+    std::stable_sort(out.begin() + first, out.end(), [](const Shown& a, const Shown& b) { return fails_worse(*a.output, *b.output); });
+  }
+  return out;
+}
+
 std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
   std::vector<QuantitiesOfOutput> all;
   for (const CaseJudgement& c : p.cases) {
