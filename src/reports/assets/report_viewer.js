@@ -52,7 +52,8 @@ const swatch = colour => element("i", {style: `background:${colour}`});
 /// Blocks of colour, one for each doubling, from the lowest difference to the highest.
 const scaleOf = ({largest, colours}) => largest === 0 ? "no difference" : element("span", {class: "bar"}, element("span", {}, `−${largest}`),
   element("span", {class: "blocks"}, colours.map(swatch)), element("span", {}, `+${largest} code${largest === 1 ? "" : "s"}`));
-const legendOf = (verdicts, colours) => ["of texels ", ["equal", "inside", "atypical", "outside"].map((word, k) => [element("span", {class: "key"}, swatch(colours[k]), `${verdicts[k]} ${word}`), " "])];
+const legendOf = (verdicts, colours) => ["of texels ",
+  ["equal", "inside", "atypical", "outside"].map((word, k) => [element("span", {class: "key"}, swatch(colours[k]), `${verdicts[k]} ${word}`), " "])];
 
 // ---- worst elements ----
 

@@ -39,8 +39,9 @@ export const joined = (things, separator = ", ") => things.flatMap((thing, k) =>
 
 /// What a reader in a hurry needs of a judgement, as texts and elements that link to its passes.
 export function summary(report) {
-  return [verdictWords(report), report.files.length === 0 ? "" : [" ", element("a", {href: "#files"}, `${report.files.length} file${report.files.length === 1 ? " is" : "s are"}`), " missing, or cannot be used."],
-    report.not_judged.length === 0 ? "" : [" Not judged: ", joined(report.not_judged.map(linkTo)), "."]];
+  const {files: {length: files}, not_judged: notJudged} = report;
+  return [verdictWords(report), files > 0 && [" ", element("a", {href: "#files"}, `${files} file${files === 1 ? " is" : "s are"}`), " missing, or cannot be used."],
+    notJudged.length > 0 && [" Not judged: ", joined(notJudged.map(linkTo)), "."]];
 }
 
 function verdictWords(report) {
