@@ -142,7 +142,7 @@ try {
     const frame = await (await page.$("#report")).contentFrame();
     await frame.waitForSelector(".banner .verdict", {timeout: mostMs});
     assert.equal(await frame.$eval(".banner .verdict", e => e.textContent), "FAIL");
-    assert(await frame.evaluate(() => [...document.images].length > 0 && [...document.images].every(i => i.naturalWidth > 0)), "pictures");
+    assert(await frame.evaluate(async () => (await Promise.all([...document.images].map(i => i.decode()))).length > 0), "pictures");
     await frame.$eval('a[href="#pass-display"]', e => e.click());
     assert.equal(await frame.evaluate(() => location.hash), "#pass-display", "links within the report");
     assert.equal(await frame.$eval(".banner .verdict", e => e.textContent), "FAIL");
