@@ -156,7 +156,7 @@ async function judged(portFolder, options) {
     port: {path: portFolder.name === path ? `port/${portFolder.name}` : portFolder.name, files: [...portFolder.files]},
     profile: $("profile").value, ...options,
   }, {onProgress: (done, of) => done < of ? working("Judging", done, of) : working("Looking for causes, and drawing")});
-  outcome.show(result, `${pack().name}-${$("pass").value === everyPass || !options.passes ? "all" : $("pass").value}-${result.profile ?? $("profile").value}`);
+  outcome.show(result, `${pack().name}-${$("pass").value === everyPass || !options.passes ? "all" : $("pass").value}-${$("profile").value}`);
   $("result").scrollIntoView({block: "start"});
 }
 

@@ -12,7 +12,7 @@ export class Outcome {
     [this.#verdict, this.#box, this.#frame] = [verdict, box, frame];
   }
 
-  /// result: {status, text, json, html, junit}. `name` begins the names of files.
+  /// result: {text, json, html, junit}. `name` begins the names of files.
   show(result, name) {
     this.clear();
     const report = JSON.parse(result.json), words = element("span", {}, summary(report)).textContent;  // its links lead into the report
