@@ -146,8 +146,8 @@ Verdict verdict_of(const judge::PortJudgement& j) {
 }
 
 std::string Judged::text() const { return reports::report_text(judged); }
-std::string Judged::json() const { return reports::report_json(judged, reports::exit_code(judged, false)); }
-std::string Judged::html() const { return reports::report_html(judged, source); }
+std::string Judged::json() const { return reports::report_json(judged, reports::exit_code(judged, false), source); }
+std::string Judged::html() const { return reports::report_html(judged, reports::exit_code(judged, false), source); }
 std::string Judged::junit() const { return reports::report_junit(judged, false); }
 
 Judged judge_cases(const CaseList& cases, const JudgeOptions& options, const parallel::Executor& executor) {

@@ -146,8 +146,9 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
   };
   t.got = text(f.got, f.got_is_negative_zero);
   t.expected = text(f.expected, f.expected_is_negative_zero);
-  t.accepted = f.low == f.high && f.low == f.expected ? t.expected
-               : f.low == f.high                      ? enclosed::code_text(kind, f.low)
+  t.accepted = f.low == INT64_MIN                       ? "any number"  // a range without ends, whose codes are none of the format
+               : f.low == f.high && f.low == f.expected ? t.expected
+               : f.low == f.high                        ? enclosed::code_text(kind, f.low)
                                  : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
   t.distance = f.not_a_number ? "is not a number" : fmt::format("off by {} code{}", f.distance, f.distance == 1 ? "" : "s");
   const QuantityJudgement* quantity = quantity_at(o, f);
@@ -168,6 +169,31 @@ bool fails_worse(const OutputJudgement& a, const OutputJudgement& b) {
   const QuantityJudgement *of_a = worst_quantity(a), *of_b = worst_quantity(b);
   if (of_a && of_b) return fails_worse(*of_a, *of_b);
   return !of_b && (of_a || a.failing > b.failing);
+}
+
+std::vector<Shown> shown_of(const PassJudgement& p) {
+  std::vector<const CaseJudgement*> failing, cases;
+  const CaseJudgement* sample = nullptr;
+  const auto differing = [](const CaseJudgement& c) { return figures_of(c).differing; };
+  for (const CaseJudgement& c : p.cases) {
+    if (c.status == Status::fail || c.status == Status::known)
+      failing.push_back(&c);
+    else if (!c.outputs.empty() && (!sample || differing(c) >= differing(*sample)))
+      sample = &c;  // what differs most shows most; of equals the last
+  }
+  if (!failing.empty()) cases.push_back(failing[0]);
+  std::stable_sort(failing.begin(), failing.end(), [](const auto* a, const auto* b) { return a->failing > b->failing; });
+  for (const CaseJudgement* c : failing)
+    if (cases.size() < pictured_failures && c != cases[0]) cases.push_back(c);
+  if (sample) cases.push_back(sample);
+  std::vector<Shown> out;
+  for (const CaseJudgement* c : cases) {
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    for (const OutputJudgement& o : c->outputs)
+      if (c->failing == 0 || o.failing > 0) out.push_back({c, &o});
+    std::stable_sort(out.begin() + first, out.end(), [](const Shown& a, const Shown& b) { return fails_worse(*a.output, *b.output); });
+  }
+  return out;
 }
 
 std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {

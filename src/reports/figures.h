@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -70,6 +71,17 @@ FailureText failure_text(const judge::OutputJudgement& output, const judge::Fail
 const judge::QuantityJudgement* worst_quantity(const judge::OutputJudgement& output);
 /// Whether one output fails worse than another, by the same measure.
 bool fails_worse(const judge::OutputJudgement& a, const judge::OutputJudgement& b);
+
+/// At most this many failing cases of a pass are looked at: the first, and those with most failures.
+inline constexpr std::size_t pictured_failures = 4;
+/// An output that is looked at in pictures or field by field.
+struct Shown {
+  const judge::CaseJudgement* c;
+  const judge::OutputJudgement* output;
+};
+/// What is looked at of a pass, in this order: failing cases, then the one of the others that differs most. A failing case shows
+/// the outputs that fail, the worst first; another case shows all.
+std::vector<Shown> shown_of(const judge::PassJudgement& pass);
 /// The quantities of one output over all cases of a pass: counts are sums, widths and distances the largest.
 struct QuantitiesOfOutput {
   std::string output;

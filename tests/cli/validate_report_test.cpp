@@ -56,7 +56,11 @@ TEST_F(ValidateReports, WithoutCausesTheVerdictIsTheSame) {
   EXPECT_THAT(o.out, AllOf(HasSubstr("FAIL  shade"), HasSubstr("note: causes of failures were not looked for (--no-causes)"),
                            HasSubstr("FAIL: bad against pack, profile vulkan")));
   EXPECT_EQ(nlohmann::json::parse(contents(folder / "r.json"))["first_bad_pass"], "shade");
-  for (const std::string& text : {o.out, contents(folder / "r.xml"), contents(folder / "r.html")})
+  for (const std::string name : {"r.json", "r.html"})
+    EXPECT_THAT(contents(folder / name), AllOf(HasSubstr("\"cause_is_unknown\": false,\n"), Not(HasSubstr("\"cause_is_unknown\": true")),
+                                               HasSubstr("\"causes\": []")))
+        << name;
+  for (const std::string& text : {o.out, contents(folder / "r.xml")})
     EXPECT_THAT(text, AllOf(Not(HasSubstr("likely cause")), Not(HasSubstr("ause unknown")), Not(HasSubstr("cause is unknown"))));
 }
 

@@ -138,9 +138,8 @@ TEST_F(PlacedList, ThePageShowsItsFields) {
   options.executor = &test_executor();
   const PortJudgement j = validate(port.pack, folder.path(), options);
   const std::string page =
-      reports::report_html(j, reports::page_source(std::make_shared<const capture::Pack>(port.pack.folder()), folder.path()));
-  EXPECT_THAT(page, HasSubstr("1 of 40 fields outside"));
-  EXPECT_THAT(page, testing::ContainsRegex("<tr><td>7</td><td>y</td>"));
+      reports::report_html(j, 1, reports::page_source(std::make_shared<const capture::Pack>(port.pack.folder()), folder.path()));
+  EXPECT_THAT(page, HasSubstr("\"more\": 0,\n\"rows\": [\n[\n\"7\",\n\"y\",\n"));
 }
 
 }  // namespace
