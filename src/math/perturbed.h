@@ -290,11 +290,7 @@ scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& v, const scalar::
 scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n, float eta,
                                 const char* file = __builtin_FILE(), int line = __builtin_LINE());
 Perturbed nearest_octave(const Perturbed& x);
-template <class Again>
-Perturbed once(Perturbed, const Again& again) {
-  return again();
-}
-inline Perturbed whole_place(const Perturbed& x) { return Perturbed::met(Op::coordinate, x, x); }
+inline Perturbed whole_coordinate(const Perturbed& x) { return Perturbed::met(Op::coordinate, x, x); }
 Perturbed uniform_quotient(float a, float b, Perturbed);
 
 /// While a lookup between two levels is made whose weights are rounded together: the share of the level at hand.

@@ -18,6 +18,15 @@ inline void load4(const Storage* p, N (&c)[4]) {
 #undef RAINREF_FN
 }  // namespace number_text
 
+/// Whether an invocation meets records too that count nowhere near it: a number that makes mistakes may ask for it.
+template <class N>
+bool meets_all() {
+  if constexpr (requires { N::meets_all(); })
+    return N::meets_all();
+  else
+    return false;
+}
+
 /// Decoded texels are floats, but a code stays one: to load it is an operation that devices may do in their own way.
 template <Format f>
 using DecodedOf = std::conditional_t<std::is_same_v<typename StorageOf<f>::type, Unorm8>, Unorm8, float>;
@@ -32,7 +41,11 @@ struct NumberCursors {
   template <Format...>
   using Planes = PlanesPointer;
   template <class Record>
-  using Records = RecordPointer<Record>;
+  struct Records : RecordPointer<Record> {
+    using RecordPointer<Record>::RecordPointer;
+    /// Whether an invocation takes a record, of which the pass says whether it is near enough to count.
+    static bool takes(bool is_near) { return is_near || meets_all<N>(); }
+  };
   template <class>
   using List = NoCursor;
   template <class>

@@ -316,7 +316,7 @@ struct SplatPassText {
     SplatUniforms u = uniforms;
     for (const Drop& d : SplatPass::counted(uniforms, io.drops.records)) {
       const Neck* const neck = corrected ? SplatPass::neck_of(io.necks.records, d.id) : nullptr;
-      if (!pass::meets_all<N>() && !SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}, neck)) continue;
+      if (!io.drops.takes(SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}, neck))) continue;
       NeckState<N> both;
       if (neck) both = loaded_neck<N>(neck->offset, neck->share, neck->left);
       near.push_back(splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life),
