@@ -76,7 +76,7 @@ RAINREF_FN void give_cell(const CellsUniforms& u, const CellState& s, const Resu
 struct CellsPassText {
   template <class N, bool, class Io>
   static RAINREF_FN void run(const CellsUniforms& u, const Io& io, int column, int row) {
-    give_cell<N>(u, CellLine(u, row).at(column), io.cells);
+    give_cell<N>(u, CellLine<typename random::WordsOf<N>::type>(u, row).at(column), io.cells);
   }
 };
 #endif
