@@ -165,7 +165,8 @@ RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const 
   out.angle = select(passed, zero, masks.angle);
   out.noise = select(passed, zero, noise);
   // The target ARGB32 holds nothing outside [0, 1].
-  for (int k = 0; k < 4; ++k) out.colour[k] = saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight)));
+  for (int k = 0; k < 4; ++k)
+    out.colour[k] = guard_below<N>(saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight))), "no colour is negative");
   return out;
 }
 /// A read outside the depth or the noise is 0.
@@ -249,8 +250,9 @@ RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, c
   const N facing = ((g.x * up_x + g.y * up_y) / max(magnitude, N(u.step_low))) / max(length(up_x, up_y), N(1e-4f));
   const N angle = smoothstep(u.cosine_low, u.cosine_high, facing);
 
-  const N s = sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]),
-                                       (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1]))[0];
+  const N s = guard_below<N>(sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]),
+                                                      (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1])),
+                             "the offset of the tile lies between 0 and 1")[0];
   const N noise = smoothstep(u.noise_low, u.noise_high, s);
 
   const N weight = ((edge * angle) * noise) * (layer * N(u.drop_color[3]));

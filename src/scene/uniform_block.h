@@ -34,7 +34,14 @@ struct Member {
   std::string unit;
   std::string sentence;
   std::optional<Range> range = std::nullopt;  ///< none: any finite number
+  std::string guard = "";                     ///< why no scene gives a component a number other than 0 and 1; "": some does
+  int guarded_component = 0;
 
+  Member guarded(std::string why, int which = 0) && {
+    guard = std::move(why);
+    guarded_component = which;
+    return std::move(*this);
+  }
   std::size_t size() const { return 4 * static_cast<std::size_t>(components); }
   /// What std140, std430 and WGSL ask of the offset: 4, 8, 16, 16 for 1 to 4 components.
   std::size_t alignment() const { return components == 1 ? 4 : components == 2 ? 8 : 16; }
