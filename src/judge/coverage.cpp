@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <tuple>
 
@@ -21,22 +20,6 @@ namespace {
 bool is_flag(const scene::Member& m) {
   return m.range && m.range->low == 0 && m.range->high == 1 && (m.scalar != scene::Scalar::float32 || m.range->is_whole);
 }
-double component(const scene::Member& m, const std::byte* block, int k) {
-  const std::byte* at = block + m.offset + 4 * static_cast<std::size_t>(k);
-  const auto as = [&](auto value) {
-    std::memcpy(&value, at, sizeof value);
-    return static_cast<double>(value);
-  };
-  switch (m.scalar) {
-    case scene::Scalar::float32:
-      return as(0.0f);
-    case scene::Scalar::int32:
-      return as(std::int32_t{0});
-    case scene::Scalar::uint32:
-      return as(std::uint32_t{0});
-  }
-  return 0;
-}
 /// Of each uniform and each image, whether it has a value that hides no mistake in what it takes part in; of a flag, which value.
 void add_values(const capture::PassCase& c, Exercise& to) {
   std::map<std::string, bool>& out = to.values;
@@ -44,7 +27,7 @@ void add_values(const capture::PassCase& c, Exercise& to) {
   for (const scene::Member& m : block.members) {
     if (!is_read_by(m, c.variant)) continue;
     for (int k = 0; k < m.components; ++k) {
-      const double value = std::abs(component(m, c.uniforms.data(), k));
+      const double value = std::abs(scene::component_of(m, c.uniforms.data(), k));
       const std::string name = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
       if (is_flag(m)) {
         out[fmt::format("uniform {}: 0", name)] = value == 0;

@@ -65,6 +65,8 @@ void validate_record(const UniformBlock& record);
 /// Whether both give the same bytes the same names.
 bool same_layout(const UniformBlock& a, const UniformBlock& b);
 
+/// A component of a member of a block of these bytes.
+double component_of(const Member& member, const std::byte* bytes, int component);
 /// Why these bytes are none that the block may hold, or "": "step is 200, expected 1 to 8". A float that is no number or
 /// infinite is out of every range. The ends are rounded to float, as the values are. `bytes` has the block's size.
 std::string value_fault(const UniformBlock& block, const std::byte* bytes);
