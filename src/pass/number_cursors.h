@@ -18,15 +18,6 @@ inline void load4(const Storage* p, N (&c)[4]) {
 #undef RAINREF_FN
 }  // namespace number_text
 
-/// Whether an invocation meets records too that count nowhere near it: a number that makes mistakes may ask for it.
-template <class N>
-bool meets_all() {
-  if constexpr (requires { N::meets_all(); })
-    return N::meets_all();
-  else
-    return false;
-}
-
 /// Decoded texels are floats, but a code stays one: to load it is an operation that devices may do in their own way.
 template <Format f>
 using DecodedOf = std::conditional_t<std::is_same_v<typename StorageOf<f>::type, Unorm8>, Unorm8, float>;
@@ -43,8 +34,14 @@ struct NumberCursors {
   template <class Record>
   struct Records : RecordPointer<Record> {
     using RecordPointer<Record>::RecordPointer;
-    /// Whether an invocation takes a record, of which the pass says whether it is near enough to count.
-    static bool takes(bool is_near) { return is_near || meets_all<N>(); }
+    /// Whether an invocation takes a record, of which the pass says whether it is near enough to count. A number that makes mistakes may
+    /// ask for all.
+    static bool takes(bool is_near) {
+      if constexpr (requires { N::meets_all(); })
+        return is_near || N::meets_all();
+      else
+        return is_near;
+    }
   };
   template <class>
   using List = NoCursor;
