@@ -61,7 +61,7 @@ inline int mirrored(int i, int n) {
 /// Level 0: fog (1 - T) + colour T, T = exp(-density depth).
 template <class N>
 RAINREF_FN Vec3<N> fogged(const BlurUniforms& u, const Vec3<N>& colour, N depth) {
-  return mix(Vec3<N>(u.fog_colour), colour, transmittance(N(u.fog_density), max(depth, N(0.0f))));
+  return mix(Vec3<N>(u.fog_colour), colour, transmittance(N(u.fog_density), guard<N>(max(depth, N(0.0f)), "depth is nowhere negative")));
 }
 
 /// as-published: a box of 2 x 2 texels. With an odd size the last column or row of the level above is dropped.

@@ -7,6 +7,7 @@
 #include "drops/motion/spawn.pass.h"
 #include "drops/splat/scalar.h"
 #include "pass/record_model.h"
+#include "random/draws.h"
 
 namespace rainref::drops {
 
@@ -45,7 +46,8 @@ std::unique_ptr<capture::PassModel> bind_splat(const capture::PassCase& c) { ret
 std::vector<capture::Array> recompute_spawn(const capture::PassCase& c) {
   const pass::Inputs<SpawnPass> in = pass::inputs_of<SpawnPass>(c);
   std::vector<Drop> drops = in.captured.drops.records;
-  const std::vector<Drop> arrivals = arrivals_of(in.uniforms, in.captured.count_thresholds.records, in.captured.spawn_masses.records);
+  const std::vector<Drop> arrivals =
+      arrivals_of<random::PerturbedWords>(in.uniforms, in.captured.count_thresholds.records, in.captured.spawn_masses.records);
   drops.insert(drops.end(), arrivals.begin(), arrivals.end());
   capture::Array out = c.outputs.front().array;
   out.width = static_cast<int>(drops.size());

@@ -101,22 +101,6 @@ struct Splash {
   Channels<N, 4> colour;
   RAINREF_FN Splash() {}
 };
-/// A column or row of whole texels, before it becomes an integer: a place of its own for what seeks mistakes.
-template <class N>
-RAINREF_FN N whole_place(N x) {
-  return x;
-}
-/// A value that the text has once and a port may compute again: a place of its own for what seeks mistakes.
-template <class N, class Again>
-RAINREF_FN N once(N value, const Again&) {
-  return value;
-}
-/// The single channel of a texel, by whole coordinates; outside by the texture's address rule.
-template <class N, class T>
-RAINREF_FN N texel_at(const T& t, N x, N y) {
-  const Level<N> l = uniform_level<N>(t, 0);
-  return load_near_texel<N>(t, texel_column<N>(t, l, to_int(whole_place(x))), texel_row<N>(t, l, to_int(whole_place(y))));
-}
 template <class N, class M>
 RAINREF_FN N one_where(M mask) {
   return select(mask, N(1.0f), N(0.0f));
@@ -149,8 +133,7 @@ RAINREF_FN Gradient<N> gradient_as_published(const PublishedSplashUniforms& u, c
   const N left = truncated(x - shift), right = truncated(x + shift), low = truncated(sobel_y - shift), high = truncated(sobel_y + shift);
   const N p0 = texel_at<N>(depth, left, high), p1 = texel_at<N>(depth, x, sobel_y - thickness), p2 = texel_at<N>(depth, right, low);
   const N p3 = texel_at<N>(depth, left, sobel_y), p5 = texel_at<N>(depth, right, sobel_y);
-  const N p6 = once(p0, [&]() RAINREF_LAMBDA { return texel_at<N>(depth, left, high); }), p7 = texel_at<N>(depth, x, high),
-          p8 = texel_at<N>(depth, right, high);
+  const N p6 = texel_at<N>(depth, left, high), p7 = texel_at<N>(depth, x, high), p8 = texel_at<N>(depth, right, high);
   return {((((-p0 - p3 * two) - p6) + p2) + p5 * two) + p8, ((((-p0 - p1 * two) - p2) + p6) + p7 * two) + p8};
 }
 /// Masks are 0 or 1. These two functions are all that decides anything.
@@ -182,7 +165,8 @@ RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const 
   out.angle = select(passed, zero, masks.angle);
   out.noise = select(passed, zero, noise);
   // The target ARGB32 holds nothing outside [0, 1].
-  for (int k = 0; k < 4; ++k) out.colour[k] = saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight)));
+  for (int k = 0; k < 4; ++k)
+    out.colour[k] = guard_below<N>(saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight))), "no colour is negative");
   return out;
 }
 /// A read outside the depth or the noise is 0.
@@ -266,8 +250,9 @@ RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, c
   const N facing = ((g.x * up_x + g.y * up_y) / max(magnitude, N(u.step_low))) / max(length(up_x, up_y), N(1e-4f));
   const N angle = smoothstep(u.cosine_low, u.cosine_high, facing);
 
-  const N s = sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]),
-                                       (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1]))[0];
+  const N s = guard_below<N>(sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]),
+                                                      (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1])),
+                             "the offset of the tile lies between 0 and 1")[0];
   const N noise = smoothstep(u.noise_low, u.noise_high, s);
 
   const N weight = ((edge * angle) * noise) * (layer * N(u.drop_color[3]));

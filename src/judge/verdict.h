@@ -136,7 +136,7 @@ struct Explanation {
 /// What the pack's runs exercise of a pass text, whatever the port did.
 struct PassCoverage {
   int taken = 0, alternatives = 0;  ///< as Exercise (coverage.h) names them; 0: its outputs are only given
-  /// Those not taken for which no reason is known: "shade.pass.h, refract total reflection: const Vec3<N> bent = ...".
+  /// Those not taken for which no reason is known: "shade.pass.h, shade_corrected: clamp 2, below".
   std::vector<std::string> never;
   std::map<std::string, std::string> reasons{};  ///< of the others not taken
 };

@@ -35,15 +35,6 @@
 
 namespace rainref::pass {
 
-/// Whether an invocation is to meet records too that count nowhere near it: a number that makes mistakes may ask for it.
-template <class N>
-bool meets_all() {
-  if constexpr (requires { N::meets_all(); })
-    return N::meets_all();
-  else
-    return false;
-}
-
 /// How a variant runs a pass. revision counts up whenever the order of operations or a constant changes; 0: it does not run it.
 struct VariantOf {
   int revision = 0;

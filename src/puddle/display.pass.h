@@ -52,7 +52,8 @@ RAINREF_FN Vec3<N> display_as_published(const DisplayUniforms& u, const Vec3<N>&
 /// Corrected: exposure, a vignette that ends at black, sRGB.
 template <class N>
 RAINREF_FN Vec3<N> exposed(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {
-  return (max(vignette<N>(u, px, py), N(0.0f)) * N(u.exposure)) * colour;
+  constexpr const char* is_lit = "a vignette of at most the root of 2 leaves some light in the corners";
+  return (guard<N>(max(vignette<N>(u, px, py), N(0.0f)), is_lit) * N(u.exposure)) * colour;
 }
 template <class N>
 RAINREF_FN Vec3<N> display_corrected(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {

@@ -8,6 +8,7 @@
 #include "puddle/bounds.h"
 #include "puddle/scalar.h"
 #include "puddle/rainfall.h"
+#include "random/draws.h"
 
 namespace rainref::puddle {
 namespace {
@@ -22,7 +23,8 @@ std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
   const std::vector<Drop> craters = capture::records_of<Drop>(capture::record_input(c, "craters"));
   const std::vector<ShelterCell> shelter = capture::records_of<ShelterCell>(capture::record_input(c, "shelter"));
   const std::vector<Drop> objects = capture::records_of<Drop>(capture::record_input(c, "objects"));
-  const std::vector<Drop> drops = drops_of(capture::uniforms_of<RainfallUniforms>(c), {craters, thresholds, shelter, objects});
+  const std::vector<Drop> drops =
+      drops_of<random::PerturbedWords>(capture::uniforms_of<RainfallUniforms>(c), {craters, thresholds, shelter, objects});
   capture::Array out = c.outputs.front().array;
   out.width = static_cast<int>(drops.size());
   const auto bytes = std::as_bytes(std::span(drops));

@@ -63,6 +63,7 @@ Rainfall::Rainfall(const Settings& s, double stored_per_metre, Shelter shelter)
   }
 }
 
+template <class W>
 std::vector<Drop> drops_of(const RainfallUniforms& u, const RainTables& tables) {
   const auto& [craters, thresholds, shelter, objects] = tables;
   constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
@@ -83,25 +84,24 @@ std::vector<Drop> drops_of(const RainfallUniforms& u, const RainTables& tables) 
   std::vector<Drop> out;
   const std::uint64_t seed = u.seed[0] | static_cast<std::uint64_t>(u.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(u.threshold_count));
-  const random::Draws& draws = random::draws();
-  const std::uint32_t word = draws.block(seed, random::Purpose::puddle_drop_count, u.step, 0)[0];
-  const auto passed = static_cast<std::uint32_t>(std::upper_bound(used.begin(), used.end(), word) - used.begin());
-  const auto drawn = u.first_count + static_cast<int>(draws.count(passed, static_cast<std::uint32_t>(used.size())));
+  const auto drawn = W::count(W::block(seed, random::Purpose::puddle_drop_count, u.step, 0)[0], u.first_count, used);
   const int count = craters.empty() ? 0 : drawn;
   for (int i = 0; i < count; ++i) {
-    const random::Block r = draws.block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
+    const auto r = W::block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
     if (!shelter.empty()) {
-      const std::uint32_t column = (draws.place(r[0], 16) * u.shelter_columns) >> 16, row = (draws.place(r[1], 16) * u.shelter_rows) >> 16;
-      if (draws.place(r[3], 16) >= shelter[column + std::size_t{u.shelter_columns} * row].open) continue;
+      const std::uint32_t column = ((r[0] >> 16) * u.shelter_columns) >> 16, row = ((r[1] >> 16) * u.shelter_rows) >> 16;
+      if ((r[3] >> 16) >= shelter[column + std::size_t{u.shelter_columns} * row].open) continue;
     }
-    Drop drop = craters[draws.choice(r[2], 10)];
-    drop.x = static_cast<float>(draws.fine((draws.place(r[0], 16) * u.columns) >> 8, 8, 0)) * 0x1p-8f;
-    drop.y = static_cast<float>(draws.fine((draws.place(r[1], 16) * u.rows) >> 8, 8, 1)) * 0x1p-8f;
+    Drop drop = craters[r[2] >> 22];
+    drop.x = static_cast<float>(((r[0] >> 16) * u.columns) >> 8) * 0x1p-8f;
+    drop.y = static_cast<float>(((r[1] >> 16) * u.rows) >> 8) * 0x1p-8f;
     add_with_images(drop, {u.columns, u.rows, u.boundary}, out);
   }
   out.insert(out.end(), objects.begin(), objects.begin() + u.object_count);
   return out;
 }
+template std::vector<Drop> drops_of<random::Words>(const RainfallUniforms&, const RainTables&);
+template std::vector<Drop> drops_of<random::PerturbedWords>(const RainfallUniforms&, const RainTables&);
 
 std::vector<Drop> Rainfall::drops(std::int64_t step, std::span<const Drop> objects) const {
   return drops_of(uniforms(step, objects.size()), {craters_, count_.thresholds(), shelter_.cells, objects});

@@ -9,6 +9,7 @@
 #include "puddle/uniforms.h"
 #include "random/poisson.h"
 #include "rainref/puddle.h"
+#include "random/words.h"
 
 namespace rainref::puddle {
 
@@ -33,7 +34,8 @@ struct RainTables {
 };
 /// The drops of a step, from what the GPU takes: the count by thresholds, ascending, place, size and whether a roof holds it off from a
 /// hash of (seed, step, i); behind them the records of objects. Throws Error(port_files) when the uniforms name more thresholds, size
-/// classes, drops, objects or another shelter than there can be.
+/// classes, drops, objects or another shelter than there can be. W: random::Words or PerturbedWords.
+template <class W = random::Words>
 std::vector<Drop> drops_of(const RainfallUniforms& uniforms, const RainTables& tables);
 
 /// Drops of step k are a function of (seed, k): the count by a Poisson table, place and size from a hash of (seed, k, i).

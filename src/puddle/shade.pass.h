@@ -63,8 +63,10 @@ struct ShadePass {
              member<&U::exact_fresnel>("exact_fresnel", "1", scene::flag, "corrected: 1: Fresnel's equations, 0: Schlick."),
              member<&U::wetness>("wetness", "1", scene::share, "corrected: reflectance of the wet ground over that of water."),
              member<&U::background_level>("background_level", "1", scene::mip_level,
-                                          "corrected: mip level of the environment behind the scene."),
-             member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water."),
+                                          "corrected: mip level of the environment behind the scene.")
+                 .guarded("the host always gives 0"),
+             member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water.")
+                 .guarded("the host always gives 1"),
              member<&U::ground_reach>("ground_reach", "1", {0, 1000},
                                       "corrected: extents of the puddle over which the ground turns into the environment's; 0: never.")}));
   }
@@ -125,7 +127,7 @@ struct GroundPoint {
 };
 template <class N>
 RAINREF_FN GroundPoint<N> ground_as_published(const Vec3<N>& view, const Surface<N>& s, float puddle_depth) {
-  const Vec3<N> bent = refract(view, s.normal, 1.0f / water_ior);
+  const Vec3<N> bent = guard<N>(refract(view, s.normal, 1.0f / water_ior), "the ray enters the denser medium");
   const N distance = intersect_plane(s.position, bent, N(-puddle_depth));
   return {distance, s.position.x + bent.x * distance, s.position.z + bent.z * distance};
 }
@@ -209,7 +211,7 @@ template <class N>
 RAINREF_FN N share_beyond(const ShadeUniforms& u, N across, N along) {
   const N half(0.5f), zero(0.0f);
   const N out_x = max(abs(across) - half, zero), out_z = max(abs(along) - half, zero);
-  return smoothstep(0.0f, u.ground_reach, sqrt(square(out_x) + square(out_z)));
+  return guard_below<N>(smoothstep(0.0f, u.ground_reach, sqrt(square(out_x) + square(out_z))), "a distance is nowhere negative");
 }
 // Water over a bed of varying depth, wet ground around it. Coverage w goes from 0 (wet ground) to 1 (water) over the
 // first shore_width metres of depth; normal, gloss and the refracted offset follow w, so the shore has no seam.
@@ -244,11 +246,11 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const Vec3<N> mirrored = reflect(view, normal);
   // A mirror ray that dips below the horizon would meet the water again: it is turned up.
   const Vec3<N> up_mirrored{mirrored.x, abs(mirrored.y), mirrored.z};
-  const Vec3<N> look = rotate_y(select(hit, up_mirrored, view), u.rotation);
-  const N gloss = select(hit, mix(N(u.gloss_level), N(u.mirror_level), water), N(u.background_level));
+  const Vec3<N> look = rotate_y(guard<N>(select(hit, up_mirrored, view), for_lanes), u.rotation);
+  const N gloss = guard<N>(select(hit, mix(N(u.gloss_level), N(u.mirror_level), water), N(u.background_level)), for_lanes);
   const Vec3<N> reflected = sample_environment(environment, u.environment_is_cube != 0, look, gloss);
 
-  const Vec3<N> bent = refract(view, normal, 1.0f / water_ior);
+  const Vec3<N> bent = guard<N>(refract(view, normal, 1.0f / water_ior), "the ray enters the denser medium");
   const N column = max(depth, zero), path = column / max(-bent.y, N(0.05f));
   const N gx = p.x + path * bent.x, gz = p.z + path * bent.z;
   Vec3<N> albedo;
@@ -260,8 +262,10 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
     albedo = Vec3<N>(texel[0], texel[1], texel[2]);
   }
   const auto under_water = column > zero;
-  if (any(under_water))
-    albedo = select(under_water, mix(Vec3<N>(u.tint), albedo, transmittance(N(u.water_turbidity), path + column)), albedo);
+  if (any(under_water)) {
+    const Vec3<N> dimmed = mix(Vec3<N>(u.tint), albedo, transmittance(N(u.water_turbidity), path + column));
+    albedo = guard<N>(select(under_water, dimmed, albedo), for_lanes);
+  }
   const Vec3<N> body = albedo * Vec3<N>(u.ambient);
   Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
   if (u.fog_depth > 0.0f) surface = mix(Vec3<N>(u.fog_colour), surface, transmittance(N(u.fog_depth), distance));
@@ -273,7 +277,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
       surface = select(leaves, mix(surface, background(u, environment, view), own), surface);
     }
   }
-  return select(hit, surface, reflected);
+  return guard<N>(select(hit, surface, reflected), for_lanes);
 }
 
 struct GroundNoisePassText {

@@ -77,13 +77,15 @@ RAINREF_FN N scene_distance(const SurfaceHitUniforms& u, const T& wave, const Ve
                         max(abs(p.z) - N(u.half_size[2]), zero)});
 }
 
+inline constexpr char until_done[] = "one invocation alone ends its march when it is done: the other side is for lanes";
 template <class N>
 struct MarchState {
   Vec3<N> position;
   N distance, iterations;
   template <class M>
   friend RAINREF_FN MarchState select(M m, const MarchState& a, const MarchState& b) {
-    return {select(m, a.position, b.position), select(m, a.distance, b.distance), select(m, a.iterations, b.iterations)};
+    return {guard<N>(select(m, a.position, b.position), until_done), guard<N>(select(m, a.distance, b.distance), until_done),
+            guard<N>(select(m, a.iterations, b.iterations), until_done)};
   }
 };
 
@@ -143,7 +145,8 @@ struct DescentState {
   N t, above, step, iterations;
   template <class M>
   friend RAINREF_FN DescentState select(M m, const DescentState& a, const DescentState& b) {
-    return {select(m, a.t, b.t), select(m, a.above, b.above), select(m, a.step, b.step), select(m, a.iterations, b.iterations)};
+    return {guard<N>(select(m, a.t, b.t), until_done), guard<N>(select(m, a.above, b.above), until_done),
+            guard<N>(select(m, a.step, b.step), until_done), guard<N>(select(m, a.iterations, b.iterations), until_done)};
   }
 };
 
@@ -246,9 +249,9 @@ RAINREF_FN SurfaceHit<N> landed(const SurfaceHitUniforms& u, const T& wave, cons
     hit_t = select(close, t + state.above * min(one / max(closing, least), N(2.0f) * over.stride), t);
     out.normal = select(on_water, normalize(Vec3<N>(gx, one, gz)), out.normal);
   }
-  out.position = select(ray.down, ray.origin + hit_t * ray.d, ray.origin);
+  out.position = guard<N>(select(ray.down, ray.origin + hit_t * ray.d, ray.origin), for_lanes);
   out.iterations = state.iterations;
-  out.flag = select(ray.down, one, zero);
+  out.flag = guard<N>(select(ray.down, one, zero), for_lanes);
   return out;
 }
 

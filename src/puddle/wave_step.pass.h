@@ -175,7 +175,7 @@ struct WaveStepPassText {
     std::vector<Drop> found;
     for (const Drop& d : io.drops.records) {
       const float reach = (corrected ? d.radius : 4.0f) + 1.5f;
-      if (pass::meets_all<N>() || (std::abs(d.x - cx) < reach && std::abs(d.y - cy) < reach)) found.push_back(d);
+      if (io.drops.takes(std::abs(d.x - cx) < reach && std::abs(d.y - cy) < reach)) found.push_back(d);
     }
     const std::span<const Drop> near = found;
     io.wave.in_storage([&]<class Storage>(Storage) {

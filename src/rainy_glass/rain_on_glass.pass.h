@@ -208,7 +208,8 @@ RAINREF_FN Two<N> prism(const RainOnGlassUniforms& u, const Vec3<N>& normal, N s
 /// The share of that by which what lies at this depth is moved.
 template <class N>
 RAINREF_FN N share_beyond(const GlassPixel<N>& p) {
-  return saturate(N(1.0f) - p.distance / max(p.own_depth, N(1e-3f)));
+  constexpr const char* is_behind = "what lies behind the glass is further away than the glass, which is in front of the eye";
+  return guard<N>(saturate(N(1.0f) - p.distance / guard<N>(max(p.own_depth, N(1e-3f)), is_behind)), is_behind);
 }
 // Where something nearer than the glass lies under any texel of the lookup the pixel shows its own scene texel.
 template <class N, class Maps>

@@ -119,19 +119,18 @@ bool same_layout(const UniformBlock& a, const UniformBlock& b) {
          });
 }
 
+double component_of(const Member& m, const std::byte* bytes, int k) {
+  const std::byte* at = bytes + m.offset + 4 * static_cast<std::size_t>(k);
+  return m.scalar == Scalar::float32 ? static_cast<double>(loaded<float>(at))
+         : m.scalar == Scalar::int32 ? static_cast<double>(loaded<std::int32_t>(at))
+                                     : static_cast<double>(loaded<std::uint32_t>(at));
+}
 std::string value_fault(const UniformBlock& block, const std::byte* bytes) {
   for (const Member& m : block.members) {
     for (int k = 0; k < m.components; ++k) {
       const Range range = m.range.value_or(Range{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
-      const std::byte* at = bytes + m.offset + 4 * static_cast<std::size_t>(k);
-      double value = 0, low = range.low, high = range.high;
-      if (m.scalar == Scalar::float32) {
-        value = loaded<float>(at);
-        low = static_cast<float>(low);
-        high = static_cast<float>(high);
-      } else {
-        value = m.scalar == Scalar::int32 ? static_cast<double>(loaded<std::int32_t>(at)) : static_cast<double>(loaded<std::uint32_t>(at));
-      }
+      const auto as_stored = [&](double end) { return m.scalar == Scalar::float32 ? static_cast<float>(end) : end; };
+      const double value = component_of(m, bytes, k), low = as_stored(range.low), high = as_stored(range.high);
       const bool is_fit = std::isfinite(value) && low <= value && value <= high && (!range.is_whole || value == std::floor(value));
       if (is_fit) continue;
       const std::string name = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);

@@ -34,7 +34,14 @@ struct Member {
   std::string unit;
   std::string sentence;
   std::optional<Range> range = std::nullopt;  ///< none: any finite number
+  std::string guard = "";                     ///< why no scene gives a component a number other than 0 and 1; "": some does
+  int guarded_component = 0;
 
+  Member guarded(std::string why, int which = 0) && {
+    guard = std::move(why);
+    guarded_component = which;
+    return std::move(*this);
+  }
   std::size_t size() const { return 4 * static_cast<std::size_t>(components); }
   /// What std140, std430 and WGSL ask of the offset: 4, 8, 16, 16 for 1 to 4 components.
   std::size_t alignment() const { return components == 1 ? 4 : components == 2 ? 8 : 16; }
@@ -58,6 +65,8 @@ void validate_record(const UniformBlock& record);
 /// Whether both give the same bytes the same names.
 bool same_layout(const UniformBlock& a, const UniformBlock& b);
 
+/// A component of a member of a block of these bytes.
+double component_of(const Member& member, const std::byte* bytes, int component);
 /// Why these bytes are none that the block may hold, or "": "step is 200, expected 1 to 8". A float that is no number or
 /// infinite is out of every range. The ends are rounded to float, as the values are. `bytes` has the block's size.
 std::string value_fault(const UniformBlock& block, const std::byte* bytes);

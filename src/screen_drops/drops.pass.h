@@ -61,7 +61,8 @@ struct DropsPass {
          member<&U::offset_y>("offset_y", "cell", scene::share, "Place of the picture's corner in each layer."),
          member<&U::pixels_per_cell>("pixels_per_cell", "pixel/cell", {0, 1e9}, "Of each layer."),
          member<&U::level>("level", "1", {0, 32}, "Mip level at which each layer's drops see the scene."),
-         member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of cells where each layer begins."),
+         member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of cells where each layer begins.")
+             .guarded("the first layer begins in row 0"),
          member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
          member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
          member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
@@ -141,9 +142,9 @@ RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, cons
     const bool printed = d.printed_normal != 0;
     const N x = cos(printed ? sine_x : px), y = cos(printed ? sine_y : py), z = mix(N(0.2f), two, t - half);
     const N inverse = one / sqrt(sum_any_order(square(x), square(y), square(z)));
-    out.layer = select(is_drop, layer, out.layer);
-    out.u = select(is_drop, u + x * inverse * N(d.refraction), out.u);
-    out.v = select(is_drop, v + y * inverse * N(d.refraction), out.v);
+    out.layer = guard<N>(select(is_drop, layer, out.layer), for_lanes);
+    out.u = guard<N>(select(is_drop, u + x * inverse * N(d.refraction), out.u), for_lanes);
+    out.v = guard<N>(select(is_drop, v + y * inverse * N(d.refraction), out.v), for_lanes);
   }
   return out;
 }
@@ -154,7 +155,7 @@ RAINREF_FN Window<N> drops_as_published(const PublishedDropsUniforms& d, const S
   const auto is_drop = drop.layer > N(0.0f);
   if (!any(is_drop)) return {background, drop.layer};
   const auto s = sample_bilinear<0, 3, N>(scene, drop.u, drop.v);
-  return {select(is_drop, Vec3<N>(s[0], s[1], s[2]), background), drop.layer * N(d.water_step)};
+  return {guard<N>(select(is_drop, Vec3<N>(s[0], s[1], s[2]), background), for_lanes), drop.layer * N(d.water_step)};
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
@@ -185,8 +186,9 @@ RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int co
     const Two<N> place = cell_place(u, l, px, py);
     const N qx = place.a, qy = place.b;
     const N cx = floor(qx), cy = floor(qy), pixels(u.pixels_per_cell[l]);
-    const auto drop =
-        load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l]));
+    const auto drop = guard<N>(
+        load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l])),
+        "the cells cover the picture");
     const N dx = (qx - cx) - drop[0], dy = (qy - cy) - drop[1], radius = drop[2];
     // The share of the pixel that the base covers; less for a base smaller than a pixel.
     const N cover = saturate((radius - length(dx, dy)) * pixels + half) * min(N(2.0f) * radius * pixels, one);
@@ -234,9 +236,11 @@ template <class N>
 RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Vec3<N>& ray, N slope_x, N slope_y) {
   const N one(1.0f), zero(0.0f);
   const Vec3<N> normal = normalize(Vec3<N>{slope_x, slope_y, sqrt(max(one - square(slope_x) - square(slope_y), N(0.04f)))});
-  const Vec3<N> inside = refract(ray, Vec3<N>{zero, zero, N(-1.0f)}, 1.0f / u.water_ior);
+  const Vec3<N> inside = guard<N>(refract(ray, Vec3<N>{zero, zero, N(-1.0f)}, 1.0f / u.water_ior), "the ray enters the denser medium");
   const Vec3<N> bent = refract(inside, N(-1.0f) * normal, u.water_ior);
-  return {bent, fresnel_dielectric(saturate(dot(bent, normal)), u.water_ior)};
+  const N cosine =
+      guard_below<N>(saturate(dot(bent, normal)), "a refracted ray leaves on the side of the normal; one that is reflected is 0");
+  return {bent, fresnel_dielectric(cosine, u.water_ior)};
 }
 /// What the pixel with this centre shows where it is wet.
 template <class N, class S>
@@ -259,8 +263,8 @@ RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, con
   const Surface<N> s = water_at<N>(u, cells, height, column, row);
   const auto wet = s.cover > zero;
   if (!any(wet)) return {background, zero};
-  return {select(wet, behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f)), background),
-          s.cover};
+  const Vec3<N> behind = behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f));
+  return {guard<N>(select(wet, behind, background), for_lanes), s.cover};
 }
 
 template <class Scene, class Noise>

@@ -9,6 +9,7 @@
 #include "math/in_parts.h"
 #include "math/scalar.h"
 #include "math/rearranged.h"
+#include "random/draws.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.pass.h"
 #include "screen_drops/drops.pass.h"

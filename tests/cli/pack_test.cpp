@@ -174,8 +174,7 @@ TEST_F(PackVerb, BadArguments) {
 TEST_F(PackVerb, ReasonsForWhatIsNotExercised) {
   put(folder / "reasons.toml",
       contents(folder / "corrected.toml") +
-          "\n[unexercised]\nshade = [['shade.pass.h, refract total reflection: const Vec3<N> bent = refract(view, normal, 1.0f / "
-          "water_ior);', 'mine'], ['none', 'x']]\n");
+          "\n[unexercised]\nshade = [['shade.pass.h, shade_corrected: guarded refract, total reflection', 'mine'], ['none', 'x']]\n");
   before = folder.names();
   const Outcome o = pack({"reasons.toml", "-o", "p", "--at", "0"});
   EXPECT_THAT(o.out + o.err, HasSubstr("warning: unexercised.shade: 'none' is exercised, or there is none"));

@@ -60,11 +60,11 @@ RAINREF_FN DropState<N> integrate_as_published(const IntegrateUniforms& c, const
   const N velocity_u = d.velocity_u + force_as_published(c, g.gravity[0], g.acceleration[0], g.wind[0], d.velocity_u, d.mass) * dt;
   const N velocity_v = d.velocity_v + force_as_published(c, g.gravity[1], g.acceleration[1], g.wind[1], d.velocity_v, d.mass) * dt;
   DropState<N> out = d;
-  out.velocity_u = select(alive, velocity_u, d.velocity_u);
-  out.velocity_v = select(alive, velocity_v, d.velocity_v);
-  out.u = select(alive, d.u + velocity_u * dt, d.u);
-  out.v = select(alive, d.v + velocity_v * dt, d.v);
-  out.life = select(alive, d.life - dt, d.life);
+  out.velocity_u = guard<N>(select(alive, velocity_u, d.velocity_u), all_live);
+  out.velocity_v = guard<N>(select(alive, velocity_v, d.velocity_v), all_live);
+  out.u = guard<N>(select(alive, d.u + velocity_u * dt, d.u), all_live);
+  out.v = guard<N>(select(alive, d.v + velocity_v * dt, d.v), all_live);
+  out.life = guard<N>(select(alive, d.life - dt, d.life), all_live);
   return out;
 }
 
@@ -137,13 +137,13 @@ RAINREF_FN Integrated<N> integrate_corrected(const IntegrateUniforms& c, const G
   const auto stays = (life > zero) & (mass > zero) & (u >= low) & (u <= high) & (v >= low) & (v <= high);
 
   Integrated<N> out;
-  out.u = select(alive, u, d.u);
-  out.v = select(alive, v, d.v);
+  out.u = guard<N>(select(alive, u, d.u), all_live);
+  out.v = guard<N>(select(alive, v, d.v), all_live);
   out.velocity_u = select(alive, select(rests, zero, velocity_u), d.velocity_u);
   out.velocity_v = select(alive, select(rests, zero, velocity_v), d.velocity_v);
   out.mass = select(alive & stays, mass, select(alive, zero, d.mass));
   out.life = select(alive & stays, life, select(alive, zero, d.life));
-  out.evaporated = select(alive, d.mass - mass, zero);
+  out.evaporated = guard<N>(select(alive, d.mass - mass, zero), all_live);
   out.removed = select(alive & !stays, mass, zero);
   return out;
 }

@@ -82,7 +82,7 @@ template <class N>
 RAINREF_FN DropState<N> absorb(const DropState<N>& a, const DropState<N>& b) {
   DropState<N> out = a;
   out.mass = a.mass + b.mass;
-  const N share = b.mass / max(out.mass, N(1.0f));
+  const N share = b.mass / guard<N>(max(out.mass, N(1.0f)), all_have_mass);
   out.u = mix(a.u, b.u, share);
   out.v = mix(a.v, b.v, share);
   out.velocity_u = mix(a.velocity_u, b.velocity_u, share);
@@ -118,7 +118,7 @@ RAINREF_FN Trail<N> tail(const MergeUniforms& c, const DropState<N>& d) {
 /// A drop keeps a mass unit.
 template <class N>
 RAINREF_FN N whole_trail(N mass, N whole) {
-  return max(min(mass - N(1.0f), whole), N(0.0f));
+  return guard<N>(max(min(mass - N(1.0f), whole), N(0.0f)), all_have_mass);
 }
 template <class N>
 RAINREF_FN Trail<N> trail(const MergeUniforms& c, const DropState<N>& d) {

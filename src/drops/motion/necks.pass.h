@@ -89,7 +89,7 @@ RAINREF_FN NeckState<N> joined(const NecksUniforms& c, const DropState<N>& a, co
   NeckState<N> out;
   out.offset_x = (N(c.frame[0]) * u + N(c.frame[1]) * v) * inverse;
   out.offset_y = (N(c.frame[2]) * v) * inverse;
-  out.share = b.mass / max(mass, N(1.0f));
+  out.share = b.mass / guard<N>(max(mass, N(1.0f)), all_have_mass);
   out.left = N(1.0f);
   return out;
 }

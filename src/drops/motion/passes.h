@@ -12,11 +12,14 @@
 #include "drops/uniforms.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
+#include "random/words.h"
 
 namespace rainref::drops {
 
 /// spawn, both variants: the step's arrivals, from integers and tables alone, without those beyond uniforms.room unless
 /// `all`. Throws Error(port_files) when the uniforms and tables cannot belong together. executor: shares the work, or null.
+/// W: random::Words or PerturbedWords.
+template <class W = random::Words>
 std::vector<Drop> arrivals_of(const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses,
                               bool all = false, const parallel::Executor* executor = nullptr);
 /// spawn: puts the arrivals into free slots, lowest first. corrected: MassBalance in mass units; as-published: in drops.

@@ -10,6 +10,7 @@
 
 namespace rainref::drops {
 
+template <class W>
 std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses,
                               bool all, const parallel::Executor* executor) {
   constexpr std::uint32_t most_parts = 1u << 12;
@@ -26,21 +27,17 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
   }
   const std::uint64_t seed = c.seed[0] | static_cast<std::uint64_t>(c.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(c.threshold_count));
-  const random::Draws& draws = random::draws();
   std::uint32_t count = 0;
-  for (std::uint32_t part = 0; part < (draws.counts_one_draw ? std::min(c.parts, 1u) : c.parts); ++part) {
-    const std::uint32_t word = draws.block(seed, random::Purpose::drop_count, c.step, part)[0];
-    const auto above = std::upper_bound(used.begin(), used.end(), word, [](std::uint32_t w, CountThreshold t) { return w < t.threshold; });
-    count += static_cast<std::uint32_t>(c.first_count) +
-             draws.count(static_cast<std::uint32_t>(above - used.begin()), static_cast<std::uint32_t>(used.size()));
+  for (std::uint32_t part = 0; part < c.parts; ++part) {
+    const auto word = W::block(seed, random::Purpose::drop_count, c.step, part)[0];
+    count += static_cast<std::uint32_t>(W::count(word, c.first_count, used, &CountThreshold::threshold));
   }
   if (!all) count = std::min(count, c.room);
   std::vector<Drop> out(count);
   const auto arrive = [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::uint32_t>(begin); i < static_cast<std::uint32_t>(end); ++i) {
-      const random::Block r = draws.block(seed, random::Purpose::drop_arrival, c.step, i);
-      const auto place = [&](std::uint32_t word) { return random::uniform(draws.place(word, 24) << 8); };
-      out[i] = {{place(r[0]), place(r[1])}, {0, 0}, masses[draws.choice(r[2], 10)].mass, c.life, c.first_id + i, 0};
+      const auto r = W::block(seed, random::Purpose::drop_arrival, c.step, i);
+      out[i] = {{W::uniform(r[0]), W::uniform(r[1])}, {0, 0}, masses[r[2] >> 22].mass, c.life, c.first_id + i, 0};
     }
   };
   constexpr std::int64_t chunk = 128;
@@ -50,6 +47,11 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
     arrive(0, count);
   return out;
 }
+
+template std::vector<Drop> arrivals_of<random::Words>(const SpawnUniforms&, std::span<const CountThreshold>, std::span<const SpawnMass>,
+                                                      bool, const parallel::Executor*);
+template std::vector<Drop> arrivals_of<random::PerturbedWords>(const SpawnUniforms&, std::span<const CountThreshold>,
+                                                               std::span<const SpawnMass>, bool, const parallel::Executor*);
 
 MassBalance spawn(const parallel::Executor& executor, DropArrays& drops, const SpawnUniforms& uniforms,
                   std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool corrected) {

@@ -166,7 +166,9 @@ RAINREF_FN N section(SplatKernel kernel, N c) {
 template <class N>
 RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp<N>& s) {
   const N zero(0.0f), one(1.0f);
-  const N apart = length(neck.offset_x, neck.offset_y), inverse = one / max(apart, N(1e-6f)), way = neck.left * apart;
+  const N apart = length(neck.offset_x, neck.offset_y);
+  const N inverse = one / guard<N>(max(apart, N(1e-6f)), "the smaller of two that are seen as two is apart");
+  const N way = neck.left * apart;
   s.neck_x = neck.offset_x * inverse;
   s.neck_y = neck.offset_y * inverse;
   const Footprints<N> r = footprints(neck.share, neck.left);
@@ -175,7 +177,7 @@ RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp
   s.smaller = square(to_smaller) + (one - square(r.smaller));
   s.larger_slope = N(2.0f) * to_larger;
   s.smaller_slope = N(2.0f) * to_smaller;
-  s.fillet = max((N(neck_width) * neck.left) * square(r.smaller), N(1e-6f));
+  s.fillet = guard<N>(max((N(neck_width) * neck.left) * square(r.smaller), N(1e-6f)), "a neck has a width while it is kept");
   s.inverse_fillet = N(0.25f) / s.fillet;
   s.inverse_radius = one / s.radius;
   // Of both and of a round drop, in the middles of equal parts of their length.
@@ -185,17 +187,21 @@ RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp
   N both = zero, round = zero, moment = zero;
   for (int i = 0; i < neck_parts; ++i) {
     const N at(static_cast<float>(2 * i + 1 - neck_parts) * (1.0f / neck_parts)), along = middle + half * at;
-    const N cut = section(kernel, max(one - (square(along) + neck_profile(s, along)), zero));
+    const N inside =
+        guard<N>(max(one - (square(along) + neck_profile(s, along)), zero), "there is water all along the line, but for rounding");
+    const N cut = section(kernel, inside);
     both = both + cut;
     moment = moment + along * cut;
     round = round + section(kernel, one - square(at));
   }
-  s.height = s.height * (round / max(both * half, N(1e-6f)));
+  constexpr const char* hold_water = "both footprints hold water";
+  s.height = s.height * (round / guard<N>(max(both * half, N(1e-6f)), hold_water));
   if (leans(u)) {
     // Caps of one curvature hold more where they are larger: the middle of mass is beside the middle, and a drop is higher and wider below.
-    const N below = (s.neck_x * s.lean_x + s.neck_y * s.lean_y) * (moment / max(both, N(1e-6f)));
+    const N below = (s.neck_x * s.lean_x + s.neck_y * s.lean_y) * (moment / guard<N>(max(both, N(1e-6f)), hold_water));
     const N even = one + (s.taper * s.skew) * N(u.moment);
-    s.height = s.height * (even / max(even + (s.taper + s.skew) * below, N(0.25f)));
+    const N least = guard<N>(max(even + (s.taper + s.skew) * below, N(0.25f)), "the middle of mass is near the middle");
+    s.height = s.height * (even / least);
   }
 }
 /// neck: null where the drop has none.
@@ -222,7 +228,7 @@ RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position
     s.skew = N(u.skew) * lean.load;
     height = height / (stretched * (one + (s.taper * s.skew) * N(u.moment)));
   }
-  s.height = select(life > N(0.0f), height, N(0.0f));
+  s.height = guard<N>(select(life > N(0.0f), height, N(0.0f)), all_live);
   if (neck) put_neck(u, *neck, s);
   return s;
 }
@@ -244,6 +250,16 @@ RAINREF_FN N splat_profile(SplatKernel kernel, N q_sq) {
       return select(q_sq <= N(1.0f), N(1.0f), N(0.0f));
   }
 }
+/// The same of a drop with a neck, whose fillet may take q^2 below 0.
+template <class N>
+RAINREF_FN N necked_profile(SplatKernel kernel, N q_sq) {
+  return splat_profile(kernel, max(q_sq, N(0.0f)));
+}
+/// The height of a drop that leans, where it has this share of that in its middle.
+template <class N>
+RAINREF_FN N skewed_height(const Stamp<N>& s, N share) {
+  return s.height * max(share, N(0.0f));
+}
 /// What a drop gives to the texel with its centre at (x, y) [texel].
 template <bool is_leaning, bool has_neck = false, class N>
 RAINREF_FN N splat_contribution(const SplatUniforms& u, SplatKernel kernel, const Stamp<N>& s, N x, N y) {
@@ -255,14 +271,14 @@ RAINREF_FN N splat_contribution(const SplatUniforms& u, SplatKernel kernel, cons
     if constexpr (has_neck) {
       const N e = s.neck_x * s.lean_x + s.neck_y * s.lean_y, f = s.neck_y * s.lean_x - s.neck_x * s.lean_y;
       const N q_sq = (square(a) + square(b)) + neck_profile(s, e * a + f * b);
-      return (s.height * max(one + s.skew * a, N(0.0f))) * splat_profile(kernel, max(q_sq, N(0.0f)));
+      return skewed_height(s, one + s.skew * a) * necked_profile(kernel, q_sq);
     }
-    return (s.height * max(one + s.skew * a, N(0.0f))) * splat_profile(kernel, square(a) + square(b));
+    return skewed_height(s, one + s.skew * a) * splat_profile(kernel, square(a) + square(b));
   }
   if constexpr (has_neck) {
     const N a = plane_x * s.inverse_radius, b = plane_y * s.inverse_radius;
     const N q_sq = (square(a) + square(b)) + neck_profile(s, s.neck_x * a + s.neck_y * b);
-    return s.height * splat_profile(kernel, max(q_sq, N(0.0f)));
+    return s.height * necked_profile(kernel, q_sq);
   }
   return s.height * splat_profile(kernel, (square(plane_x) + square(plane_y)) * s.inverse_radius_sq);
 }
@@ -316,7 +332,7 @@ struct SplatPassText {
     SplatUniforms u = uniforms;
     for (const Drop& d : SplatPass::counted(uniforms, io.drops.records)) {
       const Neck* const neck = corrected ? SplatPass::neck_of(io.necks.records, d.id) : nullptr;
-      if (!pass::meets_all<N>() && !SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}, neck)) continue;
+      if (!io.drops.takes(SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}, neck))) continue;
       NeckState<N> both;
       if (neck) both = loaded_neck<N>(neck->offset, neck->share, neck->left);
       near.push_back(splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life),

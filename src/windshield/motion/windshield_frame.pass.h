@@ -28,8 +28,10 @@ struct WindshieldFramePass {
          member<&U::yaw_acceleration>("yaw_acceleration", "rad/s^2", {-1e6, 1e6}, "Derivative of yaw_rate."),
          member<&U::world_wind>("world_wind", "m/s", {-100, 100}, "Velocity of the wind, world axes."),
          member<&U::gravity>("gravity", "m/s^2", {-100, 100}, "Acceleration of gravity."),
-         member<&U::vehicle_velocity>("vehicle_velocity", "m/s", {-1e3, 1e3}, "Velocity of the car, world axes."),
-         member<&U::acceleration>("acceleration", "m/s^2", {-1e6, 1e6}, "Acceleration of the car's origin, car axes."),
+         member<&U::vehicle_velocity>("vehicle_velocity", "m/s", {-1e3, 1e3}, "Velocity of the car, world axes.")
+             .guarded("the road is level", 2),
+         member<&U::acceleration>("acceleration", "m/s^2", {-1e6, 1e6}, "Acceleration of the car's origin, car axes.")
+             .guarded("the road is level", 2),
          member<&U::e_u>("e_u", "m", {-1e3, 1e3}, "Edge of the glass along u, car axes."),
          member<&U::e_v>("e_v", "m", {-1e3, 1e3}, "Edge of the glass along v, car axes."),
          member<&U::origin>("origin", "m", {-100, 100}, "corrected: corner (0, 0) of the glass, car axes."),

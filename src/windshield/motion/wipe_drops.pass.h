@@ -173,7 +173,7 @@ RAINREF_FN N radial_bin(const WipeDropsUniforms& uniforms, const Wiper& w, N x, 
   const N half_width(w.half_width), bins(static_cast<float>(uniforms.bin_count));
   const N width = (N(w.outer_radius) - N(w.inner_radius)) + N(2.0f) * half_width;
   const N bin = floor((radius - (N(w.inner_radius) - half_width)) * (bins / width));
-  return clamp(bin, N(0.0f), bins - N(1.0f));
+  return guard<N>(clamp(bin, N(0.0f), bins - N(1.0f)), "what is swept lies between the ends of the bins, but for rounding");
 }
 /// Two rounds over the records, because a drop that one blade pushes may land in the sweep of another. One that is
 /// still in a sweep then lies between two blades that meet; it is thrown off: its life ends.
@@ -192,17 +192,19 @@ RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, c
     if (!any(captured)) continue;
     const N radius = length(p.x - N(w.pivot[0]), p.y - N(w.pivot[1]));
     // The sine and cosine of the angle by which it is ahead.
-    const N s = min((N(w.half_width) + base_radius) / max(radius, N(w.half_width)), one), c = sqrt(max(one - square(s), zero));
+    constexpr const char* is_away = "a scene keeps the inner end further from the pivot than a drop reaches";
+    const N s = guard<N>(min((N(w.half_width) + base_radius) / guard<N>(max(radius, N(w.half_width)), is_away), one), is_away);
+    const N c = sqrt(guard<N>(max(one - square(s), zero), is_away));
     const N ax(w.axis[0]), ay(w.axis[1]), turned = N(w.direction) * s;
     const N rx = radius * (c * ax - turned * ay), ry = radius * (c * ay + turned * ax);
     const Plane<N> place = to_glass(uniforms.inverse_frame, N(w.pivot[0]) + rx, N(w.pivot[1]) + ry);
     const Plane<N> velocity = to_glass(uniforms.inverse_frame, -(N(w.rate) * ry), N(w.rate) * rx);
-    d.u = select(captured, place.x, d.u);
-    d.v = select(captured, place.y, d.v);
-    d.velocity_u = select(captured, velocity.x, d.velocity_u);
-    d.velocity_v = select(captured, velocity.y, d.velocity_v);
-    d.wiper = select(captured, N(static_cast<float>(index)), d.wiper);
-    d.bin = select(captured, radial_bin(uniforms, w, p.x, p.y), d.bin);
+    d.u = guard<N>(select(captured, place.x, d.u), for_lanes);
+    d.v = guard<N>(select(captured, place.y, d.v), for_lanes);
+    d.velocity_u = guard<N>(select(captured, velocity.x, d.velocity_u), for_lanes);
+    d.velocity_v = guard<N>(select(captured, velocity.y, d.velocity_v), for_lanes);
+    d.wiper = guard<N>(select(captured, N(static_cast<float>(index)), d.wiper), for_lanes);
+    d.bin = guard<N>(select(captured, radial_bin(uniforms, w, p.x, p.y), d.bin), for_lanes);
   }
   const Plane<N> p = to_plane(uniforms.frame, d.u, d.v);
   for (int i = 0; i < uniforms.wiper_count; ++i) {
@@ -234,8 +236,8 @@ RAINREF_FN SweptTexel<N> swept_texel(const WipeDropsUniforms& uniforms, const Wi
     if (w.direction == 0.0f) continue;
     const auto first = in_sweep(w, p.x, p.y) & (swept.wiper < N(0.0f));
     if (!any(first)) continue;
-    swept.wiper = select(first, N(static_cast<float>(i)), swept.wiper);
-    swept.bin = select(first, radial_bin(uniforms, w, p.x, p.y), swept.bin);
+    swept.wiper = guard<N>(select(first, N(static_cast<float>(i)), swept.wiper), for_lanes);
+    swept.bin = guard<N>(select(first, radial_bin(uniforms, w, p.x, p.y), swept.bin), for_lanes);
   }
   return swept;
 }

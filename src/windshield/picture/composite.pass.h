@@ -36,7 +36,7 @@ struct CompositePass {
          member<&U::shininess>("shininess", "1", {1, 4096}, "Power of a highlight."),
          member<&U::glint_strength>("glint_strength", "1", {0, 10}, "Weight of the highlights."),
          member<&U::cabin>("cabin", "1", scene::radiance, "Radiance beside the glass."),
-         member<&U::glint_count>("glint_count", "1", {0, 65536}, "Lights in the list."),
+         member<&U::glint_count>("glint_count", "1", {0, 65536}, "Lights in the list.").guarded("a scene has one light"),
          member<&U::water_ior>("water_ior", "1", {0, 2}, "corrected: refractive index of the water."),
          member<&U::inner>("inner", "1", scene::share, "corrected: share of the blurred scene that the water's surface mirrors.")});
   }
@@ -97,7 +97,7 @@ struct Water {
 template <class N, class Colours, class Values>
 RAINREF_FN Water<N> water_at(const Values& height, const Colours& normal, const Values& mask, const GlassPoint<N>& g) {
   const auto n = sample_bilinear<0, 3, N>(normal, g.u, g.v);
-  const N m = saturate(sample_bilinear<0, 1, N>(mask, g.u, g.v)[0]);
+  const N m = guard<N>(saturate(sample_bilinear<0, 1, N>(mask, g.u, g.v)[0]), "the mask is stored between 0 and 1");
   return {Vec3<N>{n[0], n[1], max(n[2], N(0.05f))}, sample_bilinear<0, 1, N>(height, g.u, g.v)[0], m};
 }
 /// In camera axes.
@@ -166,7 +166,7 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colo
   const auto shows = visibility > N(0.0f);
   for (int k = 0; k < c.glint_count && any(shows); ++k) {
     const N shine = highlight(facing, Vec3<N>(glints[k].direction), to_eye, c.shininess) * (N(c.glint_strength) * visibility);
-    colour = select(shows, colour + shine * Vec3<N>(glints[k].radiance), colour);
+    colour = guard<N>(select(shows, colour + shine * Vec3<N>(glints[k].radiance), colour), for_lanes);
   }
   return mix(Vec3<N>(c.cabin), colour, g.on_glass);
 }
@@ -178,7 +178,7 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colo
 // Fresnel's reflectance of the water's surface, 1 beyond the critical angle, mirrors the blurred scene, dimmed: the dark rim.
 template <class N>
 RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, const Vec3<N>& surface, float ior) {
-  const Vec3<N> inside = refract(ray, N(-1.0f) * outward, 1.0f / ior);
+  const Vec3<N> inside = guard<N>(refract(ray, N(-1.0f) * outward, 1.0f / ior), "the ray enters the denser medium");
   return refract(inside, N(-1.0f) * surface, ior);
 }
 template <class N, class Depths>
@@ -200,7 +200,9 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours
   const Vec3<N> ray = normalize(Vec3<N>(g.x, g.y, one)), outward(c.outward);
   const Vec3<N> surface = to_camera(c, w.normal);
   const Vec3<N> bent = through_water(ray, outward, surface, c.water_ior);
-  const N reflected = fresnel_dielectric(saturate(dot(bent, surface)), c.water_ior);
+  const N cosine =
+      guard_below<N>(saturate(dot(bent, surface)), "a refracted ray leaves on the side of the normal; one that is reflected is 0");
+  const N reflected = fresnel_dielectric(cosine, c.water_ior);
 
   const ScenePoint<N> shown = shown_corrected(c, depth, g, bent);
   const N su = shown.u, sv = shown.v;
@@ -213,7 +215,7 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours
   const auto shows = film > zero;
   for (int k = 0; k < c.glint_count && any(shows); ++k) {
     const N shine = highlight(facing, Vec3<N>(glints[k].direction), to_eye, c.shininess) * (N(c.glint_strength) * film);
-    colour = select(shows, colour + shine * Vec3<N>(glints[k].radiance), colour);
+    colour = guard<N>(select(shows, colour + shine * Vec3<N>(glints[k].radiance), colour), for_lanes);
   }
   return mix(Vec3<N>(c.cabin), colour, g.on_glass);
 }

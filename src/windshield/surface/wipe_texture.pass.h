@@ -76,7 +76,7 @@ RAINREF_FN N coverage_at(N distance, N half_width, N edge_width) {
 template <class N>
 RAINREF_FN N segment_distance(N px, N py, N ax, N ay, N bx, N by) {
   const N along_x = bx - ax, along_y = by - ay, from_x = px - ax, from_y = py - ay;
-  const N length_sq = max(square(along_x) + square(along_y), N(1e-12f));
+  const N length_sq = guard<N>(max(square(along_x) + square(along_y), N(1e-12f)), "a blade has a length");
   const N t = saturate((from_x * along_x + from_y * along_y) / length_sq);
   return length(from_x - t * along_x, from_y - t * along_y);
 }
