@@ -8,8 +8,7 @@
 namespace rainref::pass {
 
 struct DisplayUniforms {
-  float exposure;  ///< factor of the radiance
-  float padding0, padding1, padding2;
+  float exposure, padding0, padding1, padding2;
 };
 static_assert(sizeof(DisplayUniforms) == 16);
 
@@ -18,8 +17,8 @@ struct DisplayPass {
   static constexpr About about{"display", "Display code.", {1}, {1}};
   using Uniforms = DisplayUniforms;
   static scene::UniformBlock uniforms() {
-    return scene::uniform_block<Uniforms>(
-        "DisplayUniforms", {scene::member<&Uniforms::exposure>("exposure", "1", scene::exposure_factor, "Factor of the radiance.")});
+    return scene::uniform_block<Uniforms>("DisplayUniforms",
+                                          {scene::member<&Uniforms::exposure>("1", scene::exposure_factor, "Factor of the radiance.")});
   }
   template <class B>
   struct Io {

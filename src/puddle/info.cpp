@@ -16,16 +16,14 @@ using namespace rainref::capture;
 
 EffectInfo make() {
   const UniformBlock drop = record<Drop>(
-      "Drop",
-      {member<&Drop::x>("x", "texel", "Centre; texel centres lie at k + 1/2."), member<&Drop::y>("y", "texel", "Centre."),
-       member<&Drop::amplitude>("amplitude", "1", "as-published: strength times activation; corrected: stored height at the centre."),
-       member<&Drop::radius>("radius", "texel", "Nothing is added from this distance on.")});
+      "Drop", {member<&Drop::x>("texel", "Centre; texel centres lie at k + 1/2."), member<&Drop::y>("texel", "Centre."),
+               member<&Drop::amplitude>("1", "as-published: strength times activation; corrected: stored height at the centre."),
+               member<&Drop::radius>("texel", "Nothing is added from this distance on.")});
   const UniformBlock threshold = record<CountThreshold>(
-      "CountThreshold",
-      {member<&CountThreshold::threshold>("threshold", "1", "A word not below k thresholds draws first_count + k drops.")});
+      "CountThreshold", {member<&CountThreshold::threshold>("1", "A word not below k thresholds draws first_count + k drops.")});
 
   const UniformBlock cell =
-      record<ShelterCell>("ShelterCell", {member<&ShelterCell::open>("open", "1", "Of 65536 drops over this cell so many fall.")});
+      record<ShelterCell>("ShelterCell", {member<&ShelterCell::open>("1", "Of 65536 drops over this cell so many fall.")});
 
   EffectInfo info;
   info.name = "puddle";

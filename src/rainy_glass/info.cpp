@@ -14,18 +14,16 @@ using namespace rainref::capture;
 
 EffectInfo make() {
   const UniformBlock droplet = record<Droplet>(
-      "Droplet", {member<&Droplet::x>("x", "1", "Centre, in tiles."), member<&Droplet::y>("y", "1", "Centre."),
-                  member<&Droplet::radius>("radius", "1", "Of a disc that holds it, in tiles."),
-                  member<&Droplet::height>("height", "1", "At the centre."),
-                  member<&Droplet::m00>("m00", "1", "q = M d is 1 long at the rim."), member<&Droplet::m01>("m01", "1", "M is symmetric."),
-                  member<&Droplet::m11>("m11", "1", "See m00."), member<&Droplet::offset>("offset", "1", "Of its timer.")});
+      "Droplet", {member<&Droplet::x>("1", "Centre, in tiles."), member<&Droplet::y>("1", "Centre."),
+                  member<&Droplet::radius>("1", "Of a disc that holds it, in tiles."), member<&Droplet::height>("1", "At the centre."),
+                  member<&Droplet::m00>("1", "q = M d is 1 long at the rim."), member<&Droplet::m01>("1", "M is symmetric."),
+                  member<&Droplet::m11>("1", "See m00."), member<&Droplet::offset>("1", "Of its timer.")});
   const UniformBlock trail = record<Trail>(
-      "Trail", {member<&Trail::x>("x", "1", "Centre of the head, in tiles."), member<&Trail::y>("y", "1", "Centre of the head."),
-                member<&Trail::half_width>("half_width", "1", "Of the head."),
-                member<&Trail::inverse_length>("inverse_length", "1", "1 over the length of the tail."),
-                member<&Trail::height>("height", "1", "Of the head."), member<&Trail::wiggle>("wiggle", "1", "Amplitude of the winding."),
-                member<&Trail::wiggle_rate>("wiggle_rate", "1", "Turns of the winding in a tile."),
-                member<&Trail::wiggle_phase>("wiggle_phase", "1", "At the head, in turns.")});
+      "Trail",
+      {member<&Trail::x>("1", "Centre of the head, in tiles."), member<&Trail::y>("1", "Centre of the head."),
+       member<&Trail::half_width>("1", "Of the head."), member<&Trail::inverse_length>("1", "1 over the length of the tail."),
+       member<&Trail::height>("1", "Of the head."), member<&Trail::wiggle>("1", "Amplitude of the winding."),
+       member<&Trail::wiggle_rate>("1", "Turns of the winding in a tile."), member<&Trail::wiggle_phase>("1", "At the head, in turns.")});
 
   EffectInfo info;
   info.name = "rainy_glass";

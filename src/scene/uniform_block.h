@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -104,10 +105,19 @@ std::size_t offset_of(M S::*pointer) {
   return static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&object));
 }
 
+/// The member's own name, which GCC and Clang write behind "P = &Struct::" up to ";" or "]".
+template <auto P>
+consteval std::string_view name_of() {
+  const std::string_view function = __PRETTY_FUNCTION__;
+  const std::size_t from = function.find("P = "), end = function.find_first_of(";]", from), name = function.substr(0, end).rfind("::") + 2;
+  return function.substr(name, end - name);
+}
+static_assert(name_of<&Range::is_whole>() == "is_whole");
+
 template <class S, class M>
-Member member(M S::*pointer, std::string name, std::string unit, std::optional<Range> range, std::string sentence) {
+Member member(M S::*pointer, std::string_view name, std::string unit, std::optional<Range> range, std::string sentence) {
   static_assert(Shape<M>::components >= 1 && Shape<M>::components <= 4, "vectors have 2 to 4 components; no arrays");
-  return {std::move(name),
+  return {std::string(name),
           scalar_of<typename Shape<M>::Component>(),
           Shape<M>::components,
           offset_of(pointer),
@@ -123,16 +133,16 @@ UniformBlock validated_record(UniformBlock record);
 
 }  // namespace detail
 
-/// The member that P points to: member<&WaveStepUniforms::damping>("damping", "1", share, "Share of …"). Type and offset are
+/// The member that P points to: member<&WaveStepUniforms::damping>("1", share, "Share of …"). Name, type and offset are
 /// taken from the struct, whose vectors are float[3], std::array<float, 3> or a glm vector, of float, int32 or uint32.
 template <auto P>
-Member member(std::string name, std::string unit, Range range, std::string sentence) {
-  return detail::member(P, std::move(name), std::move(unit), range, std::move(sentence));
+Member member(std::string unit, Range range, std::string sentence) {
+  return detail::member(P, detail::name_of<P>(), std::move(unit), range, std::move(sentence));
 }
 /// Of a record, whose fields may be any finite numbers.
 template <auto P>
-Member member(std::string name, std::string unit, std::string sentence) {
-  return detail::member(P, std::move(name), std::move(unit), std::nullopt, std::move(sentence));
+Member member(std::string unit, std::string sentence) {
+  return detail::member(P, detail::name_of<P>(), std::move(unit), std::nullopt, std::move(sentence));
 }
 
 /// The members of a struct that is itself the member P of another, as members of that other: offsets moved, and names

@@ -15,8 +15,8 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 EffectInfo make() {
-  const UniformBlock tap = record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."),
-                                               member<&Tap::y>("y", "1", "See x.")});
+  const UniformBlock tap = record<Tap>(
+      "Tap", {member<&Tap::x>("1", "From the pixel's place, in texture coordinates of the scene."), member<&Tap::y>("1", "See x.")});
 
   EffectInfo info;
   info.name = "screen_drops";

@@ -16,8 +16,8 @@ struct VeilPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("VeilUniforms", {member<&U::veil>("veil", "1", scene::share, "Colour of the veil."),
-                                                    member<&U::opacity>("opacity", "1/um", {0, 10}, "Of a micrometre of water.")});
+    return scene::uniform_block<U>("VeilUniforms", {member<&U::veil>("1", scene::share, "Colour of the veil."),
+                                                    member<&U::opacity>("1/um", {0, 10}, "Of a micrometre of water.")});
   }
   template <class B>
   struct Io {

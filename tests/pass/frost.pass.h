@@ -21,9 +21,9 @@ struct GrowPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("GrowUniforms", {member<&U::gain>("gain", "1", {0, 10}, "Of a difference of heights."),
-                                                    member<&U::rate>("rate", "1", {0, 10}, "corrected: of the height."),
-                                                    member<&U::seed_count>("seed_count", "1", {0, 100}, "Seeds in the list.")});
+    return scene::uniform_block<U>("GrowUniforms", {member<&U::gain>("1", {0, 10}, "Of a difference of heights."),
+                                                    member<&U::rate>("1", {0, 10}, "corrected: of the height."),
+                                                    member<&U::seed_count>("1", {0, 100}, "Seeds in the list.")});
   }
   template <class B>
   struct Io {
@@ -47,9 +47,9 @@ struct ShinePass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("ShineUniforms", {member<&U::scale>("scale", "1/mm", {0, 10}, "Radiance of a millimetre."),
-                                                     member<&U::threshold>("threshold", "1", {0, 1}, "From which it is thick."),
-                                                     member<&U::has_tint>("has_tint", "1", scene::flag, "1: tint counts.")});
+    return scene::uniform_block<U>("ShineUniforms", {member<&U::scale>("1/mm", {0, 10}, "Radiance of a millimetre."),
+                                                     member<&U::threshold>("1", {0, 1}, "From which it is thick."),
+                                                     member<&U::has_tint>("1", scene::flag, "1: tint counts.")});
   }
   template <class B>
   struct Io {

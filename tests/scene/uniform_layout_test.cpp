@@ -37,21 +37,20 @@ struct Uniforms {
 };
 
 UniformBlock uniforms() {
-  return uniform_block<Uniforms>("WaveStepUniforms",
-                                 {
-                                     member<&Uniforms::camera_position>("camera_position", "m", any_word, "Where the camera is."),
-                                     member<&Uniforms::pixel_scale>("pixel_scale", "1", any_word, "Height of a pixel at distance 1."),
-                                     member<&Uniforms::drop_count>("drop_count", "1", any_word, "Number of drops."),
-                                     member<&Uniforms::texel>("texel", "1", any_word, "One over the size."),
-                                     member<&Uniforms::seed_bits>("seed_bits", "1", any_word, "The seed."),
-                                     member<&Uniforms::frame_index>("frame_index", "frame", any_word, "The frame."),
-                                     member<&Uniforms::cell>("cell", "1", any_word, "The cell."),
-                                     member<&Uniforms::tint>("tint", "1", any_word, "The tint."),
-                                     member<&Uniforms::wave_size>("wave_size", "texel", any_word, "Size of the wave buffer."),
-                                     member<&Uniforms::hash_bits>("hash_bits", "1", any_word, "A hash."),
-                                     member<&Uniforms::bounds>("bounds", "texel", any_word, "A rectangle."),
-                                     member<&Uniforms::time>("time", "s", any_word, "Time of the frame."),
-                                 });
+  return uniform_block<Uniforms>("WaveStepUniforms", {
+                                                         member<&Uniforms::camera_position>("m", any_word, "Where the camera is."),
+                                                         member<&Uniforms::pixel_scale>("1", any_word, "Height of a pixel at distance 1."),
+                                                         member<&Uniforms::drop_count>("1", any_word, "Number of drops."),
+                                                         member<&Uniforms::texel>("1", any_word, "One over the size."),
+                                                         member<&Uniforms::seed_bits>("1", any_word, "The seed."),
+                                                         member<&Uniforms::frame_index>("frame", any_word, "The frame."),
+                                                         member<&Uniforms::cell>("1", any_word, "The cell."),
+                                                         member<&Uniforms::tint>("1", any_word, "The tint."),
+                                                         member<&Uniforms::wave_size>("texel", any_word, "Size of the wave buffer."),
+                                                         member<&Uniforms::hash_bits>("1", any_word, "A hash."),
+                                                         member<&Uniforms::bounds>("texel", any_word, "A rectangle."),
+                                                         member<&Uniforms::time>("s", any_word, "Time of the frame."),
+                                                     });
 }
 
 struct DropRecord {
@@ -65,11 +64,11 @@ struct DropRecord {
 
 UniformBlock drop() {
   return record<DropRecord>("Drop", {
-                                        member<&DropRecord::x>("x", "texel", "Centre."),
-                                        member<&DropRecord::y>("y", "texel", "Centre."),
-                                        member<&DropRecord::strength>("strength", "1", "Strength."),
-                                        member<&DropRecord::velocity>("velocity", "texel/s", "Velocity."),
-                                        member<&DropRecord::id>("id", "1", "Stable id."),
+                                        member<&DropRecord::x>("texel", "Centre."),
+                                        member<&DropRecord::y>("texel", "Centre."),
+                                        member<&DropRecord::strength>("1", "Strength."),
+                                        member<&DropRecord::velocity>("texel/s", "Velocity."),
+                                        member<&DropRecord::id>("1", "Stable id."),
                                     });
 }
 
@@ -173,8 +172,8 @@ struct Small {
   float padding0;
 };
 UniformBlock small() {
-  return uniform_block<Small>("SmallUniforms", {member<&Small::texel>("texel", "1", any_word, "One over the size."),
-                                                member<&Small::frame_index>("frame_index", "frame", any_word, "The frame.")});
+  return uniform_block<Small>("SmallUniforms", {member<&Small::texel>("1", any_word, "One over the size."),
+                                                member<&Small::frame_index>("frame", any_word, "The frame.")});
 }
 const std::string head = "// SmallUniforms: 16 bytes, little endian. Comments: offset in bytes, [unit], meaning.\n";
 

@@ -23,12 +23,11 @@ struct MergePass {
     using scene::member;
     using U = Uniforms;
     return scene::uniform_block<U>(
-        "MergeUniforms",
-        {member<&U::frame>("frame", "m", {-1e4, 1e4}, "As in IntegrateUniforms."),
-         member<&U::radius>("radius", "m", scene::share, "Base radius over mass^(1/3)."),
-         member<&U::trail>("trail", "1/m^2", {0, 1e12}, "Mass units left over base radius and way."),
-         member<&U::dt>("dt", "s", {0, 1}, "The step."), member<&U::film>("film", "texel", {1, 65536}, "Columns and rows of the film."),
-         member<&U::drying>("drying", "1", {0, most_mass}, "Mass units that each texel of the film loses in this step.")});
+        "MergeUniforms", {member<&U::frame>("m", {-1e4, 1e4}, "As in IntegrateUniforms."),
+                          member<&U::radius>("m", scene::share, "Base radius over mass^(1/3)."),
+                          member<&U::trail>("1/m^2", {0, 1e12}, "Mass units left over base radius and way."),
+                          member<&U::dt>("s", {0, 1}, "The step."), member<&U::film>("texel", {1, 65536}, "Columns and rows of the film."),
+                          member<&U::drying>("1", {0, most_mass}, "Mass units that each texel of the film loses in this step.")});
   }
   template <class Inputs>
   static std::string fault(const Inputs& m) {

@@ -15,8 +15,7 @@ namespace rainref::windshield {
 
 struct FallingRainUniforms {
   std::int32_t streak_count;
-  float sharpness;  ///< 1 over the depth in which what stands in the street hides a streak [1/m]
-  float padding0, padding1;
+  float sharpness, padding0, padding1;
 };
 static_assert(sizeof(FallingRainUniforms) == 16);
 
@@ -30,8 +29,8 @@ struct FallingRainPass {
     using U = Uniforms;
     return scene::uniform_block<U>(
         "FallingRainUniforms",
-        {member<&U::streak_count>("streak_count", "1", {0, 1 << 24}, "Streaks in the list."),
-         member<&U::sharpness>("sharpness", "1/m", {0, 1000}, "1 over the depth in which what stands in the street hides a streak.")});
+        {member<&U::streak_count>("1", {0, 1 << 24}, "Streaks in the list."),
+         member<&U::sharpness>("1/m", {0, 1000}, "1 over the depth in which what stands in the street hides a streak.")});
   }
   /// As many as the uniform says, or all: of a port that lost some there may be fewer.
   static std::span<const Streak> counted(const Uniforms& u, std::span<const Streak> all) {

@@ -61,21 +61,19 @@ std::vector<BufferInfo> picture_buffers() {
 }
 
 std::vector<UniformBlock> picture_records() {
-  return {
-      record<Streak>(
-          "Streak",
-          {member<&Streak::opened>("opened", "texel", "Its middle when the shutter opens: column and row of the scene's picture."),
-           member<&Streak::closed>("closed", "texel", "The same when it closes."),
-           member<&Streak::radius>("radius", "texel", "Half its width, at least half a texel."),
-           member<&Streak::depth>("depth", "m", "Along the view axis."),
-           member<&Streak::opacity>("opacity", "1", "Share of the exposure and of the width in which it covers a point of its way."),
-           member<&Streak::radiance>("radiance", "1", "Linear RGB.")}),
-      record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."),
-                          member<&Tap::y>("y", "1", "See x.")}),
-      record<Deflection>("Deflection", {member<&Deflection::tangent>("tangent", "1", "Of the angle, along the blade that left the film."),
-                                        member<&Deflection::weight>("weight", "1", "Share of the scattered light.")}),
-      record<Glint>("Glint", {member<&Glint::direction>("direction", "1", "Unit, toward the light, camera axes: right, up, forward."),
-                              member<&Glint::radiance>("radiance", "1", "Linear RGB.")})};
+  return {record<Streak>("Streak",
+                         {member<&Streak::opened>("texel", "Its middle when the shutter opens: column and row of the scene's picture."),
+                          member<&Streak::closed>("texel", "The same when it closes."),
+                          member<&Streak::radius>("texel", "Half its width, at least half a texel."),
+                          member<&Streak::depth>("m", "Along the view axis."),
+                          member<&Streak::opacity>("1", "Share of the exposure and of the width in which it covers a point of its way."),
+                          member<&Streak::radiance>("1", "Linear RGB.")}),
+          record<Tap>("Tap", {member<&Tap::x>("1", "From the pixel's place, in texture coordinates of the scene."),
+                              member<&Tap::y>("1", "See x.")}),
+          record<Deflection>("Deflection", {member<&Deflection::tangent>("1", "Of the angle, along the blade that left the film."),
+                                            member<&Deflection::weight>("1", "Share of the scattered light.")}),
+          record<Glint>("Glint", {member<&Glint::direction>("1", "Unit, toward the light, camera axes: right, up, forward."),
+                                  member<&Glint::radiance>("1", "Linear RGB.")})};
 }
 
 const std::vector<MemberParameter<PictureSettings>>& picture_parameters() {

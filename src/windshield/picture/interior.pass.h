@@ -8,8 +8,7 @@
 namespace rainref::windshield {
 
 struct InteriorUniforms {
-  float light;  ///< radiance of what is 1 in `interior`
-  float padding0, padding1, padding2;
+  float light, padding0, padding1, padding2;
 };
 static_assert(sizeof(InteriorUniforms) == 16);
 
@@ -19,8 +18,8 @@ struct InteriorPass {
   using Uniforms = InteriorUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
-    return scene::uniform_block<Uniforms>(
-        "InteriorUniforms", {member<&Uniforms::light>("light", "1", {0, 100}, "Radiance of what is 1 in the interior's picture.")});
+    return scene::uniform_block<Uniforms>("InteriorUniforms",
+                                          {member<&Uniforms::light>("1", {0, 100}, "Radiance of what is 1 in the interior's picture.")});
   }
   template <class B>
   struct Io {

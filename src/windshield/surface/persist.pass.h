@@ -8,8 +8,7 @@
 namespace rainref::windshield {
 
 struct PersistUniforms {
-  float keep;  ///< share of the height that a frame leaves
-  float padding0, padding1, padding2;
+  float keep, padding0, padding1, padding2;
 };
 static_assert(sizeof(PersistUniforms) == 16);
 
@@ -21,8 +20,7 @@ struct PersistPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("PersistUniforms",
-                                   {member<&U::keep>("keep", "1", scene::share, "Share of the height that a frame leaves.")});
+    return scene::uniform_block<U>("PersistUniforms", {member<&U::keep>("1", scene::share, "Share of the height that a frame leaves.")});
   }
   template <class B>
   struct Io {
