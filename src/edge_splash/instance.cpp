@@ -63,6 +63,16 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  check(settings);
+  ScenePictures named(config, inputs);
+  const Inputs first = pictures(config, settings, named, executor, inputs);
+  auto instance = std::make_unique<Instance>(settings, first, std::move(named), executor);
+  for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
+  return instance;
+}
+
 }  // namespace
 
 Instance::Instance(const Settings& settings, const Inputs& pictures, ScenePictures named, const parallel::Executor& executor)
@@ -92,21 +102,7 @@ std::vector<image_io::Layer> Instance::layers() const {
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), exposure_}; }
 
 effect::Effect entry() {
-  return {"edge_splash",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            check(settings);
-            ScenePictures named(config, inputs);
-            const Inputs first = pictures(config, settings, named, executor, inputs);
-            auto instance = std::make_unique<Instance>(settings, first, std::move(named), executor);
-            for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
-            return instance;
-          }};
+  return {"edge_splash", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open};
 }
 
 }  // namespace rainref::edge_splash

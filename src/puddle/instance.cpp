@@ -88,6 +88,10 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  return std::make_unique<Instance>(settings_from(config), surroundings(config, executor, inputs), executor);
+}
+
 }  // namespace
 
 Instance::Instance(const Settings& settings, Surroundings surroundings, const parallel::Executor& executor)
@@ -107,16 +111,6 @@ std::optional<effect::Display> Instance::display() const {
                          corrected ? effect::Display::Code::srgb : effect::Display::Code::power};
 }
 
-effect::Effect entry() {
-  return {"puddle",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            return std::make_unique<Instance>(settings_from(config), surroundings(config, executor, inputs), executor);
-          }};
-}
+effect::Effect entry() { return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open}; }
 
 }  // namespace rainref::puddle

@@ -96,6 +96,13 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  std::optional<Instance::Sequences> sequences;
+  Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
+  return std::make_unique<Instance>(settings, std::move(around), std::move(sequences), executor);
+}
+
 }  // namespace
 
 Instance::Instance(const Settings& settings, Surroundings surroundings, std::optional<Sequences> sequences,
@@ -138,18 +145,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"rainy_glass",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            std::optional<Instance::Sequences> sequences;
-            Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
-            return std::make_unique<Instance>(settings, std::move(around), std::move(sequences), executor);
-          }};
+  return {"rainy_glass", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open};
 }
 
 }  // namespace rainref::rainy_glass

@@ -58,6 +58,14 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  std::optional<effect::PictureSource> sequence;
+  Inputs seen = pictures(config, settings, sequence, executor, inputs);
+  const std::optional<FlowSettings> flow = flow_from(config, settings);
+  return std::make_unique<Instance>(settings, std::move(seen), std::move(sequence), flow ? &*flow : nullptr, executor);
+}
+
 }  // namespace
 
 Instance::Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> sequence, const FlowSettings* flow,
@@ -109,19 +117,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"screen_drops",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            std::optional<effect::PictureSource> sequence;
-            Inputs seen = pictures(config, settings, sequence, executor, inputs);
-            const std::optional<FlowSettings> flow = flow_from(config, settings);
-            return std::make_unique<Instance>(settings, std::move(seen), std::move(sequence), flow ? &*flow : nullptr, executor);
-          }};
+  return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open};
 }
 
 }  // namespace rainref::screen_drops
