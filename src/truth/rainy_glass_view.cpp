@@ -11,7 +11,7 @@
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/storage.h"
-#include "pass/display.h"
+#include "truth/pane_truth.h"
 #include "truth/uncovered.h"
 
 namespace rainref::truth {
@@ -208,9 +208,7 @@ std::unique_ptr<Scene> RainyGlassView::scene(const rainy_glass::RainyGlass& rend
 }
 
 Image RainyGlassView::display(const Image& radiance, const parallel::Executor& executor) const {
-  Image picture(Format::rgba8, radiance.width(), radiance.height());
-  pass::display_run(settings_.exposure, settings_.rounding, radiance, picture).tiles(executor, 8);
-  return picture;
+  return display_of(settings_.exposure, settings_.rounding, radiance, executor);
 }
 
 }  // namespace rainref::truth

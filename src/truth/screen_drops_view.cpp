@@ -6,9 +6,9 @@
 
 #include "compositor/optics.h"
 #include "rainref/error.h"
-#include "pass/display.h"
 #include "screen_drops/host.h"
 #include "screen_drops/shown.h"
+#include "truth/pane_truth.h"
 
 namespace rainref::truth {
 namespace {
@@ -102,9 +102,7 @@ std::unique_ptr<Scene> ScreenDropsView::scene(const screen_drops::ScreenDrops& r
 }
 
 Image ScreenDropsView::display(const Image& radiance, const parallel::Executor& executor) const {
-  Image picture(Format::rgba8, radiance.width(), radiance.height());
-  pass::display_run(settings_.exposure, settings_.rounding, radiance, picture).tiles(executor, 8);
-  return picture;
+  return display_of(settings_.exposure, settings_.rounding, radiance, executor);
 }
 
 }  // namespace rainref::truth

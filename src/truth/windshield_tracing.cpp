@@ -1,38 +1,65 @@
-#include "truth/tracing.h"
-#include "truth/windshield_truth.h"
+#include <atomic>
+#include <cmath>
+
+#include "truth/pane_tracing.h"
+#include "truth/pane_truth.h"
+#include "truth/windshield_view.h"
 #include "windshield/instance.h"
+#include "windshield/shown.h"
 
 namespace rainref::truth {
+
+Image WindshieldView::display(const Image& radiance, const parallel::Executor& executor) const {
+  return display_of(settings_.picture.exposure, settings_.surface.rounding, radiance, executor);
+}
+
+Comparison WindshieldView::compare(const windshield::Windshield& rendered, const PictureOptions& options,
+                                   const parallel::Executor& executor) const {
+  const PaneTruth pane(rendered, *this, options, executor);
+  const windshield::ShownScene composite(settings_, rendered);
+  const Vec eye = camera().position;
+  const double way = distance(rendered);
+  Difference refraction = pane.difference("refraction", "deg"), refraction_film = pane.difference("refraction_film", "deg"),
+             colour = pane.difference("colour", ""), colour_film = pane.difference("colour_film", ""),
+             codes = pane.difference("display", "code");
+  std::atomic<std::size_t> glass = 0, drops = 0, mirrored = 0;
+  pane.each_pixel([&](int x, int y) {
+    const windshield::Shown pixel = composite.at(x, y);
+    if (!pixel.is_on_glass) return;
+    const bool is_drop = pixel.visibility >= 0.5;
+    ++glass;
+    drops += is_drop;
+    (is_drop ? colour : colour_film).at(x, y) = pane.colour_at(x, y);
+    codes.at(x, y) = pane.codes_at(x, y);
+    const StraightPath path = pane.path(x, y);
+    const bool is_wet = path.interfaces > 2;
+    if (is_drop && path.end == StraightPath::End::mirrored) ++mirrored;
+    if (path.end != StraightPath::End::out || is_drop != is_wet || (!is_drop && pixel.visibility > 0)) return;
+    const night_street::Street::Sight seen = look(way, path.origin, path.direction);
+    const bool is_sky = std::isinf(seen.distance);
+    const Vec from_eye = is_sky ? path.direction : path.origin + seen.distance * path.direction - eye;
+    const Vec from_trick = pane.basis.forward + pixel.x * pane.basis.right + pixel.y * pane.basis.up;
+    (is_drop ? refraction : refraction_film).at(x, y) = degrees_between(from_trick, from_eye);
+  });
+  return {{{"glass_pixels", glass}, {"drop_pixels", drops}, {"mirrored_pixels", mirrored}},
+          {refraction, refraction_film, colour, colour_film, codes}};
+}
+
 namespace {
 
-class WindshieldTracing : public Tracing {
+class WindshieldTracing : public PaneTracing<WindshieldView, windshield::Instance> {
  public:
   WindshieldTracing(const scene::Config& config, const windshield::Instance& windshield, const parallel::Executor& on)
-      : Tracing(choice_from(config), on),
-        windshield_(windshield),
-        view_(windshield.settings(), {config.real("compositor.glass_thickness"), config.real("compositor.glass_radius")}, choice().tracer,
-              on) {}
-
-  Comparison compare() override {
-    look_outside();
-    WindshieldTruth t = truth::compare(windshield_.running(), view_, choice().picture, executor());
-    return {{{"glass_pixels", t.glass}, {"drop_pixels", t.drops}, {"mirrored_pixels", t.mirrored}}, std::move(t.differences)};
-  }
+      : PaneTracing(
+            config, windshield,
+            WindshieldView(windshield.settings(), {config.real("compositor.glass_thickness"), config.real("compositor.glass_radius")},
+                           choice_from(config).tracer, on),
+            on) {}
 
  private:
-  Picture picture() override {
-    look_outside();
-    const windshield::PictureSettings& p = view_.settings().picture;
-    return trace_picture(*view_.scene(windshield_.running()), view_.camera(), p.width, p.height, choice().picture, executor());
+  void look_outside() override {
+    if (!instance().has_street()) view().show(instance().running().scene_colour(), instance().running().scene_depth());
   }
-  Image display(const Image& radiance) const override { return truth::display(view_.settings(), radiance, executor()); }
-
-  void look_outside() {
-    if (!windshield_.has_street()) view_.show(windshield_.running().scene_colour(), windshield_.running().scene_depth());
-  }
-
-  const windshield::Instance& windshield_;
-  WindshieldView view_;
 };
 
 }  // namespace
