@@ -1,4 +1,4 @@
-#include "puddle/evaluations.h"
+#include "puddle/info.h"
 
 #include <span>
 

@@ -10,7 +10,6 @@
 #include "math/real64.h"
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
-#include "puddle/evaluations.h"
 #include "puddle/info.h"
 #include "puddle/memory.h"
 #include "puddle/parameters.h"

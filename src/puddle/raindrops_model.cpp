@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "puddle/evaluations.h"
+#include "puddle/info.h"
 #include "puddle/scalar.h"
 #include "rainref/error.h"
 

@@ -1,4 +1,4 @@
-#include "rainy_glass/evaluations.h"
+#include "rainy_glass/info.h"
 
 #include <algorithm>
 

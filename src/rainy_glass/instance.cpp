@@ -7,7 +7,6 @@
 #include "parallel/rows.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
-#include "rainy_glass/evaluations.h"
 #include "rainy_glass/info.h"
 #include "rainy_glass/memory.h"
 #include "rainy_glass/parameters.h"

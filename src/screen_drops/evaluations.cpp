@@ -1,4 +1,4 @@
-#include "screen_drops/evaluations.h"
+#include "screen_drops/info.h"
 
 #include "pass/display.h"
 #include "pass/model.h"

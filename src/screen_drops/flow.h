@@ -31,7 +31,7 @@ struct FlowSettings {
 };
 /// What the keys of flow_parameters say. pane [m]: positive; rounding: of what is stored; both are the effect's own. The
 /// scene's variant is corrected. Throws Error(usage) as drops::settings_from does.
-FlowSettings flow_settings(const scene::Config& config, const std::string& prefix, const std::array<double, 2>& pane, Rounding rounding);
+FlowSettings flow_settings(const scene::Config& config, const std::array<double, 2>& pane, Rounding rounding);
 
 /// Its bits depend on neither the executor's threads nor the SIMD target.
 class Flow {

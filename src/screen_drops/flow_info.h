@@ -2,7 +2,6 @@
 // as conformance takes them.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "capture/pass_info.h"
@@ -11,9 +10,9 @@
 
 namespace rainref::screen_drops {
 
-/// Of corrected alone: prefix.capacity, prefix.height_size, ..., rain.rate, rain.smallest_drop, rain.wind, world.gravity. Size
+/// Of corrected alone: flow.capacity, flow.height_size, ..., rain.rate, rain.smallest_drop, rain.wind, world.gravity. Size
 /// of the pane and rounding are keys of the effect.
-std::vector<scene::Parameter> flow_parameters(const std::string& prefix);
+std::vector<scene::Parameter> flow_parameters();
 
 /// In the order of execution: spawn, integrate, merge, splat.
 std::vector<capture::PassInfo> flow_passes();

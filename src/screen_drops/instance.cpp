@@ -9,7 +9,6 @@
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
 #include "scene/panorama_view.h"
-#include "screen_drops/evaluations.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/info.h"

@@ -90,7 +90,7 @@ const std::vector<MemberParameter<Settings>>& members() {
 std::span<const scene::Parameter> parameters() {
   static const std::vector<scene::Parameter> all = [] {
     std::vector<scene::Parameter> both = parameters_of(members());
-    for (const scene::Parameter& p : flow_parameters("flow")) both.push_back(p);
+    for (const scene::Parameter& p : flow_parameters()) both.push_back(p);
     return both;
   }();
   return all;
@@ -101,7 +101,7 @@ Settings default_settings(Variant variant) { return scene::default_settings(memb
 
 std::optional<FlowSettings> flow_from(const scene::Config& config, const Settings& s) {
   if (s.variant != Variant::corrected || !config.boolean("flow.on")) return {};
-  return flow_settings(config, "flow", {s.pane_height * s.width / s.height, s.pane_height}, s.rounding);
+  return flow_settings(config, {s.pane_height * s.width / s.height, s.pane_height}, s.rounding);
 }
 
 }  // namespace rainref::screen_drops

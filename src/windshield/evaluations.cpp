@@ -1,4 +1,4 @@
-#include "windshield/evaluations.h"
+#include "windshield/info.h"
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/evaluations.h"

@@ -7,7 +7,7 @@
 #include "drops/evaluations.h"
 #include "math/whole.h"
 #include "pass/record_model.h"
-#include "windshield/evaluations.h"
+#include "windshield/info.h"
 #include "windshield/motion/wipe_drops.h"
 #include "windshield/scalar.h"
 

@@ -8,7 +8,6 @@
 
 #include "effect/scene_pictures.h"
 #include "math/half.h"
-#include "windshield/evaluations.h"
 #include "windshield/info.h"
 #include "windshield/memory.h"
 #include "windshield/scene/street.h"

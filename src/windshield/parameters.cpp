@@ -11,7 +11,6 @@
 #include "windshield/memory.h"
 #include "windshield/motion/panes.h"
 #include "windshield/motion/parameters.h"
-#include "windshield/picture/info.h"
 
 namespace rainref::windshield {
 namespace {
@@ -20,10 +19,52 @@ using namespace rainref::scene;
 
 void append(std::vector<Parameter>& all, std::vector<Parameter> more) { all.insert(all.end(), more.begin(), more.end()); }
 
-/// The street before the car.
+/// The picture and its passes; size and margin are said elsewhere.
+const std::vector<MemberParameter<PictureSettings>>& picture_members() {
+  using P = PictureSettings;
+  static const std::vector<MemberParameter<P>> table{
+      real<&P::camera_position>("camera.position", "m", -100, 100, "Eye, in the car's axes: x forward, y left, z up."),
+      real<&P::camera_target>("camera.target", "m", -1000, 1000, "Point that the eye looks at."),
+      real<&P::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 120, "Vertical field of view."),
+      real<&P::blur_lod>("composite.blur_lod", "1", 0, 12, "Mip level of the picture behind the wet film.").published(3.0),
+      real<&P::wetness>("composite.wetness", "1", 0, 1, "Weight of the blurred picture where the glass was not wiped.").published(0.6),
+      real<&P::visible_from>("composite.visible_from", "mm", 0, 10, "Height at which water begins to show as a drop."),
+      real<&P::visible_to>("composite.visible_to", "mm", 1e-3, 10, "Height from which it shows fully."),
+      real<&P::refraction>("composite.refraction", "1", -1, 1, "Offset of the sharp picture, in pictures per unit of the normal's x and y.")
+          .only(published),
+      real<&P::water_ior>("composite.water_ior", "1", 1, 2, "Refractive index of water.").only(correct),
+      real<&P::inner>("composite.inner", "1", 0, 1, "Share of the blurred scene that the water's surface mirrors.").only(correct),
+      real<&P::shininess>("composite.shininess", "1", 1, 4096, "Power of the highlights."),
+      real<&P::glint_strength>("composite.glint_strength", "1", 0, 10, "Weight of the highlights."),
+      {real3("composite.light_direction", "1", -1, 1, {}, "Toward the light that the water mirrors, in the car's axes."),
+       [](P& s, const Value& v) { s.lights.front().direction = std::get<Real3>(v); },
+       [](const P& s) { return Value(s.lights.front().direction); }},
+      {real3("composite.light_radiance", "1", 0, 1000, {}, "Its radiance, linear RGB."),
+       [](P& s, const Value& v) { s.lights.front().radiance = std::get<Real3>(v); },
+       [](const P& s) { return Value(s.lights.front().radiance); }},
+      real<&P::cabin>("composite.cabin", "1", 0, 100, "Radiance beside the glass, linear RGB."),
+      real<&P::exposure>("display.exposure", "EV", -20, 20, "Exposure of the picture."),
+  };
+  return table;
+}
+
 const std::vector<MemberParameter<Settings>>& scene_members() {
   using S = Settings;
+  using W = SurfaceSettings;
+  using B = blur_pyramid::BlurSettings;
   static const std::vector<MemberParameter<S>> table{
+      // Blades and time on the wet glass, and the scene out of focus behind it.
+      real<&S::surface, &W::height_tau>(
+          "windshield.height_tau", "s", 0, 600,
+          "Time in which the height texture falls to 1/e where no drop stands, so that drops leave trails; 0: it is cleared each frame.")
+          .only(published),
+      real<&S::surface, &W::wipe_strength>("windshield.wipe_strength", "mm", 0, 1000, "What a blade takes off the height.").only(published),
+      real<&S::surface, &W::mask_tau>("windshield.mask_tau", "s", 0.01, 600, "Time in which the mask of freshly wiped glass falls to 1/e."),
+      integer<&S::blur, &B::levels>("blur.blur_levels", "1", 1, Texture::max_levels,
+                                    "Levels of the blurred scene, the sharp one included."),
+      real<&S::blur, &B::fog_density>("blur.fog_density", "1/m", 0, 10, "Extinction of light in the air in front of the scene."),
+      real<&S::blur, &B::fog_colour>("blur.fog_colour", "1", 0, 1000, "Linear radiance of the fog."),
+      // The street before the car.
       text("scene.image", "", "Picture of what lies before the car; empty: the street at night made here."),
       text("scene.depth_image", "",
            "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
@@ -40,38 +81,29 @@ const std::vector<MemberParameter<Settings>>& scene_members() {
                              "warp, and the longer it takes.")};
   return table;
 }
-/// The rain in the air behind the glass.
-const std::vector<MemberParameter<Settings>>& falling_members() {
+const std::vector<MemberParameter<Settings>>& detail_members() {
   using S = Settings;
   using F = FallingRainSettings;
+  using M = SmearSettings;
+  using C = CondensationSettings;
+  using I = InteriorSettings;
   static const std::vector<MemberParameter<S>> table{
+      // The rain in the air behind the glass.
       boolean<&S::falling, &F::on>("falling_rain.on", "Rain falls behind the glass too, in streaks that lamps light."),
       real<&S::falling, &F::rate>("falling_rain.rate", "mm/h", 0, 200, "Its rate; rain.key_frames do not change it.").only(published),
       real<&S::falling, &F::smallest_drop>("falling_rain.smallest_drop", "mm", 0.5, 5, "Drops below this diameter are left out."),
       real<&S::falling, &F::exposure>("falling_rain.exposure", "s", 0, 1, "Time for which the shutter is open in a frame."),
       real<&S::falling, &F::far>("falling_rain.far", "m", 1, 40, "Depth of the farthest drops."),
-      real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops over that of physics.")};
-  return table;
-}
-/// The film that blades leave.
-const std::vector<MemberParameter<Settings>>& smear_members() {
-  using S = Settings;
-  using W = SmearSettings;
-  static const std::vector<MemberParameter<S>> table{
-      boolean<&S::smear, &W::on>("smear.on", "Blades leave a thin film in streaks, which dries behind them.").only(correct),
-      real<&S::smear, &W::wear>("smear.wear", "1", 0, 1, "Wear of the blades: 0 new; 1 ragged, with more and thicker streaks.")
+      real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops over that of physics."),
+      // The film that blades leave.
+      boolean<&S::smear, &M::on>("smear.on", "Blades leave a thin film in streaks, which dries behind them.").only(correct),
+      real<&S::smear, &M::wear>("smear.wear", "1", 0, 1, "Wear of the blades: 0 new; 1 ragged, with more and thicker streaks.")
           .only(correct),
-      real<&S::smear, &W::drying>("smear.drying", "s", 0.01, 60, "Time in which the thickest streak dries.").only(correct),
-      real<&S::smear, &W::most>("smear.most", "1", 0, 1, "Share of the light that the thickest streak scatters.").only(correct),
-      real<&S::smear, &W::spread_deg>("smear.spread", "deg", 0.01, 20, "Largest angle by which it turns light, along the blade.")
-          .only(correct)};
-  return table;
-}
-/// The mist of condensed water on the glass.
-const std::vector<MemberParameter<Settings>>& condensation_members() {
-  using S = Settings;
-  using C = CondensationSettings;
-  static const std::vector<MemberParameter<S>> table{
+      real<&S::smear, &M::drying>("smear.drying", "s", 0.01, 60, "Time in which the thickest streak dries.").only(correct),
+      real<&S::smear, &M::most>("smear.most", "1", 0, 1, "Share of the light that the thickest streak scatters.").only(correct),
+      real<&S::smear, &M::spread_deg>("smear.spread", "deg", 0.01, 20, "Largest angle by which it turns light, along the blade.")
+          .only(correct),
+      // The mist of condensed water on the glass.
       boolean<&S::condensation, &C::on>("condensation.on", "Mist lies on the glass; drops, their trails and blades clear it.")
           .only(correct),
       real<&S::condensation, &C::tau>("condensation.tau", "s", 0.01, 600, "Time in which cleared glass mists over to 1 - 1/e of all.")
@@ -84,14 +116,8 @@ const std::vector<MemberParameter<Settings>>& condensation_members() {
                                            "The picture behind it is blurred over a disc whose radius is a texel of this mip level.")
           .only(correct),
       real<&S::condensation, &C::veil>("condensation.veil", "1", 0, 1, "Share of the scattered light that comes from all the scene.")
-          .only(correct)};
-  return table;
-}
-/// Pillar and dashboard.
-const std::vector<MemberParameter<Settings>>& interior_members() {
-  using S = Settings;
-  using I = InteriorSettings;
-  static const std::vector<MemberParameter<S>> table{
+          .only(correct),
+      // Pillar and dashboard.
       boolean<&S::interior, &I::on>("interior.on",
                                     "Pillar and dashboard stand before the glass, dark and out of focus; not in traced pictures.")
           .only(correct),
@@ -118,15 +144,10 @@ std::vector<Parameter> make_parameters() {
   append(all, drops::parameters("windshield"));
   append(all, parameters_of(step_members()));
   append(all, drops::splat_parameters("windshield"));
-  append(all, surface_parameters("windshield"));
-  append(all, blur_pyramid::blur_parameters("blur"));
   append(all, parameters_of(scene_members()));
   append(all, effect::sequence_parameters());
-  append(all, parameters_of(falling_members()));
-  append(all, parameters_of(smear_members()));
-  append(all, parameters_of(condensation_members()));
-  append(all, parameters_of(interior_members()));
-  append(all, parameters_of(picture_parameters()));
+  append(all, parameters_of(detail_members()));
+  append(all, parameters_of(picture_members()));
   return all;
 }
 
@@ -181,15 +202,12 @@ Settings settings_from(const Config& config) {
   s.surface.fps = s.fps;
   s.surface.frame = plane.frame;
   s.surface.half_width = s.wipers.half_width;
-  read_surface(config, "windshield", s.surface);
-  s.blur = blur_pyramid::blur_settings(config, "blur", s.surface.rounding);
+  s.blur.corrected = s.corrected;
+  s.blur.rounding = s.surface.rounding;
 
-  apply(picture_parameters(), config, s.picture);
+  apply(picture_members(), config, s.picture);
   apply(scene_members(), config, s);
-  apply(falling_members(), config, s);
-  apply(smear_members(), config, s);
-  apply(condensation_members(), config, s);
-  apply(interior_members(), config, s);
+  apply(detail_members(), config, s);
   s.picture.width = static_cast<int>(config.integer2("run.size")[0]);
   s.picture.height = static_cast<int>(config.integer2("run.size")[1]);
   constexpr double most = 300000;

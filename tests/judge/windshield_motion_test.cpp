@@ -11,7 +11,7 @@
 #include "judge/lists.h"
 #include "math/path_enumeration.h"
 #include "rainref/error.h"
-#include "windshield/evaluations.h"
+#include "windshield/info.h"
 #include "windshield/motion/uniforms.h"
 
 namespace rainref::judge {

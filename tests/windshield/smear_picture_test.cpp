@@ -7,7 +7,6 @@
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "pass/same_as_definition.h"
-#include "windshield/evaluations.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/info.h"
 #include "windshield/surface/smear.h"

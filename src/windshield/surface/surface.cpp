@@ -4,12 +4,9 @@
 #include <bit>
 
 #include "math/real64.h"
-#include "scene/variant_names.h"
 
 namespace rainref::windshield {
 namespace {
-
-using scene::correct, scene::published;
 
 /// A multiple of the grid, a power of two: the quotient is exact and below 2^51.
 double nearest(double time, double grid) {
@@ -18,26 +15,6 @@ double nearest(double time, double grid) {
 }
 
 }  // namespace
-
-std::vector<scene::Parameter> surface_parameters(const std::string& prefix) {
-  const SurfaceSettings standard;
-  const auto key = [&](const char* name) { return prefix + "." + name; };
-  return {
-      scene::real(
-          key("height_tau"), "s", 0, 600, standard.height_tau,
-          "Time in which the height texture falls to 1/e where no drop stands, so that drops leave trails; 0: it is cleared each frame.")
-          .only(published),
-      scene::real(key("wipe_strength"), "mm", 0, 1000, standard.wipe_strength, "What a blade takes off the height.").only(published),
-      scene::real(key("mask_tau"), "s", 0.01, 600, standard.mask_tau, "Time in which the mask of freshly wiped glass falls to 1/e."),
-  };
-}
-void read_surface(const scene::Config& config, const std::string& prefix, SurfaceSettings& s) {
-  s.corrected = config.variant() == correct;
-  s.mask_tau = config.real(prefix + ".mask_tau");
-  if (s.corrected) return;
-  s.height_tau = config.real(prefix + ".height_tau");
-  s.wipe_strength = config.real(prefix + ".wipe_strength");
-}
 
 double wiped_grid(double tau) {
   // The power of two not above tau, over 2^19.

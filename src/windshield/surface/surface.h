@@ -3,12 +3,9 @@
 
 #include <array>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "rainref/image.h"
-#include "scene/config.h"
-#include "scene/parameter.h"
 #include "windshield/surface/normals.pass.h"
 #include "windshield/surface/persist.pass.h"
 #include "windshield/surface/wipe_texture.pass.h"
@@ -29,9 +26,6 @@ struct SurfaceSettings {
   double height_tau = 0;      ///< as-published: time constant of a height texture that persists; 0: it is cleared each frame [s]
   double mask_tau = 4;        ///< time constant of the mask [s]
 };
-/// The scene keys height_tau, wipe_strength and mask_tau, behind "prefix."; the rest of SurfaceSettings comes from elsewhere.
-std::vector<scene::Parameter> surface_parameters(const std::string& prefix);
-void read_surface(const scene::Config& config, const std::string& prefix, SurfaceSettings& settings);
 
 /// Times since a wipe are whole multiples of this power of two, about tau / 2^19, so that float sums of them are exact up to
 /// wiped_limit (about 32 tau), whatever the frame rate. [s]
