@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compositor/face_patch.h"
+#include "compositor/pane_scene.h"
 #include "compositor/packet.h"
 #include "compositor/reals.h"
 #include "math/constants.h"

@@ -1,4 +1,4 @@
-#include "drops/evaluations.h"
+#include "drops/info.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "drops/motion/scalar.h"
 #include "pass/record_model.h"
 

@@ -5,7 +5,6 @@
 #include "edge_splash/scene_pictures.h"
 #include "edge_splash/host.h"
 #include "edge_splash/info.h"
-#include "edge_splash/memory.h"
 #include "edge_splash/parameters.h"
 #include "edge_splash/shapes.h"
 #include "image/flipped.h"

@@ -11,7 +11,7 @@
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
 #include "puddle/info.h"
-#include "puddle/memory.h"
+#include "puddle/host.h"
 #include "puddle/parameters.h"
 #include "scene/camera.h"
 

@@ -16,7 +16,6 @@
 #include "puddle/bounds.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
-#include "puddle/memory.h"
 #include "puddle/objects.h"
 #include "puddle/raindrops.pass.h"
 #include "puddle/rainfall.h"

@@ -8,10 +8,9 @@
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/info.h"
-#include "rainy_glass/memory.h"
+#include "rainy_glass/host.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/shown.h"
-#include "rainy_glass/storage.h"
 
 namespace rainref::rainy_glass {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "drops/info.h"
-#include "drops/evaluations.h"
 #include "drops/settings.h"
 #include "drops/splat/splat.h"
 #include "scene/member_parameter.h"

@@ -12,7 +12,6 @@
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/info.h"
-#include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
 #include "screen_drops/shown.h"
 

@@ -20,7 +20,6 @@
 #include "screen_drops/drops.pass.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
-#include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
 #include "state/items.h"
 

@@ -9,7 +9,6 @@
 #include "cache/kept_images.h"
 #include "rainref/error.h"
 #include "state/file.h"
-#include "state/load.h"
 
 namespace rainref::screen_drops {
 namespace {

@@ -1,4 +1,4 @@
-#include "state/load.h"
+#include "state/file.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "puddle/instance.h"
 #include "rainref/error.h"
-#include "truth/puddle_truth.h"
+#include "truth/puddle_scene.h"
 #include "truth/tracing.h"
 
 namespace rainref::truth {

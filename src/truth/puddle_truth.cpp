@@ -1,4 +1,4 @@
-#include "truth/puddle_truth.h"
+#include "truth/puddle_scene.h"
 
 #include <algorithm>
 #include <array>

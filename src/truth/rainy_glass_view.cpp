@@ -5,14 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "compositor/face_patch.h"
+#include "compositor/pane_scene.h"
 #include "compositor/optics.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/storage.h"
 #include "truth/pane_truth.h"
-#include "truth/uncovered.h"
+#include "truth/picture_relief.h"
 
 namespace rainref::truth {
 namespace {

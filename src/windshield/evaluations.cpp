@@ -1,11 +1,10 @@
 #include "windshield/info.h"
 
 #include "blur_pyramid/blur_pyramid.h"
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "pass/display.h"
 #include "pass/model.h"
 #include "windshield/scalar.h"
-#include "windshield/wipe_from_ends.h"
 
 namespace rainref::windshield {
 

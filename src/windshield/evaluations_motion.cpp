@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "math/whole.h"
 #include "pass/record_model.h"
 #include "windshield/info.h"

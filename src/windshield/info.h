@@ -18,4 +18,8 @@ const std::vector<capture::PassEvaluations>& evaluations();
 std::unique_ptr<capture::PassModel> bind_windshield_frame(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_wipe_drops(const capture::PassCase& c);
 
+/// corrected: ends from `inner` and `outer`, coordinates of the glass, in place of pivot, axis and radii. as-published: ends from these in
+/// place of those.
+std::unique_ptr<capture::PassModel> bind_wipe_from_ends(const capture::PassCase& c);
+
 }  // namespace rainref::windshield

@@ -9,7 +9,7 @@
 #include "effect/scene_pictures.h"
 #include "math/half.h"
 #include "windshield/info.h"
-#include "windshield/memory.h"
+#include "windshield/parameters.h"
 #include "windshield/scene/street.h"
 #include "windshield/shown.h"
 

@@ -8,8 +8,7 @@
 #include "math/constants.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
-#include "windshield/memory.h"
-#include "windshield/motion/panes.h"
+#include "windshield/motion/glass.h"
 #include "windshield/motion/parameters.h"
 
 namespace rainref::windshield {

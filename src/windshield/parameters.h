@@ -1,8 +1,10 @@
 // What a scene says of a windshield: every part's settings, and the parameters that say it.
 #pragma once
 
+#include <array>
 #include <span>
 
+#include "base/memory.h"
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/settings.h"
 #include "drops/splat/splat.h"
@@ -59,5 +61,12 @@ Settings settings_from(const scene::Config& config);
 /// The settings of one pane. Number 0 is the windshield: all as they are. The others have their own corners, textures with texels of the
 /// windshield's size, wipers and drops of their own, and as published the windshield's new drops by area.
 Settings settings_of_pane(const Settings& car, int number);
+
+/// Memory of the constructor and of so many frames. scene: columns and rows of a picture that takes the street's place, which the windshield then
+/// owns; 0: the street.
+MemoryPeak memory(const Settings& settings, int frames, std::array<int, 2> scene = {0, 0});
+
+/// Drops of falling_rain in view at the most, in so many seconds.
+double most_falling(const Settings& settings, double seconds);
 
 }  // namespace rainref::windshield

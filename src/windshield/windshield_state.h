@@ -12,7 +12,6 @@
 #include "rainref/error.h"
 #include "rainref/windshield.h"
 #include "state/items.h"
-#include "windshield/memory.h"
 #include "windshield/parameters.h"
 #include "windshield/picture/falling_rain.h"
 #include "windshield/scene/blades_seen.h"

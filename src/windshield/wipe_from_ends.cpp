@@ -1,4 +1,4 @@
-#include "windshield/wipe_from_ends.h"
+#include "windshield/info.h"
 
 #include "pass/model.h"
 #include "windshield/scalar.h"

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "drops/motion/scalar.h"
 #include "judge/lists.h"
 #include "math/path_enumeration.h"

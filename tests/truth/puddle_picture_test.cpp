@@ -6,7 +6,7 @@
 
 #include "compositor/embree_isas.h"
 #include "truth/golden_scenes.h"
-#include "truth/puddle_truth.h"
+#include "truth/puddle_scene.h"
 #include "golden/golden_check.h"
 #include "math/half.h"
 #include "math/simd_target.h"

@@ -6,7 +6,6 @@
 #include "drops/uniforms.h"
 #include "rain/rain.h"
 #include "windshield/golden_scenes.h"
-#include "windshield/motion/key_frames.h"
 #include "windshield/motion/weather.h"
 #include "windshield/motion/wiper_motion.h"
 #include "windshield/support.h"

@@ -5,7 +5,7 @@
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
 #include "scene/value_text.h"
-#include "windshield/motion/panes.h"
+#include "windshield/motion/glass.h"
 #include "windshield/motion/shelter.h"
 
 namespace rainref::windshield {
