@@ -1,6 +1,5 @@
 #include "blur_pyramid/blur_pyramid.h"
 
-#include <algorithm>
 #include <span>
 
 #include "blur_pyramid/scalar.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compositor/pane_scene.h"
 #include "compositor/packet.h"
 #include "compositor/reals.h"
 #include "math/constants.h"

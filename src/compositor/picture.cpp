@@ -1,7 +1,6 @@
 #include "compositor/picture.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "drops/host.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "drops/drops.h"
 #include "drops/motion/kernels.h"

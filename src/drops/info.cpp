@@ -15,9 +15,8 @@ using namespace rainref::capture;
 
 std::vector<UniformBlock> records() {
   return {Drop::layout(), GlassFrame::layout(), Neck::layout(),
-          record<SpawnMass>("SpawnMass", {member<&SpawnMass::mass>("1", "Mass of a size class of arrivals, as in Drop.")}),
-          record<CountThreshold>("CountThreshold",
-                                 {member<&CountThreshold::threshold>("1", "A word not below k thresholds draws first_count + k drops.")})};
+          record<SpawnMass>({member<&SpawnMass::mass>("1", "Mass of a size class of arrivals, as in Drop.")}),
+          record<CountThreshold>({member<&CountThreshold::threshold>("1", "A word not below k thresholds draws first_count + k drops.")})};
 }
 
 std::vector<BufferInfo> buffers() {

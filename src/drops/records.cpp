@@ -9,10 +9,10 @@ using scene::member;
 
 scene::UniformBlock Drop::layout() {
   return scene::record<Drop>(
-      "Drop", {member<&Drop::position>("1", "Glass coordinates u, v."), member<&Drop::velocity>("1/s", "Change of the position."),
-               member<&Drop::mass>("1", "as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24."),
-               member<&Drop::life>("s", "What remains; not above 0: no drop."),
-               member<&Drop::id>("1", "Its own for ever, ascending in the order of birth.")});
+      {member<&Drop::position>("1", "Glass coordinates u, v."), member<&Drop::velocity>("1/s", "Change of the position."),
+       member<&Drop::mass>("1", "as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24."),
+       member<&Drop::life>("s", "What remains; not above 0: no drop."),
+       member<&Drop::id>("1", "Its own for ever, ascending in the order of birth.")});
 }
 const std::vector<capture::FieldRange>& Drop::ranges(bool corrected) {
   // The glass; one that is crossed in a second; twice the mass of an ordinary drop; its life.
@@ -24,7 +24,6 @@ const std::vector<capture::FieldRange>& Drop::ranges(bool corrected) {
 
 scene::UniformBlock GlassFrame::layout() {
   return scene::record<GlassFrame>(
-      "GlassFrame",
       {member<&GlassFrame::gravity>("1/s^2", "as-published: gravity; corrected: specific force at (0, 0), the car's motion included."),
        member<&GlassFrame::wind>("1/s", "Apparent wind."),
        member<&GlassFrame::acceleration>("1/s^2", "as-published: of the vehicle; corrected: 0."), member<&GlassFrame::id>("1", "0."),
@@ -40,7 +39,6 @@ const std::vector<capture::FieldRange>& GlassFrame::ranges(bool) {
 
 scene::UniformBlock Neck::layout() {
   return scene::record<Neck>(
-      "Neck",
       {member<&Neck::offset>("1", "From the larger drop's middle to the smaller one's, in plane axes, over the base radius of both."),
        member<&Neck::share>("1", "Of the smaller one in the mass of both."),
        member<&Neck::left>("1", "1 when they became one, falling; not above 0: none."),

@@ -1,7 +1,6 @@
 // The tile of crowns that stands in for the noise: each drop that hits throws up a wall of jets around it, which lean outward, rise, fall
 // and thin out, and is followed by another drop elsewhere. Drawn, not simulated. In double, by operations that every machine rounds alike.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "edge_splash/host.h"

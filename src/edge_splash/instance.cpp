@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "edge_splash/scene_pictures.h"
 #include "edge_splash/host.h"
 #include "edge_splash/info.h"
 #include "edge_splash/parameters.h"

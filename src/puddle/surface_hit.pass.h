@@ -7,15 +7,11 @@
 
 namespace rainref::puddle {
 
-struct SurfaceHitPass {
+struct SurfaceHitPass : pass::Takes<SurfaceHitUniforms> {
   static constexpr pass::About about{
       "surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {1}, {2}, {"dot", "length", "normalize"}};
-  using Uniforms = SurfaceHitUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SurfaceHitUniforms",
+    return block(
         with_camera<U>({member<&U::half_size>("m", {0, 1e5}, "Half the puddle's extent."),
                         member<&U::epsilon>("m", {1e-5, 1}, "Distance that counts as a hit."),
                         member<&U::texel>("1", scene::share, "1 over the wave's columns and rows."),

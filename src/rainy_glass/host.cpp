@@ -7,13 +7,11 @@
 #include "base/floating_point.h"
 #include "image/half_image.h"
 #include "image/seam.h"
-#include "image/texture.h"
 #include "math/constants.h"
 #include "math/half.h"
 #include "math/real64.h"
 #include "math/unorm.h"
 #include "rainref/error.h"
-#include "rainref/rainy_glass.h"
 
 namespace rainref::rainy_glass {
 namespace {

@@ -9,15 +9,11 @@
 namespace rainref::rainy_glass {
 
 /// Its lanes are written by hand, because a scene key chooses how the maps are stored: see kernels_picture.cpp.
-struct RainOnGlassPass {
+struct RainOnGlassPass : pass::Takes<RainOnGlassUniforms> {
   static constexpr pass::About about{
       "rain_on_glass", "The scene seen through the wet glass: linear radiance.", {1}, {1}, {"dot", "1 - normal squared"}};
-  using Uniforms = RainOnGlassUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "RainOnGlassUniforms",
+    return block(
         {member<&U::pixel>("1", scene::share, "1 over the picture's columns and rows."),
          member<&U::time>("s", scene::frame_time, "as-published: frame number over frame rate, rounded once."),
          member<&U::rain_amount>("1", scene::share, "1: every droplet shows."),

@@ -2,7 +2,6 @@
 #include "rainref/rainy_glass.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 #include <vector>
 

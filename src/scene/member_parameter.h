@@ -10,7 +10,6 @@
 #include <array>
 #include <concepts>
 #include <functional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>

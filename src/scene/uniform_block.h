@@ -105,14 +105,21 @@ std::size_t offset_of(M S::*pointer) {
   return static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&object));
 }
 
-/// The member's own name, which GCC and Clang write behind "P = &Struct::" up to ";" or "]".
+/// What GCC and Clang write of a template's argument in the name of a function: "[... NAME = &scope::x; ...]" gives x.
+consteval std::string_view last_name(std::string_view function, std::string_view argument) {
+  const std::size_t from = function.find(argument) + argument.size();
+  const std::string_view whole = function.substr(from, function.find_first_of(";]", from) - from);
+  return whole.substr(whole.rfind(':') + 1);
+}
 template <auto P>
 consteval std::string_view name_of() {
-  const std::string_view function = __PRETTY_FUNCTION__;
-  const std::size_t from = function.find("P = "), end = function.find_first_of(";]", from), name = function.substr(0, end).rfind("::") + 2;
-  return function.substr(name, end - name);
+  return last_name(__PRETTY_FUNCTION__, "P = ");
 }
-static_assert(name_of<&Range::is_whole>() == "is_whole");
+template <class S>
+consteval std::string_view name_of() {
+  return last_name(__PRETTY_FUNCTION__, "S = ");
+}
+static_assert(name_of<&Range::is_whole>() == "is_whole" && name_of<Range>() == "Range");
 
 template <class S, class M>
 Member member(M S::*pointer, std::string_view name, std::string unit, std::optional<Range> range, std::string sentence) {
@@ -152,19 +159,19 @@ std::vector<Member> nested(const std::string& prefix, std::vector<Member> member
   return detail::moved(std::move(members), detail::offset_of(P), prefix);
 }
 
-/// The block that struct S is, validated. S has no alignment of its own, so the compiler adds no padding unseen: what
+/// The block that struct S is, of its name, validated. S has no alignment of its own, so the compiler adds no padding unseen: what
 /// padding it needs are members of it, which are not listed here.
 template <class S>
-UniformBlock uniform_block(std::string name, std::vector<Member> members) {
+UniformBlock uniform_block(std::vector<Member> members) {
   static_assert(alignof(S) == 4, "padding must be written out");
-  return detail::validated_block({std::move(name), sizeof(S), std::move(members)});
+  return detail::validated_block({std::string(detail::name_of<S>()), sizeof(S), std::move(members)});
 }
 
 /// The same for the element struct of a storage buffer.
 template <class S>
-UniformBlock record(std::string name, std::vector<Member> members) {
+UniformBlock record(std::vector<Member> members) {
   static_assert(alignof(S) == 4, "padding must be written out");
-  return detail::validated_record({std::move(name), sizeof(S), std::move(members)});
+  return detail::validated_record({std::string(detail::name_of<S>()), sizeof(S), std::move(members)});
 }
 
 }  // namespace rainref::scene

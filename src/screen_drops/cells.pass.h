@@ -11,14 +11,10 @@
 namespace rainref::screen_drops {
 
 /// No lanes: whole numbers are drawn one cell at a time, which cells_rows keeps from frame to frame.
-struct CellsPass {
+struct CellsPass : pass::Takes<CellsUniforms> {
   static constexpr pass::About about{"cells", "The drop that each cell of four grids holds now.", {}, {1}};
-  using Uniforms = CellsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "CellsUniforms",
+    return block(
         {member<&U::seed>("1", scene::any_word, "Low and high word of the seed."),
          member<&U::tick>("ms", scene::any_word, "The frame's time, modulo 2^32."),
          member<&U::keep>("1", {0, 65536}, "Of 65536 cells hold a drop."),

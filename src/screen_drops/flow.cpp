@@ -2,7 +2,6 @@
 
 #include <cstring>
 
-#include "math/constants.h"
 #include "math/half.h"
 #include "screen_drops/warm_up.h"
 

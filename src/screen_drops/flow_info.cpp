@@ -5,6 +5,7 @@
 #include "drops/info.h"
 #include "drops/settings.h"
 #include "drops/splat/splat.h"
+#include "pass/info.h"
 #include "scene/member_parameter.h"
 #include "screen_drops/flow.h"
 
@@ -12,11 +13,6 @@ namespace rainref::screen_drops {
 namespace {
 
 using namespace rainref::scene;
-
-template <class T>
-void append(std::vector<T>& all, std::vector<T> more) {
-  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
 
 const std::vector<MemberParameter<FlowSettings>>& members() {
   using F = FlowSettings;
@@ -34,11 +30,11 @@ const std::vector<MemberParameter<FlowSettings>>& members() {
 
 std::vector<Parameter> flow_parameters() {
   std::vector<Parameter> all = drops::still_parameters("flow");
-  append(all, drops::corrected_only(drops::splat_parameters("flow")));
+  pass::append(all, drops::corrected_only(drops::splat_parameters("flow")));
   std::erase_if(all, [](const Parameter& p) { return p.key == "flow.rounding"; });
   // As wide to high as most screens.
   std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.key == "flow.height_size"; })->default_value = Integer2{1024, 576};
-  append(all, parameters_of(members()));
+  pass::append(all, parameters_of(members()));
   return all;
 }
 
@@ -60,7 +56,7 @@ std::vector<capture::PassInfo> flow_passes() {
 
 std::vector<capture::BufferInfo> flow_buffers() {
   std::vector<capture::BufferInfo> all = drops::buffers();
-  append(all, drops::splat_buffers());
+  pass::append(all, drops::splat_buffers());
   return drops::corrected_only(std::move(all));
 }
 

@@ -1,6 +1,5 @@
 #include "rainref/simulation.h"
 
-#include <algorithm>
 #include <span>
 #include <utility>
 

@@ -5,13 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "compositor/pane_scene.h"
 #include "compositor/optics.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
 #include "truth/pane_truth.h"
-#include "truth/picture_relief.h"
 
 namespace rainref::truth {
 namespace {

@@ -1,7 +1,6 @@
 #include "truth/windshield_view.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "math/real64.h"
 #include "truth/falling_rain_index.h"

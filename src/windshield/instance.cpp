@@ -9,7 +9,6 @@
 #include "effect/scene_pictures.h"
 #include "math/half.h"
 #include "windshield/info.h"
-#include "windshield/parameters.h"
 #include "windshield/scene/street.h"
 #include "windshield/shown.h"
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "effect/picture_sequence.h"
-#include "math/constants.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
 #include "windshield/motion/glass.h"

@@ -1,7 +1,6 @@
 // What a running windshield holds.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>

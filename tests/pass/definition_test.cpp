@@ -146,8 +146,8 @@ capture::EffectInfo frost() {
   capture::EffectInfo info;
   info.name = "frost";
   info.passes = {pass::info_of<GrowPass>(), pass::info_of<ShinePass>()};
-  info.records = {scene::record<Seed>(
-      "Seed", {scene::member<&Seed::column>("texel", "Of the crystal."), scene::member<&Seed::strength>("mm", "There.")})};
+  info.records = {
+      scene::record<Seed>({scene::member<&Seed::column>("texel", "Of the crystal."), scene::member<&Seed::strength>("mm", "There.")})};
   info.buffers = {{"height", "r16f", "Of the glass."},
                   {"mask", "r8", "Where ice may be."},
                   {"seeds", "records", "Crystals.", "1", {0, 1}, "none", "none", "none", "", "Seed", "corrected"},

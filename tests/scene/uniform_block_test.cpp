@@ -73,7 +73,7 @@ TEST(UniformBlock, ANestedStructGivesItsMembers) {
 }
 
 TEST(UniformBlock, HasTheSizeOfItsStruct) {
-  const UniformBlock block = uniform_block<Example>("Example", nested<&Example::camera>("camera", camera_members()));
+  const UniformBlock block = uniform_block<Example>(nested<&Example::camera>("camera", camera_members()));
   EXPECT_EQ(block.size, sizeof(Example));
   EXPECT_EQ(block.name, "Example");
 }
@@ -202,14 +202,13 @@ TEST(UniformBlock, DeclaringABadOneThrows) {
     float a;
     float b[3];
   };
-  EXPECT_EQ(error_of([] { uniform_block<Bad>("Bad", {member<&Bad::b>("1", share, "B.")}); }),
-            "5 layout Bad: 'b' at 4 is not aligned to 16");
+  EXPECT_EQ(error_of([] { uniform_block<Bad>({member<&Bad::b>("1", share, "B.")}); }), "5 layout Bad: 'b' at 4 is not aligned to 16");
   struct Short {
     float a, b;
   };
-  EXPECT_EQ(error_of([] { uniform_block<Short>("Short", {member<&Short::a>("1", share, "A.")}); }),
+  EXPECT_EQ(error_of([] { uniform_block<Short>({member<&Short::a>("1", share, "A.")}); }),
             "5 layout Short: size 8 is not a multiple of 16");
-  EXPECT_EQ(record<Short>("Short", {member<&Short::b>("1", "B.")}).members[0].offset, 4u);
+  EXPECT_EQ(record<Short>({member<&Short::b>("1", "B.")}).members[0].offset, 4u);
 }
 
 TEST(UniformBlock, JsonHasEachMembersPlace) {

@@ -1,7 +1,6 @@
 // The scene parameters of glass, vehicle and wipers: declared once, for scenes, help, hashing and capture.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "math/constants.h"

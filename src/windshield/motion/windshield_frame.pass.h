@@ -10,19 +10,15 @@
 namespace rainref::windshield {
 
 /// One record, from uniforms alone.
-struct WindshieldFramePass {
+struct WindshieldFramePass : pass::Takes<WindshieldFrameUniforms> {
   static constexpr pass::About about{"windshield_frame",
                                      "Gravity, apparent wind and inertia in glass coordinates.",
                                      {1, capture::Judge::keyed},
                                      {1, capture::Judge::keyed},
                                      {"dot"}};
-  using Uniforms = WindshieldFrameUniforms;
   using Record = drops::GlassFrame;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "WindshieldFrameUniforms",
+    return block(
         {member<&U::heading>("1", scene::component, "Cosine and sine of the car's heading, positive to the left."),
          member<&U::yaw_rate>("rad/s", {-1e3, 1e3}, "Turn rate of the car, positive to the left."),
          member<&U::yaw_acceleration>("rad/s^2", {-1e6, 1e6}, "Derivative of yaw_rate."),

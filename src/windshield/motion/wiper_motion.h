@@ -1,7 +1,6 @@
 // How far the wipers' motor has come: off, intermittent, slow and fast over time.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -23,24 +23,19 @@ struct Tap {
 static_assert(sizeof(MistUniforms) == 80 && sizeof(Tap) == 16);
 
 /// It follows composite of a pane where the scene asks for condensation.
-struct MistPass {
+struct MistPass : pass::Takes<MistUniforms> {
   static constexpr pass::About about{
       "mist", "What composite made of the scene, and through the mist on the glass a blurred and veiled one.", {}, {2}, {"dot"}};
-  using Uniforms = MistUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "MistUniforms",
-        {member<&U::u_row>("1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
-         member<&U::glass_distance>("m", {-1e9, 1e9}, "As composite's."), member<&U::v_row>("1", {-1e9, 1e9}, "v likewise."),
-         member<&U::lod>("1", scene::mip_level, "Mip level of the lookups at the taps."),
-         member<&U::w_row>("1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
-         member<&U::veil>("1", scene::share, "Share of the light in the mist that comes from all the scene."),
-         member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
-         member<&U::weight>("1", scene::share, "Of a tap."), member<&U::tap_count>("1", {0, 4096}, "Taps in the list.")});
+    return block({member<&U::u_row>("1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
+                  member<&U::glass_distance>("m", {-1e9, 1e9}, "As composite's."), member<&U::v_row>("1", {-1e9, 1e9}, "v likewise."),
+                  member<&U::lod>("1", scene::mip_level, "Mip level of the lookups at the taps."),
+                  member<&U::w_row>("1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
+                  member<&U::veil>("1", scene::share, "Share of the light in the mist that comes from all the scene."),
+                  member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                  member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                  member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+                  member<&U::weight>("1", scene::share, "Of a tap."), member<&U::tap_count>("1", {0, 4096}, "Taps in the list.")});
   }
   template <class B>
   struct Io {

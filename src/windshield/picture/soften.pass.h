@@ -25,26 +25,21 @@ struct Deflection {
 static_assert(sizeof(SoftenUniforms) == 112 && sizeof(Deflection) == 16);
 
 /// It follows composite of a pane with blades where the scene asks for smear.
-struct SoftenPass {
+struct SoftenPass : pass::Takes<SoftenUniforms> {
   static constexpr pass::About about{
       "soften", "What composite made of the scene, drawn out across the streaks of the film that blades left.", {}, {1}, {"dot"}};
-  using Uniforms = SoftenUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SoftenUniforms",
-        {member<&U::u_row>("1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
-         member<&U::glass_distance>("m", {-1e9, 1e9}, "As composite's."), member<&U::v_row>("1", {-1e9, 1e9}, "v likewise."),
-         member<&U::lod>("1", scene::mip_level, "Mip level of the lookups."),
-         member<&U::w_row>("1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
-         member<&U::most>("1", scene::share, "Share of the light that the thickest streak scatters."),
-         member<&U::plane_x>("1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
-         member<&U::deflection_count>("1", {0, 4096}, "Deflections in the list."),
-         member<&U::plane_y>("1", scene::component, "Second axis."),
-         member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane.")});
+    return block({member<&U::u_row>("1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
+                  member<&U::glass_distance>("m", {-1e9, 1e9}, "As composite's."), member<&U::v_row>("1", {-1e9, 1e9}, "v likewise."),
+                  member<&U::lod>("1", scene::mip_level, "Mip level of the lookups."),
+                  member<&U::w_row>("1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
+                  member<&U::most>("1", scene::share, "Share of the light that the thickest streak scatters."),
+                  member<&U::plane_x>("1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
+                  member<&U::deflection_count>("1", {0, 4096}, "Deflections in the list."),
+                  member<&U::plane_y>("1", scene::component, "Second axis."),
+                  member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                  member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                  member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane.")});
   }
   template <class B>
   struct Io {

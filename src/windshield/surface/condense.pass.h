@@ -14,20 +14,16 @@ struct CondenseUniforms {
 static_assert(sizeof(CondenseUniforms) == 32);
 
 /// Where the scene asks for it. In place.
-struct CondensePass {
+struct CondensePass : pass::Takes<CondenseUniforms> {
   static constexpr pass::About about{
       "condense", "The mist of condensed water on the glass, as it has grown since water or a blade last cleared it.", {}, {1}};
-  using Uniforms = CondenseUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "CondenseUniforms", {member<&U::dt>("s", {0, 1}, "Time since the frame before, so rounded that sums are exact."),
-                             member<&U::inverse_tau>("1/s", {0, 100}, "1 over the time constant of the mist."),
-                             member<&U::limit>("s", {0, 1 << 15}, "The time since the glass was cleared grows to this and no further."),
-                             member<&U::wiped_limit>("s", {0, 1 << 15}, "Time since a wipe of glass that was never wiped."),
-                             member<&U::most>("1", scene::share, "What the mist grows to: share of the light that it scatters."),
-                             member<&U::inverse_water>("1/mm", {0, 1e6}, "1 over the height of water that takes all of the mist up.")});
+    return block({member<&U::dt>("s", {0, 1}, "Time since the frame before, so rounded that sums are exact."),
+                  member<&U::inverse_tau>("1/s", {0, 100}, "1 over the time constant of the mist."),
+                  member<&U::limit>("s", {0, 1 << 15}, "The time since the glass was cleared grows to this and no further."),
+                  member<&U::wiped_limit>("s", {0, 1 << 15}, "Time since a wipe of glass that was never wiped."),
+                  member<&U::most>("1", scene::share, "What the mist grows to: share of the light that it scatters."),
+                  member<&U::inverse_water>("1/mm", {0, 1e6}, "1 over the height of water that takes all of the mist up.")});
   }
   template <class B>
   struct Io {

@@ -17,17 +17,13 @@ struct NormalsUniforms {
 };
 static_assert(sizeof(NormalsUniforms) == 16);
 
-struct NormalsPass {
+struct NormalsPass : pass::Takes<NormalsUniforms> {
   static constexpr pass::About about{
       "normals", "The normal of the water in axes of the glass, z outward.", {1}, {1}, {"length", "normalize"}};
-  using Uniforms = NormalsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "NormalsUniforms", {member<&U::slope_x>("1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
-                            member<&U::slope_shear>("1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two columns; 0 as published."),
-                            member<&U::slope_y>("1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
+    return block({member<&U::slope_x>("1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
+                  member<&U::slope_shear>("1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two columns; 0 as published."),
+                  member<&U::slope_y>("1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
   }
   template <class B>
   struct Io {

@@ -21,19 +21,15 @@ struct SmearUniforms {
 static_assert(sizeof(SmearUniforms) == 32);
 
 /// Where the scene asks for it. In place.
-struct SmearPass {
+struct SmearPass : pass::Takes<SmearUniforms> {
   static constexpr pass::About about{
       "smear", "The thin film that blades leave in streaks along their way, and what of it is not dry yet.", {}, {1}, {"dot", "length"}};
-  using Uniforms = SmearUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SmearUniforms", {member<&U::frame>("m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
-                          member<&U::edge_width>("m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
-                          member<&U::inverse_water>("1/mm", {0, 1e6}, "1 over the height of water that takes all of the film up."),
-                          member<&U::drying>("1/s", {0, 1000}, "What of the thickness dries in a second."),
-                          member<&U::wiper_count>("1", {0, 65536}, "Wipers in the list.")});
+    return block({member<&U::frame>("m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
+                  member<&U::edge_width>("m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
+                  member<&U::inverse_water>("1/mm", {0, 1e6}, "1 over the height of water that takes all of the film up."),
+                  member<&U::drying>("1/s", {0, 1000}, "What of the thickness dries in a second."),
+                  member<&U::wiper_count>("1", {0, 65536}, "Wipers in the list.")});
   }
   /// As many as the uniform says, or all: of a port that lost some there may be fewer.
   static std::span<const Wiper> counted(const Uniforms& u, std::span<const Wiper> all) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include "rainref/image.h"
 #include "windshield/surface/normals.pass.h"
