@@ -20,10 +20,7 @@ namespace scalar {
 using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
-#include "image/sampling_perturbed-inl.h"
-#include "image/sampling-inl.h"
-#include "image/sampling_enclosed-inl.h"
-#include "image/sampling_rearranged-inl.h"
+#include "image/sampling_numbers-inl.h"
 #include "pass/frost.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
