@@ -6,7 +6,7 @@
 #include "drops/motion/spawn.pass.h"
 #include "drops/splat/splat.pass.h"
 #include "pass/info.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::drops {
 

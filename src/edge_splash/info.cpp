@@ -3,7 +3,7 @@
 #include "edge_splash/splash.pass.h"
 #include "pass/display.h"
 #include "pass/info.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::edge_splash {
 namespace {

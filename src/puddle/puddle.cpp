@@ -20,7 +20,6 @@
 #include "puddle/raindrops.pass.h"
 #include "puddle/rainfall.h"
 #include "puddle/scenery.h"
-#include "puddle/wave_blocks.h"
 #include "puddle/wave_step.pass.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"

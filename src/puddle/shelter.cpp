@@ -1,4 +1,4 @@
-#include "puddle/shelter.h"
+#include "puddle/rainfall.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "pass/info.h"
 #include "rainy_glass/bake.pass.h"
 #include "rainy_glass/rain_on_glass.pass.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::rainy_glass {
 namespace {

@@ -18,7 +18,6 @@
 #include "rainref/variant.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
-#include "scene/variant_names.h"
 
 namespace rainref::scene {
 

@@ -2,7 +2,7 @@
 
 #include "pass/display.h"
 #include "pass/model.h"
-#include "screen_drops/flow_info.h"
+#include "screen_drops/flow.h"
 #include "screen_drops/scalar.h"
 
 namespace rainref::screen_drops {

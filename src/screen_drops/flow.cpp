@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "math/half.h"
-#include "screen_drops/warm_up.h"
 
 namespace rainref::screen_drops {
 namespace {

@@ -1,4 +1,3 @@
-#include "screen_drops/flow_info.h"
 
 #include <algorithm>
 

@@ -2,11 +2,11 @@
 
 #include "pass/display.h"
 #include "pass/info.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.pass.h"
 #include "screen_drops/drops.pass.h"
-#include "screen_drops/flow_info.h"
+#include "screen_drops/flow.h"
 
 namespace rainref::screen_drops {
 namespace {

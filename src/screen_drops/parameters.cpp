@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "screen_drops/flow_info.h"
+#include "screen_drops/flow.h"
 #include "effect/picture_sequence.h"
 #include "scene/member_parameter.h"
 #include "screen_drops/uniforms.h"

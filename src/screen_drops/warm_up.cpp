@@ -1,4 +1,4 @@
-#include "screen_drops/warm_up.h"
+#include "screen_drops/flow.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/pass_clock.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::truth {
 

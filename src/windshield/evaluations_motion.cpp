@@ -8,7 +8,7 @@
 #include "math/whole.h"
 #include "pass/record_model.h"
 #include "windshield/info.h"
-#include "windshield/motion/wipe_drops.h"
+#include "windshield/motion/kernels.h"
 #include "windshield/scalar.h"
 
 namespace rainref::windshield {

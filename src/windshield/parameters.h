@@ -14,12 +14,9 @@
 #include "windshield/motion/host.h"
 #include "windshield/motion/vehicle.h"
 #include "windshield/motion/weather.h"
-#include "windshield/motion/wiper_parameters.h"
+#include "windshield/motion/parameters.h"
 #include "windshield/picture/falling_rain.h"
-#include "windshield/picture/interior.h"
 #include "windshield/picture/picture.h"
-#include "windshield/surface/condensation.h"
-#include "windshield/surface/smear.h"
 #include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
@@ -62,8 +59,8 @@ Settings settings_from(const scene::Config& config);
 /// windshield's size, wipers and drops of their own, and as published the windshield's new drops by area.
 Settings settings_of_pane(const Settings& car, int number);
 
-/// Memory of the constructor and of so many frames. scene: columns and rows of a picture that takes the street's place, which the windshield then
-/// owns; 0: the street.
+/// Memory of the constructor and of so many frames. scene: columns and rows of a picture that takes the street's place, which the
+/// windshield then owns; 0: the street.
 MemoryPeak memory(const Settings& settings, int frames, std::array<int, 2> scene = {0, 0});
 
 /// Drops of falling_rain in view at the most, in so many seconds.

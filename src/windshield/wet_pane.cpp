@@ -6,7 +6,7 @@
 #include "pass/run.h"
 #include "windshield/motion/host.h"
 #include "windshield/motion/glass.h"
-#include "windshield/motion/wipe_drops.h"
+#include "windshield/motion/kernels.h"
 #include "windshield/picture/mist.pass.h"
 #include "windshield/picture/soften.pass.h"
 

@@ -8,7 +8,7 @@
 #include "rainref/error.h"
 #include "scene/effect_table.h"
 #include "scene/toml.h"
-#include "screen_drops/flow_info.h"
+#include "screen_drops/flow.h"
 #include "screen_drops/flow_support.h"
 
 namespace rainref::screen_drops {

@@ -7,7 +7,7 @@
 #include "rain/rain.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/motion/weather.h"
-#include "windshield/motion/wiper_motion.h"
+#include "windshield/motion/wipers.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {

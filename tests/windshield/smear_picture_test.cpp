@@ -9,7 +9,7 @@
 #include "pass/same_as_definition.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/info.h"
-#include "windshield/surface/smear.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {

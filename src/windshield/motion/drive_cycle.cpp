@@ -1,4 +1,4 @@
-#include "windshield/motion/drive_cycle.h"
+#include "windshield/motion/vehicle.h"
 
 #include <algorithm>
 #include <cmath>

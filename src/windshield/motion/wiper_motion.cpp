@@ -1,4 +1,4 @@
-#include "windshield/motion/wiper_motion.h"
+#include "windshield/motion/wipers.h"
 
 #include <algorithm>
 #include <cmath>

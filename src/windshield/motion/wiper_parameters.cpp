@@ -1,4 +1,4 @@
-#include "windshield/motion/wiper_parameters.h"
+#include "windshield/motion/parameters.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "windshield/picture/interior.h"
+#include "windshield/picture/picture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "windshield/surface/condensation.h"
+#include "windshield/surface/surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "windshield/surface/smear.h"
+#include "windshield/surface/surface.h"
 
 #include <algorithm>
 #include <cmath>
