@@ -34,8 +34,6 @@ class PuddleScene {
   void update(const puddle::Puddle& puddle, const parallel::Executor& executor);
   const Scene& scene() const;
   const scene::Camera& camera() const;
-  /// Numbers of the water's sheet and of the bed in the scene.
-  static constexpr std::uint32_t water_surface = 0, bed_surface = 1;
 
  private:
   struct State;
