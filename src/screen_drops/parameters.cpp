@@ -12,8 +12,8 @@ namespace {
 
 using namespace rainref::scene;
 
-std::vector<MemberParameter<Settings>> made() {
-  std::vector<MemberParameter<Settings>> table{
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table{
       // The origin's constants.
       real<&Settings::grid>("drops.grid", "cell/pixel", 1e-4, 1, "Cells of the coarsest layer in a pixel; layer r has r times as many.")
           .only(published),
@@ -77,22 +77,13 @@ std::vector<MemberParameter<Settings>> made() {
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 150, "Vertical field of view; of a picture from a file, too."),
       boolean("flow.on", true, "Whether rain also brings drops that slide and merge.").only(correct),
   };
-  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
-  return table;
-}
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 
 }  // namespace
 
 std::span<const scene::Parameter> parameters() {
-  static const std::vector<scene::Parameter> all = [] {
-    std::vector<scene::Parameter> both = parameters_of(members());
-    for (const scene::Parameter& p : flow_parameters()) both.push_back(p);
-    return both;
-  }();
+  static const std::vector<scene::Parameter> all = parameters_of(members(), {effect::sequence_parameters(), flow_parameters()});
   return all;
 }
 

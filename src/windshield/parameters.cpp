@@ -15,8 +15,6 @@ namespace {
 
 using namespace rainref::scene;
 
-void append(std::vector<Parameter>& all, std::vector<Parameter> more) { all.insert(all.end(), more.begin(), more.end()); }
-
 /// The picture and its passes; size and margin are said elsewhere.
 const std::vector<MemberParameter<PictureSettings>>& picture_members() {
   using P = PictureSettings;
@@ -137,18 +135,6 @@ const std::vector<MemberParameter<Settings>>& step_members() {
   return table;
 }
 
-std::vector<Parameter> make_parameters() {
-  std::vector<Parameter> all = motion_parameters();
-  append(all, drops::parameters("windshield"));
-  append(all, parameters_of(step_members()));
-  append(all, drops::splat_parameters("windshield"));
-  append(all, parameters_of(scene_members()));
-  append(all, effect::sequence_parameters());
-  append(all, parameters_of(detail_members()));
-  append(all, parameters_of(picture_members()));
-  return all;
-}
-
 constexpr int fewest_texels = 8, most_texels = 16384;
 // Odd, so that panes of one scene, and of scenes with seeds beside one another, draw other numbers.
 constexpr std::uint64_t next_seed = 0x9e3779b97f4a7c15;
@@ -160,7 +146,10 @@ int texels(double of_windshield, double metres, double metres_of_windshield) {
 }  // namespace
 
 std::span<const Parameter> parameters() {
-  static const std::vector<Parameter> all = make_parameters();
+  static const std::vector<Parameter> all = parameters_of(
+      std::vector<MemberParameter<Settings>>(),
+      {motion_parameters(), drops::parameters("windshield"), parameters_of(step_members()), drops::splat_parameters("windshield"),
+       parameters_of(scene_members()), effect::sequence_parameters(), parameters_of(detail_members()), parameters_of(picture_members())});
   return all;
 }
 
@@ -170,15 +159,7 @@ Settings settings_from(const Config& config) {
   s.seed = static_cast<std::uint64_t>(config.integer("seed"));
   s.fps = config.real("run.fps");
   apply(step_members(), config, s);
-  const MotionSettings motion = motion_settings_from(config);
-  s.corners = motion.corners;
-  s.panes = motion.panes;
-  s.weather = motion.weather;
-  s.gravity = motion.gravity;
-  s.vehicle = motion.vehicle;
-  s.wipers = motion.wipers;
-  s.capture = motion.capture;
-  s.pane_wipers = motion.pane_wipers;
+  static_cast<MotionSettings&>(s) = motion_settings_from(config);
   s.drops = drops::settings_from(config, "windshield");
   const char* rate = s.corrected ? "rain.rate" : "windshield.spawn_rate";
   s.weather.rain = config.real(rate);
@@ -188,7 +169,7 @@ Settings settings_from(const Config& config) {
     throw Error(ExitCode::usage, config.entry(rate).origin.at,
                 fmt::format("{}: expected none beside rain.key_frames, found {:g}", rate, s.weather.rain));
 
-  const PlaneFrame plane = s.corrected ? motion.glass.plane() : motion.glass.axes();
+  const PlaneFrame plane = s.corrected ? s.glass.plane() : s.glass.axes();
   s.splat.corrected = s.corrected;
   s.splat.keys = drops::splat_keys(config, "windshield");
   s.splat.frame = plane.frame;
@@ -221,15 +202,14 @@ Settings settings_of_pane(const Settings& car, int number) {
   Settings s = car;
   if (number == 0) return s;
   s.corners = car.panes[static_cast<std::size_t>(number) - 1];
-  const Glass glass = make_glass(s.corners, pane_name(number)), windshield = make_glass(car.corners);
-  const PaneWipers& own = car.pane_wipers[static_cast<std::size_t>(number) - 1];
-  s.wipers = own.wipers;
-  s.capture = own.capture;
-  s.surface.half_width = own.wipers.half_width;
+  s.glass = make_glass(s.corners, pane_name(number));
+  static_cast<PaneWipers&>(s) = car.pane_wipers[static_cast<std::size_t>(number) - 1];
+  s.surface.half_width = s.wipers.half_width;
   s.drops.seed += static_cast<std::uint64_t>(number) * next_seed;
-  s.drops_share = glass.area / windshield.area;
+  s.drops_share = s.glass.area / car.glass.area;
   s.drops.spawn_rate *= s.drops_share;
-  const PlaneFrame plane = s.corrected ? glass.plane() : glass.axes(), of_windshield = s.corrected ? windshield.plane() : windshield.axes();
+  const PlaneFrame plane = s.corrected ? s.glass.plane() : s.glass.axes(),
+                   of_windshield = s.corrected ? car.glass.plane() : car.glass.axes();
   s.surface.frame = s.splat.frame = plane.frame;
   s.surface.width = s.splat.keys.width = texels(car.surface.width, plane.frame[0], of_windshield.frame[0]);
   s.surface.height = s.splat.keys.height = texels(car.surface.height, plane.frame[2], of_windshield.frame[2]);

@@ -8,12 +8,8 @@
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/settings.h"
 #include "drops/splat/splat.h"
-#include "math/constants.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
-#include "windshield/motion/host.h"
-#include "windshield/motion/vehicle.h"
-#include "windshield/motion/weather.h"
 #include "windshield/motion/parameters.h"
 #include "windshield/picture/falling_rain.h"
 #include "windshield/picture/picture.h"
@@ -21,20 +17,12 @@
 
 namespace rainref::windshield {
 
-struct Settings {
+struct Settings : MotionSettings {
   bool corrected = true;
   std::uint64_t seed = 1;
   double fps = 60;
   int substeps = 1;
-  Corners corners;
-  std::vector<Corners> panes;  ///< besides the windshield
-  double drops_share = 1;      ///< of a pane as published: its new drops over the windshield's
-  WeatherSettings weather;
-  double gravity = standard_gravity;
-  VehicleSettings vehicle;
-  WiperSettings wipers;
-  Capture capture;
-  std::vector<PaneWipers> pane_wipers;  ///< of each of `panes`
+  double drops_share = 1;  ///< of a pane as published: its new drops over the windshield's
   drops::Settings drops;
   drops::SplatSettings splat;
   SurfaceSettings surface;
