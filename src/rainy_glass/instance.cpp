@@ -15,14 +15,8 @@
 namespace rainref::rainy_glass {
 namespace {
 
-Image depth_of(const Instance::Sequences& sequences, const Image& colour, int frame, effect::Inputs& inputs) {
-  const std::int64_t picture = sequences.depth->shown_in(frame);
-  const image_io::Picture read = sequences.depth->read(picture, inputs);
-  try {
-    return effect::depth_of(read, sequences.depth_scale, backdrop_far, colour);
-  } catch (const Error& e) {
-    throw sequences.depth->about(e, picture);
-  }
+Image depth_of(const Instance::Sequences& s, const Image& colour, int frame, effect::Inputs& inputs) {
+  return effect::depth_in(*s.depth, frame, s.depth_scale, backdrop_far, colour, inputs);
 }
 Image colour_of(const Instance::Sequences& sequences, int frame, effect::Inputs& inputs) {
   return effect::linear_of(sequences.colour.read(sequences.colour.shown_in(frame), inputs));

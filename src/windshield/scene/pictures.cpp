@@ -30,19 +30,9 @@ ScenePictures::Shown ScenePictures::shown_in(int frame) const {
 Surroundings ScenePictures::read(int frame, effect::Inputs& files) const {
   Surroundings s;
   if (!colour_) return s;
-  const auto [of_colour, of_depth] = shown_in(frame);
-  const Image colour = effect::linear_of(colour_->read(of_colour, files));
+  const Image colour = effect::linear_of(colour_->read(colour_->shown_in(frame), files));
   s.colour = opaque_half(colour);
-  if (!depth_) {
-    s.depth = far_depth(colour.width(), colour.height());
-    return s;
-  }
-  const image_io::Picture picture = depth_->read(of_depth, files);
-  try {
-    s.depth = effect::depth_of(picture, depth_scale_, street_far, colour);
-  } catch (const Error& e) {
-    throw depth_->about(e, of_depth);
-  }
+  s.depth = depth_ ? effect::depth_in(*depth_, frame, depth_scale_, street_far, colour, files) : far_depth(colour.width(), colour.height());
   return s;
 }
 
