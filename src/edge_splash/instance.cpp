@@ -60,7 +60,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
-std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   const Settings settings = settings_from(config);
   check(settings);
   ScenePictures named(config, inputs);
@@ -99,7 +99,7 @@ std::vector<image_io::Layer> Instance::layers() const {
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), exposure_}; }
 
 effect::Effect entry() {
-  return {"edge_splash", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open};
+  return {"edge_splash", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::edge_splash

@@ -12,8 +12,9 @@
 namespace rainref::edge_splash {
 namespace {
 
-constexpr double root = 0.7071067811865476;
-constexpr double gradients[8][2] = {{1, 0}, {root, root}, {0, 1}, {-root, root}, {-1, 0}, {-root, -root}, {0, -1}, {root, -root}};
+constexpr double diagonal = 0.7071067811865476;
+constexpr double gradients[8][2] = {{1, 0},  {diagonal, diagonal},   {0, 1},  {-diagonal, diagonal},
+                                    {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}};
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 /// In [-1, 1] or so; period `cells` in both coordinates, at least 0.

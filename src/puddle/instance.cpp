@@ -87,7 +87,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
-std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   return std::make_unique<Instance>(settings_from(config), surroundings(config, executor, inputs), executor);
 }
 
@@ -110,6 +110,8 @@ std::optional<effect::Display> Instance::display() const {
                          corrected ? effect::Display::Code::srgb : effect::Display::Code::power};
 }
 
-effect::Effect entry() { return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open}; }
+effect::Effect entry() {
+  return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
+}
 
 }  // namespace rainref::puddle

@@ -88,7 +88,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
-std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   const Settings settings = settings_from(config);
   std::optional<Instance::Sequences> sequences;
   Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
@@ -137,7 +137,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"rainy_glass", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open};
+  return {"rainy_glass", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::rainy_glass

@@ -13,7 +13,7 @@ namespace {
 
 using namespace rainref::scene;
 
-const std::vector<MemberParameter<FlowSettings>>& members() {
+const std::vector<MemberParameter<FlowSettings>>& flow_members() {
   using F = FlowSettings;
   static const std::vector<MemberParameter<F>> table{
       integer<&F::substeps>("flow.substeps", "1", 1, 64, "Steps of the drops in a frame.").only(correct),
@@ -33,7 +33,7 @@ std::vector<Parameter> flow_parameters() {
   std::erase_if(all, [](const Parameter& p) { return p.key == "flow.rounding"; });
   // As wide to high as most screens.
   std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.key == "flow.height_size"; })->default_value = Integer2{1024, 576};
-  pass::append(all, parameters_of(members()));
+  pass::append(all, parameters_of(flow_members()));
   return all;
 }
 
@@ -41,7 +41,7 @@ FlowSettings flow_settings(const Config& config, const std::array<double, 2>& pa
   FlowSettings s;
   s.fps = config.real("run.fps");
   s.pane = pane;
-  apply(members(), config, s);
+  apply(flow_members(), config, s);
   s.drops = drops::still_settings_from(config, "flow");
   s.splat = drops::splat_keys(config, "flow", rounding);
   return s;

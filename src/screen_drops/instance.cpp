@@ -56,7 +56,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
-std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   const Settings settings = settings_from(config);
   std::optional<effect::PictureSource> sequence;
   Inputs seen = pictures(config, settings, sequence, executor, inputs);
@@ -115,7 +115,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open};
+  return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::screen_drops

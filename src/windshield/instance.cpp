@@ -31,7 +31,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
-std::unique_ptr<effect::Instance> open(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   ScenePictures named(config, inputs);
   Surroundings first = named.read(0, inputs);
   auto instance = std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
@@ -92,7 +92,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"windshield", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open};
+  return {"windshield", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::windshield
