@@ -14,7 +14,7 @@ namespace rainref::windshield {
 namespace {
 
 /// A multiple of the grid, a power of two: the quotient is exact and below 2^51.
-double nearest(double time, double grid) {
+double nearest_multiple(double time, double grid) {
   const double biased = time / grid + whole_bias;
   return (biased - whole_bias) * grid;
 }
@@ -27,7 +27,7 @@ double wiped_grid(double tau) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(tau) & exponent) * 0x1p-19;
 }
 float whole_step(double fps, int frame, double grid) {
-  return static_cast<float>(nearest((frame + 1) / fps, grid) - nearest(frame / fps, grid));
+  return static_cast<float>(nearest_multiple((frame + 1) / fps, grid) - nearest_multiple(frame / fps, grid));
 }
 float wiped_limit(double tau) { return static_cast<float>(wiped_grid(tau) * 0x1p24); }
 
