@@ -79,7 +79,8 @@ struct Flux {
 };
 Flux flux(const Settings& settings, double normal_z, double normal_wind);
 
-/// Memory of WetGlass and what its passes work with, with a film of columns x rows texels, while there are at most `live` drops, which may lean.
+/// Memory of WetGlass and what its passes work with, with a film of columns x rows texels, while there are at most `live` drops, which may
+/// lean.
 MemoryPeak memory(const Settings& settings, int columns, int rows, std::int64_t live, bool lean);
 
 }  // namespace rainref::drops
