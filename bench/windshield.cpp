@@ -7,7 +7,7 @@
 #include "scene/toml.h"
 #include "thread_counts.h"
 #include "windshield/parameters.h"
-#include "windshield/scene/images.h"
+#include "windshield/scene/pictures.h"
 
 namespace rainref::windshield {
 namespace {

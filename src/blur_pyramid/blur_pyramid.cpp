@@ -1,6 +1,5 @@
 #include "blur_pyramid/blur_pyramid.h"
 
-#include <algorithm>
 #include <span>
 
 #include "blur_pyramid/scalar.h"
@@ -10,27 +9,6 @@
 #include "rainref/error.h"
 
 namespace rainref::blur_pyramid {
-
-std::vector<scene::Parameter> blur_parameters(const std::string& prefix) {
-  const BlurSettings standard;
-  const auto key = [&](const char* name) { return prefix + "." + name; };
-  return {
-      scene::integer(key("blur_levels"), "1", 1, Texture::max_levels, standard.levels,
-                     "Levels of the blurred scene, the sharp one included."),
-      scene::real(key("fog_density"), "1/m", 0, 10, standard.fog_density, "Extinction of light in the air in front of the scene."),
-      scene::real3(key("fog_colour"), "1", 0, 1000, standard.fog_colour, "Linear radiance of the fog."),
-  };
-}
-BlurSettings blur_settings(const scene::Config& config, const std::string& prefix, Rounding rounding) {
-  const auto key = [&](const char* name) { return prefix + "." + name; };
-  BlurSettings s;
-  s.corrected = config.variant() == "corrected";
-  s.rounding = rounding;
-  s.levels = static_cast<int>(config.integer(key("blur_levels")));
-  s.fog_density = config.real(key("fog_density"));
-  s.fog_colour = config.real3(key("fog_colour"));
-  return s;
-}
 
 std::array<int, 2> level_size(int width, int height, int level) { return {std::max(1, width >> level), std::max(1, height >> level)}; }
 int level_count(int width, int height) {

@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "drops/motion/scalar.h"
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "math/whole.h"
 #include "pass/record_model.h"
 

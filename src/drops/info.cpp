@@ -6,7 +6,7 @@
 #include "drops/motion/spawn.pass.h"
 #include "drops/splat/splat.pass.h"
 #include "pass/info.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::drops {
 
@@ -15,9 +15,8 @@ using namespace rainref::capture;
 
 std::vector<UniformBlock> records() {
   return {Drop::layout(), GlassFrame::layout(), Neck::layout(),
-          record<SpawnMass>("SpawnMass", {member<&SpawnMass::mass>("mass", "1", "Mass of a size class of arrivals, as in Drop.")}),
-          record<CountThreshold>("CountThreshold", {member<&CountThreshold::threshold>(
-                                                       "threshold", "1", "A word not below k thresholds draws first_count + k drops.")})};
+          record<SpawnMass>({member<&SpawnMass::mass>("1", "Mass of a size class of arrivals, as in Drop.")}),
+          record<CountThreshold>({member<&CountThreshold::threshold>("1", "A word not below k thresholds draws first_count + k drops.")})};
 }
 
 std::vector<BufferInfo> buffers() {

@@ -1,4 +1,4 @@
-#include "drops/memory.h"
+#include "drops/host.h"
 
 #include <cstdint>
 

@@ -2,10 +2,8 @@
 // sets the order of the passes and puts its own between them.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "drops/host.h"

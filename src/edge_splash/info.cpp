@@ -3,7 +3,7 @@
 #include "edge_splash/splash.pass.h"
 #include "pass/display.h"
 #include "pass/info.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -31,13 +31,8 @@ EffectInfo make() {
       {.name = "noise_map", .format = "r32f", .sentence = "Noise at half its resolution, a tile.", .variant = correct},
       {.name = "layer", .format = "r8", .sentence = "1 where splashes may be.", .variant = correct},
   };
-  for (const BufferInfo& written : pass::buffers_of<PublishedSplashPass, SplashPass>()) info.buffers.push_back(written);
-  info.buffers.push_back({.name = "picture",
-                          .format = "rgba8",
-                          .sentence = "Display code, alpha 1. Row 0 is the bottom of the picture.",
-                          .encoding = "sRGB (IEC 61966-2-1)",
-                          .colour_space = "sRGB",
-                          .alpha = "1"});
+  pass::append(info.buffers, pass::buffers_of<PublishedSplashPass, SplashPass>());
+  info.buffers.push_back(pass::display_buffer());
   info.depth =
       "device depth of a perspective projection: uniforms depth_scale and depth_bias (corrected), scene keys scene.near, scene.far, "
       "scene.reversed_depth";

@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "edge_splash/evaluations.h"
-#include "edge_splash/scene_pictures.h"
 #include "edge_splash/host.h"
 #include "edge_splash/info.h"
-#include "edge_splash/memory.h"
 #include "edge_splash/parameters.h"
 #include "edge_splash/shapes.h"
 #include "image/flipped.h"
@@ -63,6 +60,16 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  check(settings);
+  ScenePictures named(config, inputs);
+  const Inputs first = pictures(config, settings, named, executor, inputs);
+  auto instance = std::make_unique<Instance>(settings, first, std::move(named), executor);
+  for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
+  return instance;
+}
+
 }  // namespace
 
 Instance::Instance(const Settings& settings, const Inputs& pictures, ScenePictures named, const parallel::Executor& executor)
@@ -92,21 +99,7 @@ std::vector<image_io::Layer> Instance::layers() const {
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), exposure_}; }
 
 effect::Effect entry() {
-  return {"edge_splash",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            check(settings);
-            ScenePictures named(config, inputs);
-            const Inputs first = pictures(config, settings, named, executor, inputs);
-            auto instance = std::make_unique<Instance>(settings, first, std::move(named), executor);
-            for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
-            return instance;
-          }};
+  return {"edge_splash", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::edge_splash

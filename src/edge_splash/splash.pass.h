@@ -22,24 +22,19 @@ struct SplashResults {
 };
 
 /// As published. A read outside the depth or the noise is 0.
-struct PublishedSplashPass {
+struct PublishedSplashPass : pass::Takes<PublishedSplashUniforms> {
   static constexpr pass::About about{"splash", splash_sentence, {1}, {}, {"sobel", "length"}};
-  using Uniforms = PublishedSplashUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "PublishedSplashUniforms",
-        {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
-         member<&U::width>("width", "texel", {1, 65536}, "Columns of the picture."),
-         member<&U::height>("height", "texel", {1, 65536}, "Rows of the picture."),
-         member<&U::noise_width>("noise_width", "texel", {2, 65536}, "Columns of the noise map."),
-         member<&U::noise_height>("noise_height", "texel", {2, 65536}, "Rows of the noise map."),
-         member<&U::edge_threshold>("edge_threshold", "1", scene::share, "Sobel sum of device depths that counts as an edge."),
-         member<&U::rain_drop_scale>("rain_drop_scale", "1", scene::share, "Threshold of the noise."),
-         member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
-         member<&U::drop_speed>("drop_speed", "texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),
-         member<&U::thickness>("thickness", "texel", {0, 20}, "Distance of the taps where the depth is 1.")});
+    return block({member<&U::drop_color>("1", scene::radiance, "Linear RGB and opacity of the drops."),
+                  member<&U::width>("texel", {1, 65536}, "Columns of the picture."),
+                  member<&U::height>("texel", {1, 65536}, "Rows of the picture."),
+                  member<&U::noise_width>("texel", {2, 65536}, "Columns of the noise map."),
+                  member<&U::noise_height>("texel", {2, 65536}, "Rows of the noise map."),
+                  member<&U::edge_threshold>("1", scene::share, "Sobel sum of device depths that counts as an edge."),
+                  member<&U::rain_drop_scale>("1", scene::share, "Threshold of the noise."),
+                  member<&U::time>("s", scene::frame_time, "Frame number over frame rate, rounded once."),
+                  member<&U::drop_speed>("texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),
+                  member<&U::thickness>("texel", {0, 20}, "Distance of the taps where the depth is 1.")});
   }
   template <class B>
   struct Io {
@@ -51,33 +46,28 @@ struct PublishedSplashPass {
     typename R::Colour colour = R::colour;
   };
 };
-struct SplashPass {
+struct SplashPass : pass::Takes<SplashUniforms> {
   static constexpr pass::About about{"splash", splash_sentence, {}, {1}, {"sobel", "length"}};
-  using Uniforms = SplashUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SplashUniforms",
-        {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
-         member<&U::up>("up", "1", scene::component, "Unit vector that points up, camera axes: right, up, forward."),
-         member<&U::reach>("reach", "texel", {0, 1e9}, "Texels that the band covers at 1 m."),
-         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::depth_scale>("depth_scale", "1/m", {-1e4, 1e4}, "1 / z = depth_scale d + depth_bias."),
-         member<&U::depth_bias>("depth_bias", "1/m", {0, 1e4}, "See depth_scale."),
-         member<&U::reach_min>("reach_min", "texel", scene::whole(1, 4096), "Smallest reach of the taps."),
-         member<&U::reach_max>("reach_max", "texel", scene::whole(1, 4096), "Largest reach of the taps; whole."),
-         member<&U::step_low>("step_low", "m", {0, 1e5}, "Sobel sum of distances at which an edge begins."),
-         member<&U::step_high>("step_high", "m", {0, 1e5}, "Sobel sum from which it is whole."),
-         member<&U::bend_low>("bend_low", "1", {0, 11}, "Bend at which an edge begins."),
-         member<&U::bend_high>("bend_high", "1", {0, 11}, "Bend from which it is whole."),
-         member<&U::cosine_low>("cosine_low", "1", {0, 11}, "Cosine between an edge's normal and up at which the mask begins."),
-         member<&U::cosine_high>("cosine_high", "1", {0, 11}, "Cosine from which it is whole."),
-         member<&U::noise_low>("noise_low", "1", {0, 11}, "Noise at which a drop begins."),
-         member<&U::noise_high>("noise_high", "1", {0, 11}, "Noise from which it is whole."),
-         member<&U::noise_scale>("noise_scale", "1", {0, 1e7}, "Texture coordinates of the noise in a pixel."),
-         member<&U::noise_offset>("noise_offset", "1", scene::share, "Texture coordinates that the noise has scrolled, in [0, 1).")});
+    return block({member<&U::drop_color>("1", scene::radiance, "Linear RGB and opacity of the drops."),
+                  member<&U::up>("1", scene::component, "Unit vector that points up, camera axes: right, up, forward."),
+                  member<&U::reach>("texel", {0, 1e9}, "Texels that the band covers at 1 m."),
+                  member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                  member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                  member<&U::depth_scale>("1/m", {-1e4, 1e4}, "1 / z = depth_scale d + depth_bias."),
+                  member<&U::depth_bias>("1/m", {0, 1e4}, "See depth_scale."),
+                  member<&U::reach_min>("texel", scene::whole(1, 4096), "Smallest reach of the taps."),
+                  member<&U::reach_max>("texel", scene::whole(1, 4096), "Largest reach of the taps; whole."),
+                  member<&U::step_low>("m", {0, 1e5}, "Sobel sum of distances at which an edge begins."),
+                  member<&U::step_high>("m", {0, 1e5}, "Sobel sum from which it is whole."),
+                  member<&U::bend_low>("1", {0, 11}, "Bend at which an edge begins."),
+                  member<&U::bend_high>("1", {0, 11}, "Bend from which it is whole."),
+                  member<&U::cosine_low>("1", {0, 11}, "Cosine between an edge's normal and up at which the mask begins."),
+                  member<&U::cosine_high>("1", {0, 11}, "Cosine from which it is whole."),
+                  member<&U::noise_low>("1", {0, 11}, "Noise at which a drop begins."),
+                  member<&U::noise_high>("1", {0, 11}, "Noise from which it is whole."),
+                  member<&U::noise_scale>("1", {0, 1e7}, "Texture coordinates of the noise in a pixel."),
+                  member<&U::noise_offset>("1", scene::share, "Texture coordinates that the noise has scrolled, in [0, 1).")});
   }
   template <class B>
   struct Io {

@@ -10,7 +10,6 @@
 #include "cache/remembered.h"
 #include "effect/npy_picture.h"
 #include "image/flipped.h"
-#include "rainref/error.h"
 #include "scene/check.h"
 
 namespace rainref::effect {

@@ -15,7 +15,6 @@ RAINREF_TARGET_BEGIN(pass)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/optics-inl.h"
-#include "pass/display.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 RAINREF_PASS_ROWS(DisplayPass)
@@ -47,6 +46,14 @@ capture::PassInfo display_info(const std::string& from) {
   capture::PassInfo info = info_of<DisplayPass>();
   info.reads.front().from = from;
   return info;
+}
+capture::BufferInfo display_buffer() {
+  return {.name = "picture",
+          .format = "rgba8",
+          .sentence = "Display code, alpha 1. Row 0 is the bottom of the picture.",
+          .encoding = "sRGB (IEC 61966-2-1)",
+          .colour_space = "sRGB",
+          .alpha = "1"};
 }
 std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c) { return bind<DisplayPass, scalar::DisplayPassText>(c); }
 

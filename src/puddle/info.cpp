@@ -6,7 +6,7 @@
 #include "puddle/shade.pass.h"
 #include "puddle/surface_hit.pass.h"
 #include "puddle/wave_step.pass.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::puddle {
 namespace {
@@ -15,17 +15,14 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 EffectInfo make() {
-  const UniformBlock drop = record<Drop>(
-      "Drop",
-      {member<&Drop::x>("x", "texel", "Centre; texel centres lie at k + 1/2."), member<&Drop::y>("y", "texel", "Centre."),
-       member<&Drop::amplitude>("amplitude", "1", "as-published: strength times activation; corrected: stored height at the centre."),
-       member<&Drop::radius>("radius", "texel", "Nothing is added from this distance on.")});
-  const UniformBlock threshold = record<CountThreshold>(
-      "CountThreshold",
-      {member<&CountThreshold::threshold>("threshold", "1", "A word not below k thresholds draws first_count + k drops.")});
+  const UniformBlock drop =
+      record<Drop>({member<&Drop::x>("texel", "Centre; texel centres lie at k + 1/2."), member<&Drop::y>("texel", "Centre."),
+                    member<&Drop::amplitude>("1", "as-published: strength times activation; corrected: stored height at the centre."),
+                    member<&Drop::radius>("texel", "Nothing is added from this distance on.")});
+  const UniformBlock threshold =
+      record<CountThreshold>({member<&CountThreshold::threshold>("1", "A word not below k thresholds draws first_count + k drops.")});
 
-  const UniformBlock cell =
-      record<ShelterCell>("ShelterCell", {member<&ShelterCell::open>("open", "1", "Of 65536 drops over this cell so many fall.")});
+  const UniformBlock cell = record<ShelterCell>({member<&ShelterCell::open>("1", "Of 65536 drops over this cell so many fall.")});
 
   EffectInfo info;
   info.name = "puddle";
@@ -42,6 +39,7 @@ EffectInfo make() {
       "latitude/longitude, width not height / 6: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks "
       "straight down; "
       "cube, height = 6 width: faces +x -x +y -y +z -z below each other, each from its first row as graphics APIs orient it";
+  const auto append = [&](const std::vector<BufferInfo>& more) { pass::append(info.buffers, more); };
   info.buffers = {
       {.name = "craters",
        .format = "records",
@@ -67,7 +65,6 @@ EffectInfo make() {
        .record = "Drop",
        .variant = correct},
   };
-  const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
   append(pass::buffers_of<PublishedRaindropsPass, RaindropsPass>());
   append(pass::buffers_of<WaveStepPass>());
   append({

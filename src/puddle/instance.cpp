@@ -10,9 +10,8 @@
 #include "math/real64.h"
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
-#include "puddle/evaluations.h"
 #include "puddle/info.h"
-#include "puddle/memory.h"
+#include "puddle/host.h"
 #include "puddle/parameters.h"
 #include "scene/camera.h"
 
@@ -88,6 +87,10 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  return std::make_unique<Instance>(settings_from(config), surroundings(config, executor, inputs), executor);
+}
+
 }  // namespace
 
 Instance::Instance(const Settings& settings, Surroundings surroundings, const parallel::Executor& executor)
@@ -108,15 +111,7 @@ std::optional<effect::Display> Instance::display() const {
 }
 
 effect::Effect entry() {
-  return {"puddle",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            return std::make_unique<Instance>(settings_from(config), surroundings(config, executor, inputs), executor);
-          }};
+  return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::puddle

@@ -7,28 +7,23 @@
 
 namespace rainref::puddle {
 
-struct SurfaceHitPass {
+struct SurfaceHitPass : pass::Takes<SurfaceHitUniforms> {
   static constexpr pass::About about{
       "surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {1}, {2}, {"dot", "length", "normalize"}};
-  using Uniforms = SurfaceHitUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SurfaceHitUniforms",
-        with_camera<U>(
-            {member<&U::half_size>("half_size", "m", {0, 1e5}, "Half the puddle's extent."),
-             member<&U::epsilon>("epsilon", "m", {1e-5, 1}, "Distance that counts as a hit."),
-             member<&U::texel>("texel", "1", scene::share, "1 over the wave's columns and rows."),
-             member<&U::max_steps>("max_steps", "1", {1, 4096}, "Most steps of the march."),
-             member<&U::normal_gain>("normal_gain", "1", {0, 1e5}, "Factor from a height difference to a slope."),
-             member<&U::height_scale>("height_scale", "m", {0, 2}, "corrected: height = scale * stored + bias."),
-             member<&U::height_bias>("height_bias", "m", {-1, 0}, "corrected: see height_scale."),
-             member<&U::surface_top>("surface_top", "m", {0, 1e6}, "corrected: no height lies above this, or below its negative."),
-             member<&U::surface_slope>("surface_slope", "1", {0, 1e9}, "corrected: no slope of the surface is above this."),
-             member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
-             member<&U::bounds_scale>("bounds_scale", "1", scene::share, "corrected: texture coordinates of bounds to one of the water."),
-             member<&U::bounds_reach>("bounds_reach", "m", {0, 1e6}, "corrected: a texel of bounds holds this far around its points.")}));
+    return block(
+        with_camera<U>({member<&U::half_size>("m", {0, 1e5}, "Half the puddle's extent."),
+                        member<&U::epsilon>("m", {1e-5, 1}, "Distance that counts as a hit."),
+                        member<&U::texel>("1", scene::share, "1 over the wave's columns and rows."),
+                        member<&U::max_steps>("1", {1, 4096}, "Most steps of the march."),
+                        member<&U::normal_gain>("1", {0, 1e5}, "Factor from a height difference to a slope."),
+                        member<&U::height_scale>("m", {0, 2}, "corrected: height = scale * stored + bias."),
+                        member<&U::height_bias>("m", {-1, 0}, "corrected: see height_scale."),
+                        member<&U::surface_top>("m", {0, 1e6}, "corrected: no height lies above this, or below its negative."),
+                        member<&U::surface_slope>("1", {0, 1e9}, "corrected: no slope of the surface is above this."),
+                        member<&U::inverse_size>("1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+                        member<&U::bounds_scale>("1", scene::share, "corrected: texture coordinates of bounds to one of the water."),
+                        member<&U::bounds_reach>("m", {0, 1e6}, "corrected: a texel of bounds holds this far around its points.")}));
   }
   template <class B>
   struct Io {

@@ -9,7 +9,6 @@
 #include "night_street/night_street.h"
 #include "parallel/rows.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/storage.h"
 #include "scene/panorama_view.h"
 
 namespace rainref::rainy_glass {

@@ -4,7 +4,7 @@
 #include "pass/info.h"
 #include "rainy_glass/bake.pass.h"
 #include "rainy_glass/rain_on_glass.pass.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -13,19 +13,16 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 EffectInfo make() {
-  const UniformBlock droplet = record<Droplet>(
-      "Droplet", {member<&Droplet::x>("x", "1", "Centre, in tiles."), member<&Droplet::y>("y", "1", "Centre."),
-                  member<&Droplet::radius>("radius", "1", "Of a disc that holds it, in tiles."),
-                  member<&Droplet::height>("height", "1", "At the centre."),
-                  member<&Droplet::m00>("m00", "1", "q = M d is 1 long at the rim."), member<&Droplet::m01>("m01", "1", "M is symmetric."),
-                  member<&Droplet::m11>("m11", "1", "See m00."), member<&Droplet::offset>("offset", "1", "Of its timer.")});
+  const UniformBlock droplet =
+      record<Droplet>({member<&Droplet::x>("1", "Centre, in tiles."), member<&Droplet::y>("1", "Centre."),
+                       member<&Droplet::radius>("1", "Of a disc that holds it, in tiles."), member<&Droplet::height>("1", "At the centre."),
+                       member<&Droplet::m00>("1", "q = M d is 1 long at the rim."), member<&Droplet::m01>("1", "M is symmetric."),
+                       member<&Droplet::m11>("1", "See m00."), member<&Droplet::offset>("1", "Of its timer.")});
   const UniformBlock trail = record<Trail>(
-      "Trail", {member<&Trail::x>("x", "1", "Centre of the head, in tiles."), member<&Trail::y>("y", "1", "Centre of the head."),
-                member<&Trail::half_width>("half_width", "1", "Of the head."),
-                member<&Trail::inverse_length>("inverse_length", "1", "1 over the length of the tail."),
-                member<&Trail::height>("height", "1", "Of the head."), member<&Trail::wiggle>("wiggle", "1", "Amplitude of the winding."),
-                member<&Trail::wiggle_rate>("wiggle_rate", "1", "Turns of the winding in a tile."),
-                member<&Trail::wiggle_phase>("wiggle_phase", "1", "At the head, in turns.")});
+      {member<&Trail::x>("1", "Centre of the head, in tiles."), member<&Trail::y>("1", "Centre of the head."),
+       member<&Trail::half_width>("1", "Of the head."), member<&Trail::inverse_length>("1", "1 over the length of the tail."),
+       member<&Trail::height>("1", "Of the head."), member<&Trail::wiggle>("1", "Amplitude of the winding."),
+       member<&Trail::wiggle_rate>("1", "Turns of the winding in a tile."), member<&Trail::wiggle_phase>("1", "At the head, in turns.")});
 
   EffectInfo info;
   info.name = "rainy_glass";
@@ -36,6 +33,7 @@ EffectInfo make() {
       pass::display_info("rain_on_glass"),
   };
   const std::array<double, 2> signed_one{-1, 1};
+  const auto append = [&](const std::vector<BufferInfo>& more) { pass::append(info.buffers, more); };
   info.buffers = {
       {.name = "droplets",
        .format = "records",
@@ -47,7 +45,6 @@ EffectInfo make() {
        .sentence = "Unit gradients of the flow across (x, y) and along (z, w) the glass.",
        .range = signed_one},
   };
-  const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
   append(pass::buffers_of<BakeRaindropsPass>());
   append(pass::buffers_of<BakeRivuletsPass>());
   append({
@@ -83,12 +80,7 @@ EffectInfo make() {
            "latitude/longitude: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down"},
   });
   append(pass::buffers_of<RainOnGlassPass>());
-  info.buffers.push_back({.name = "picture",
-                          .format = "rgba8",
-                          .sentence = "Display code, alpha 1. Row 0 is the bottom of the picture.",
-                          .encoding = "sRGB (IEC 61966-2-1)",
-                          .colour_space = "sRGB",
-                          .alpha = "1"});
+  info.buffers.push_back(pass::display_buffer());
   info.records = {droplet, trail};
   return info;
 }

@@ -7,24 +7,16 @@
 #include "parallel/rows.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
-#include "rainy_glass/evaluations.h"
 #include "rainy_glass/info.h"
-#include "rainy_glass/memory.h"
+#include "rainy_glass/host.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/shown.h"
-#include "rainy_glass/storage.h"
 
 namespace rainref::rainy_glass {
 namespace {
 
-Image depth_of(const Instance::Sequences& sequences, const Image& colour, int frame, effect::Inputs& inputs) {
-  const std::int64_t picture = sequences.depth->shown_in(frame);
-  const image_io::Picture read = sequences.depth->read(picture, inputs);
-  try {
-    return effect::depth_of(read, sequences.depth_scale, backdrop_far, colour);
-  } catch (const Error& e) {
-    throw sequences.depth->about(e, picture);
-  }
+Image depth_of(const Instance::Sequences& s, const Image& colour, int frame, effect::Inputs& inputs) {
+  return effect::depth_in(*s.depth, frame, s.depth_scale, backdrop_far, colour, inputs);
 }
 Image colour_of(const Instance::Sequences& sequences, int frame, effect::Inputs& inputs) {
   return effect::linear_of(sequences.colour.read(sequences.colour.shown_in(frame), inputs));
@@ -96,6 +88,13 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  std::optional<Instance::Sequences> sequences;
+  Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
+  return std::make_unique<Instance>(settings, std::move(around), std::move(sequences), executor);
+}
+
 }  // namespace
 
 Instance::Instance(const Settings& settings, Surroundings surroundings, std::optional<Sequences> sequences,
@@ -138,18 +137,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"rainy_glass",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            std::optional<Instance::Sequences> sequences;
-            Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
-            return std::make_unique<Instance>(settings, std::move(around), std::move(sequences), executor);
-          }};
+  return {"rainy_glass", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::rainy_glass

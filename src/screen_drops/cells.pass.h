@@ -11,24 +11,19 @@
 namespace rainref::screen_drops {
 
 /// No lanes: whole numbers are drawn one cell at a time, which cells_rows keeps from frame to frame.
-struct CellsPass {
+struct CellsPass : pass::Takes<CellsUniforms> {
   static constexpr pass::About about{"cells", "The drop that each cell of four grids holds now.", {}, {1}};
-  using Uniforms = CellsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("CellsUniforms",
-                                   {member<&U::seed>("seed", "1", scene::any_word, "Low and high word of the seed."),
-                                    member<&U::tick>("tick", "ms", scene::any_word, "The frame's time, modulo 2^32."),
-                                    member<&U::keep>("keep", "1", {0, 65536}, "Of 65536 cells hold a drop."),
-                                    member<&U::columns>("columns", "cell", {1, 65536}, "Columns of each layer."),
-                                    member<&U::rows>("rows", "cell", {1, 65536}, "Rows of each layer."),
-                                    member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of the buffer where each layer begins.")
-                                        .guarded("the first layer begins in row 0"),
-                                    member<&U::shortest>("shortest", "ms", {1, 65535}, "Shortest cycle."),
-                                    member<&U::span>("span", "ms", {0, 65535}, "Longest cycle less shortest."),
-                                    member<&U::largest>("largest", "cell", scene::share, "Radius of a layer's largest drop."),
-                                    member<&U::impact>("impact", "1", scene::share, "Share of the cycle in which a drop spreads.")});
+    return block(
+        {member<&U::seed>("1", scene::any_word, "Low and high word of the seed."),
+         member<&U::tick>("ms", scene::any_word, "The frame's time, modulo 2^32."),
+         member<&U::keep>("1", {0, 65536}, "Of 65536 cells hold a drop."),
+         member<&U::columns>("cell", {1, 65536}, "Columns of each layer."), member<&U::rows>("cell", {1, 65536}, "Rows of each layer."),
+         member<&U::first_row>("texel", {0, 1 << 24}, "Row of the buffer where each layer begins.")
+             .guarded("the first layer begins in row 0"),
+         member<&U::shortest>("ms", {1, 65535}, "Shortest cycle."), member<&U::span>("ms", {0, 65535}, "Longest cycle less shortest."),
+         member<&U::largest>("cell", scene::share, "Radius of a layer's largest drop."),
+         member<&U::impact>("1", scene::share, "Share of the cycle in which a drop spreads.")});
   }
   template <class Bound>
   static std::string fault(const Bound& b) {

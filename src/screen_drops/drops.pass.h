@@ -12,30 +12,24 @@ inline constexpr std::string_view drops_sentence = "The scene through the drops 
 inline constexpr pass::Out drops_colour{
     .name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
 
-struct PublishedDropsPass {
+struct PublishedDropsPass : pass::Takes<PublishedDropsUniforms> {
   static constexpr pass::About about{"drops", drops_sentence, {2}, {}, {"dot", "length", "normalize"}};
-  using Uniforms = PublishedDropsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "PublishedDropsUniforms",
-        {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
-         member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
-         member<&U::grid>("grid", "cell/pixel", scene::share, "Cells of layer 1 in a pixel."),
-         member<&U::keep>("keep", "1", scene::share, "Times keep_from - layer: the noise below which a cell holds a drop."),
-         member<&U::refraction>("refraction", "1", scene::component, "Pictures per unit of the normal."),
-         member<&U::printed_misprint>("printed_misprint", "1", scene::flag, "1: the displacement as the report prints it."),
-         member<&U::noise_nearest>("noise_nearest", "1", scene::flag, "1: noise is looked up unfiltered, texel floor(fract(u) size)."),
-         member<&U::layers>("layers", "1", scene::whole(1, most_published_layers), "Grids of cells."),
-         member<&U::water_step>("water_step", "1", scene::share, "1 over layers."),
-         member<&U::cell_angle>("cell_angle", "rad", {0, 100}, "Of the sine over a cell."),
-         member<&U::noise_middle>("noise_middle", "1", scene::share, "Noise that displaces nothing."),
-         member<&U::displacement>("displacement", "rad", {-100, 100}, "Of the grid per unit of noise."),
-         member<&U::keep_from>("keep_from", "1", {0, 100}, "Layer from which on no cell holds a drop."),
-         member<&U::threshold>("threshold", "1", {least_threshold, 2}, "Sum of the sines above which a drop is."),
-         member<&U::printed_normal>("printed_normal", "1", scene::flag,
-                                    "1: the normal as the report prints it, of the cosine of a sine.")});
+    return block({member<&U::resolution>("pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
+                  member<&U::time>("s", scene::frame_time, "Frame number over frame rate, rounded once."),
+                  member<&U::grid>("cell/pixel", scene::share, "Cells of layer 1 in a pixel."),
+                  member<&U::keep>("1", scene::share, "Times keep_from - layer: the noise below which a cell holds a drop."),
+                  member<&U::refraction>("1", scene::component, "Pictures per unit of the normal."),
+                  member<&U::printed_misprint>("1", scene::flag, "1: the displacement as the report prints it."),
+                  member<&U::noise_nearest>("1", scene::flag, "1: noise is looked up unfiltered, texel floor(fract(u) size)."),
+                  member<&U::layers>("1", scene::whole(1, most_published_layers), "Grids of cells."),
+                  member<&U::water_step>("1", scene::share, "1 over layers."),
+                  member<&U::cell_angle>("rad", {0, 100}, "Of the sine over a cell."),
+                  member<&U::noise_middle>("1", scene::share, "Noise that displaces nothing."),
+                  member<&U::displacement>("rad", {-100, 100}, "Of the grid per unit of noise."),
+                  member<&U::keep_from>("1", {0, 100}, "Layer from which on no cell holds a drop."),
+                  member<&U::threshold>("1", {least_threshold, 2}, "Sum of the sines above which a drop is."),
+                  member<&U::printed_normal>("1", scene::flag, "1: the normal as the report prints it, of the cosine of a sine.")});
   }
   template <class B>
   struct Io {
@@ -48,34 +42,28 @@ struct PublishedDropsPass {
   };
 };
 /// corrected. Its lanes are written by hand: see kernels.cpp.
-struct DropsPass {
+struct DropsPass : pass::Takes<DropsUniforms> {
   static constexpr pass::About about{"drops", drops_sentence, {}, {1}, {"dot", "length", "normalize"}};
-  using Uniforms = DropsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "DropsUniforms",
-        {member<&U::cells_per_pixel>("cells_per_pixel", "cell/pixel", {0, 1e6}, "Of each layer."),
-         member<&U::offset_x>("offset_x", "cell", scene::share, "Place of the picture's corner in each layer."),
-         member<&U::offset_y>("offset_y", "cell", scene::share, "Place of the picture's corner in each layer."),
-         member<&U::pixels_per_cell>("pixels_per_cell", "pixel/cell", {0, 1e9}, "Of each layer."),
-         member<&U::level>("level", "1", {0, 32}, "Mip level at which each layer's drops see the scene."),
-         member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of cells where each layer begins.")
-             .guarded("the first layer begins in row 0"),
-         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
-         member<&U::sine>("sine", "1", scene::share, "Of the contact angle."),
-         member<&U::water_ior>("water_ior", "1", {1, 2}, "Refractive index of water."),
-         member<&U::inner>("inner", "1", scene::share, "Share of the background that the water's surface mirrors."),
-         member<&U::has_flow>("has_flow", "1", scene::flag, "1: height counts."),
-         member<&U::flow_slope>("flow_slope", "1/mm", {0, 1e9}, "Slope per difference of heights two texels apart."),
-         member<&U::flow_pixel>("flow_pixel", "1", scene::share, "1 over the picture's columns and rows."),
-         member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which flowing water begins to show."),
-         member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
-         member<&U::flow_level>("flow_level", "1", {0, 32}, "Mip level at which flowing water sees the scene."),
-         member<&U::flow_texel>("flow_texel", "1", scene::share, "1 over the columns and rows of height.")});
+    return block(
+        {member<&U::cells_per_pixel>("cell/pixel", {0, 1e6}, "Of each layer."),
+         member<&U::offset_x>("cell", scene::share, "Place of the picture's corner in each layer."),
+         member<&U::offset_y>("cell", scene::share, "Place of the picture's corner in each layer."),
+         member<&U::pixels_per_cell>("pixel/cell", {0, 1e9}, "Of each layer."),
+         member<&U::level>("1", {0, 32}, "Mip level at which each layer's drops see the scene."),
+         member<&U::first_row>("texel", {0, 1 << 24}, "Row of cells where each layer begins.").guarded("the first layer begins in row 0"),
+         member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+         member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+         member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+         member<&U::sine>("1", scene::share, "Of the contact angle."), member<&U::water_ior>("1", {1, 2}, "Refractive index of water."),
+         member<&U::inner>("1", scene::share, "Share of the background that the water's surface mirrors."),
+         member<&U::has_flow>("1", scene::flag, "1: height counts."),
+         member<&U::flow_slope>("1/mm", {0, 1e9}, "Slope per difference of heights two texels apart."),
+         member<&U::flow_pixel>("1", scene::share, "1 over the picture's columns and rows."),
+         member<&U::visible_from>("mm", {0, 10}, "Height at which flowing water begins to show."),
+         member<&U::visible_to>("mm", {0, 10}, "Height from which it shows fully."),
+         member<&U::flow_level>("1", {0, 32}, "Mip level at which flowing water sees the scene."),
+         member<&U::flow_texel>("1", scene::share, "1 over the columns and rows of height.")});
   }
   template <class B>
   struct Io {

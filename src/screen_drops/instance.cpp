@@ -9,11 +9,9 @@
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
 #include "scene/panorama_view.h"
-#include "screen_drops/evaluations.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/info.h"
-#include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
 #include "screen_drops/shown.h"
 
@@ -56,6 +54,14 @@ effect::RunMemory memory_of(const scene::Config& config) {
   m.peak.then(memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));
   if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(4 * image_bytes(m, Format::rgba32f));  // decoded, turned over, its mips
   return m;
+}
+
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  std::optional<effect::PictureSource> sequence;
+  Inputs seen = pictures(config, settings, sequence, executor, inputs);
+  const std::optional<FlowSettings> flow = flow_from(config, settings);
+  return std::make_unique<Instance>(settings, std::move(seen), std::move(sequence), flow ? &*flow : nullptr, executor);
 }
 
 }  // namespace
@@ -109,19 +115,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"screen_drops",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            std::optional<effect::PictureSource> sequence;
-            Inputs seen = pictures(config, settings, sequence, executor, inputs);
-            const std::optional<FlowSettings> flow = flow_from(config, settings);
-            return std::make_unique<Instance>(settings, std::move(seen), std::move(sequence), flow ? &*flow : nullptr, executor);
-          }};
+  return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::screen_drops

@@ -11,7 +11,7 @@
 #include "rainref/error.h"
 #include "registry/registry.h"
 #include "simulation/picture_notes.h"
-#include "simulation/supersampling.h"
+#include "simulation/light_mean.h"
 
 namespace rainref::simulation {
 namespace {

@@ -8,7 +8,7 @@
 #include "compositor/plates.h"
 #include "truth/puddle_ground.h"
 #include "math/constants.h"
-#include "puddle/environment.h"
+#include "puddle/scenery.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
 #include "rainref/error.h"

@@ -5,14 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "compositor/face_patch.h"
 #include "compositor/optics.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/storage.h"
-#include "pass/display.h"
-#include "truth/uncovered.h"
+#include "truth/pane_truth.h"
 
 namespace rainref::truth {
 namespace {
@@ -208,9 +205,7 @@ std::unique_ptr<Scene> RainyGlassView::scene(const rainy_glass::RainyGlass& rend
 }
 
 Image RainyGlassView::display(const Image& radiance, const parallel::Executor& executor) const {
-  Image picture(Format::rgba8, radiance.width(), radiance.height());
-  pass::display_run(settings_.exposure, settings_.rounding, radiance, picture).tiles(executor, 8);
-  return picture;
+  return display_of(settings_.exposure, settings_.rounding, radiance, executor);
 }
 
 }  // namespace rainref::truth

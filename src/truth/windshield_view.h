@@ -10,9 +10,10 @@
 #include "compositor/picture.h"
 #include "night_street/night_street.h"
 #include "rainref/windshield.h"
+#include "truth/difference.h"
 #include "truth/picture_relief.h"
-#include "windshield/parameters.h"
 #include "truth/tracer_names.h"
+#include "windshield/parameters.h"
 
 namespace rainref::truth {
 
@@ -48,6 +49,22 @@ class WindshieldView {
   night_street::Street::Sight look(double distance, const Vec& origin, const Vec& direction) const;
   scene::Camera camera() const { return windshield::camera(settings_.picture); }
   const windshield::Settings& settings() const { return settings_; }
+  int width() const { return settings_.picture.width; }
+  int height() const { return settings_.picture.height; }
+  /// The picture that the windshield's display makes of a radiance (rgba16f). rgba8.
+  Image display(const Image& radiance, const parallel::Executor& executor) const;
+
+  /// What composite makes of a wet windshield against what rays make of it, on the glass; `rendered` has rendered a frame, whose pictures
+  /// this view shows where it is not of the street. A pixel is a drop's where composite shows it as one by half or more, else the film's.
+  ///   pixels                   glass_pixels, drop_pixels; mirrored_pixels: drops' whose ray meets the water's surface beyond the critical
+  ///                            angle
+  ///   refraction [deg]         drops: between the place outside that composite shows and the one that the refracted ray meets, as the
+  ///                            eye sees them; not where the ray is mirrored
+  ///   refraction_film [deg]    the same where there is neither drop nor water: what the pane alone does
+  ///   colour, colour_film      linear radiance, the channel that differs most: drops, and the rest
+  ///   display                  everywhere: code values of 255, the channel that differs most
+  /// Refraction by the ray through the pixel's centre, colours by options.samples rays.
+  Comparison compare(const windshield::Windshield& rendered, const PictureOptions& options, const parallel::Executor& executor) const;
 
  private:
   windshield::Settings settings_;

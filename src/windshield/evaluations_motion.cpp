@@ -4,11 +4,11 @@
 #include <numeric>
 #include <set>
 
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "math/whole.h"
 #include "pass/record_model.h"
-#include "windshield/evaluations.h"
-#include "windshield/motion/wipe_drops.h"
+#include "windshield/info.h"
+#include "windshield/motion/kernels.h"
 #include "windshield/scalar.h"
 
 namespace rainref::windshield {
@@ -55,7 +55,7 @@ struct Sweep {
   }
 };
 
-constexpr std::uint64_t most = static_cast<std::uint64_t>(drops::most_mass);
+constexpr std::uint64_t most_units = static_cast<std::uint64_t>(drops::most_mass);
 /// Whole mass units, as the pass has them.
 std::uint64_t mass_units_of(float x) { return x > 0 ? static_cast<std::uint64_t>(std::min(x, drops::most_mass)) : 0; }
 
@@ -116,7 +116,7 @@ class SweptDrops : public capture::KeyedModel {
       Enclosure& mass = out[at].floats[4];
       const std::uint64_t have = mass_units_of(mass.lo);
       const auto [least, greatest] = film_of(place);
-      const auto with = [&](std::uint64_t gained) { return static_cast<float>(std::min(have + gained, most)); };
+      const auto with = [&](std::uint64_t gained) { return static_cast<float>(std::min(have + gained, most_units)); };
       mass = Enclosure(with(least), with(greatest));
     }
   }
@@ -213,7 +213,8 @@ class SweptDrops : public capture::KeyedModel {
       const auto [taker, is_first] = takers.emplace(place, out.size() - 1);
       if (!is_first && drop.id < out[taker->second].id) taker->second = out.size() - 1;
     }
-    for (const auto& [place, at] : takers) out[at].mass = static_cast<float>(std::min(mass_units_of(out[at].mass) + film[place], most));
+    for (const auto& [place, at] : takers)
+      out[at].mass = static_cast<float>(std::min(mass_units_of(out[at].mass) + film[place], most_units));
     return pass::bytes_of(out);
   }
 

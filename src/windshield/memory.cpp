@@ -1,11 +1,10 @@
-#include "windshield/memory.h"
+#include "windshield/parameters.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/floating_point.h"
 #include "drops/host.h"
-#include "drops/memory.h"
 #include "night_street/memory.h"
 #include "rain/rain.h"
 #include "rainref/windshield.h"

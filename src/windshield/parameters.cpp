@@ -5,25 +5,62 @@
 #include <fmt/format.h>
 
 #include "effect/picture_sequence.h"
-#include "math/constants.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
-#include "windshield/memory.h"
-#include "windshield/motion/panes.h"
+#include "windshield/motion/glass.h"
 #include "windshield/motion/parameters.h"
-#include "windshield/picture/info.h"
 
 namespace rainref::windshield {
 namespace {
 
 using namespace rainref::scene;
 
-void append(std::vector<Parameter>& all, std::vector<Parameter> more) { all.insert(all.end(), more.begin(), more.end()); }
+/// The picture and its passes; size and margin are said elsewhere.
+const std::vector<MemberParameter<PictureSettings>>& picture_members() {
+  using P = PictureSettings;
+  static const std::vector<MemberParameter<P>> table{
+      real<&P::camera_position>("camera.position", "m", -100, 100, "Eye, in the car's axes: x forward, y left, z up."),
+      real<&P::camera_target>("camera.target", "m", -1000, 1000, "Point that the eye looks at."),
+      real<&P::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 120, "Vertical field of view."),
+      real<&P::blur_lod>("composite.blur_lod", "1", 0, 12, "Mip level of the picture behind the wet film.").published(3.0),
+      real<&P::wetness>("composite.wetness", "1", 0, 1, "Weight of the blurred picture where the glass was not wiped.").published(0.6),
+      real<&P::visible_from>("composite.visible_from", "mm", 0, 10, "Height at which water begins to show as a drop."),
+      real<&P::visible_to>("composite.visible_to", "mm", 1e-3, 10, "Height from which it shows fully."),
+      real<&P::refraction>("composite.refraction", "1", -1, 1, "Offset of the sharp picture, in pictures per unit of the normal's x and y.")
+          .only(published),
+      real<&P::water_ior>("composite.water_ior", "1", 1, 2, "Refractive index of water.").only(correct),
+      real<&P::inner>("composite.inner", "1", 0, 1, "Share of the blurred scene that the water's surface mirrors.").only(correct),
+      real<&P::shininess>("composite.shininess", "1", 1, 4096, "Power of the highlights."),
+      real<&P::glint_strength>("composite.glint_strength", "1", 0, 10, "Weight of the highlights."),
+      {real3("composite.light_direction", "1", -1, 1, {}, "Toward the light that the water mirrors, in the car's axes."),
+       [](P& s, const Value& v) { s.lights.front().direction = std::get<Real3>(v); },
+       [](const P& s) { return Value(s.lights.front().direction); }},
+      {real3("composite.light_radiance", "1", 0, 1000, {}, "Its radiance, linear RGB."),
+       [](P& s, const Value& v) { s.lights.front().radiance = std::get<Real3>(v); },
+       [](const P& s) { return Value(s.lights.front().radiance); }},
+      real<&P::cabin>("composite.cabin", "1", 0, 100, "Radiance beside the glass, linear RGB."),
+      real<&P::exposure>("display.exposure", "EV", -20, 20, "Exposure of the picture."),
+  };
+  return table;
+}
 
-/// The street before the car.
 const std::vector<MemberParameter<Settings>>& scene_members() {
   using S = Settings;
+  using W = SurfaceSettings;
+  using B = blur_pyramid::BlurSettings;
   static const std::vector<MemberParameter<S>> table{
+      // Blades and time on the wet glass, and the scene out of focus behind it.
+      real<&S::surface, &W::height_tau>(
+          "windshield.height_tau", "s", 0, 600,
+          "Time in which the height texture falls to 1/e where no drop stands, so that drops leave trails; 0: it is cleared each frame.")
+          .only(published),
+      real<&S::surface, &W::wipe_strength>("windshield.wipe_strength", "mm", 0, 1000, "What a blade takes off the height.").only(published),
+      real<&S::surface, &W::mask_tau>("windshield.mask_tau", "s", 0.01, 600, "Time in which the mask of freshly wiped glass falls to 1/e."),
+      integer<&S::blur, &B::levels>("blur.blur_levels", "1", 1, Texture::max_levels,
+                                    "Levels of the blurred scene, the sharp one included."),
+      real<&S::blur, &B::fog_density>("blur.fog_density", "1/m", 0, 10, "Extinction of light in the air in front of the scene."),
+      real<&S::blur, &B::fog_colour>("blur.fog_colour", "1", 0, 1000, "Linear radiance of the fog."),
+      // The street before the car.
       text("scene.image", "", "Picture of what lies before the car; empty: the street at night made here."),
       text("scene.depth_image", "",
            "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
@@ -40,38 +77,29 @@ const std::vector<MemberParameter<Settings>>& scene_members() {
                              "warp, and the longer it takes.")};
   return table;
 }
-/// The rain in the air behind the glass.
-const std::vector<MemberParameter<Settings>>& falling_members() {
+const std::vector<MemberParameter<Settings>>& detail_members() {
   using S = Settings;
   using F = FallingRainSettings;
+  using M = SmearSettings;
+  using C = CondensationSettings;
+  using I = InteriorSettings;
   static const std::vector<MemberParameter<S>> table{
+      // The rain in the air behind the glass.
       boolean<&S::falling, &F::on>("falling_rain.on", "Rain falls behind the glass too, in streaks that lamps light."),
       real<&S::falling, &F::rate>("falling_rain.rate", "mm/h", 0, 200, "Its rate; rain.key_frames do not change it.").only(published),
       real<&S::falling, &F::smallest_drop>("falling_rain.smallest_drop", "mm", 0.5, 5, "Drops below this diameter are left out."),
       real<&S::falling, &F::exposure>("falling_rain.exposure", "s", 0, 1, "Time for which the shutter is open in a frame."),
       real<&S::falling, &F::far>("falling_rain.far", "m", 1, 40, "Depth of the farthest drops."),
-      real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops over that of physics.")};
-  return table;
-}
-/// The film that blades leave.
-const std::vector<MemberParameter<Settings>>& smear_members() {
-  using S = Settings;
-  using W = SmearSettings;
-  static const std::vector<MemberParameter<S>> table{
-      boolean<&S::smear, &W::on>("smear.on", "Blades leave a thin film in streaks, which dries behind them.").only(correct),
-      real<&S::smear, &W::wear>("smear.wear", "1", 0, 1, "Wear of the blades: 0 new; 1 ragged, with more and thicker streaks.")
+      real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops over that of physics."),
+      // The film that blades leave.
+      boolean<&S::smear, &M::on>("smear.on", "Blades leave a thin film in streaks, which dries behind them.").only(correct),
+      real<&S::smear, &M::wear>("smear.wear", "1", 0, 1, "Wear of the blades: 0 new; 1 ragged, with more and thicker streaks.")
           .only(correct),
-      real<&S::smear, &W::drying>("smear.drying", "s", 0.01, 60, "Time in which the thickest streak dries.").only(correct),
-      real<&S::smear, &W::most>("smear.most", "1", 0, 1, "Share of the light that the thickest streak scatters.").only(correct),
-      real<&S::smear, &W::spread_deg>("smear.spread", "deg", 0.01, 20, "Largest angle by which it turns light, along the blade.")
-          .only(correct)};
-  return table;
-}
-/// The mist of condensed water on the glass.
-const std::vector<MemberParameter<Settings>>& condensation_members() {
-  using S = Settings;
-  using C = CondensationSettings;
-  static const std::vector<MemberParameter<S>> table{
+      real<&S::smear, &M::drying>("smear.drying", "s", 0.01, 60, "Time in which the thickest streak dries.").only(correct),
+      real<&S::smear, &M::most>("smear.most", "1", 0, 1, "Share of the light that the thickest streak scatters.").only(correct),
+      real<&S::smear, &M::spread_deg>("smear.spread", "deg", 0.01, 20, "Largest angle by which it turns light, along the blade.")
+          .only(correct),
+      // The mist of condensed water on the glass.
       boolean<&S::condensation, &C::on>("condensation.on", "Mist lies on the glass; drops, their trails and blades clear it.")
           .only(correct),
       real<&S::condensation, &C::tau>("condensation.tau", "s", 0.01, 600, "Time in which cleared glass mists over to 1 - 1/e of all.")
@@ -84,14 +112,8 @@ const std::vector<MemberParameter<Settings>>& condensation_members() {
                                            "The picture behind it is blurred over a disc whose radius is a texel of this mip level.")
           .only(correct),
       real<&S::condensation, &C::veil>("condensation.veil", "1", 0, 1, "Share of the scattered light that comes from all the scene.")
-          .only(correct)};
-  return table;
-}
-/// Pillar and dashboard.
-const std::vector<MemberParameter<Settings>>& interior_members() {
-  using S = Settings;
-  using I = InteriorSettings;
-  static const std::vector<MemberParameter<S>> table{
+          .only(correct),
+      // Pillar and dashboard.
       boolean<&S::interior, &I::on>("interior.on",
                                     "Pillar and dashboard stand before the glass, dark and out of focus; not in traced pictures.")
           .only(correct),
@@ -113,23 +135,6 @@ const std::vector<MemberParameter<Settings>>& step_members() {
   return table;
 }
 
-std::vector<Parameter> make_parameters() {
-  std::vector<Parameter> all = motion_parameters();
-  append(all, drops::parameters("windshield"));
-  append(all, parameters_of(step_members()));
-  append(all, drops::splat_parameters("windshield"));
-  append(all, surface_parameters("windshield"));
-  append(all, blur_pyramid::blur_parameters("blur"));
-  append(all, parameters_of(scene_members()));
-  append(all, effect::sequence_parameters());
-  append(all, parameters_of(falling_members()));
-  append(all, parameters_of(smear_members()));
-  append(all, parameters_of(condensation_members()));
-  append(all, parameters_of(interior_members()));
-  append(all, parameters_of(picture_parameters()));
-  return all;
-}
-
 constexpr int fewest_texels = 8, most_texels = 16384;
 // Odd, so that panes of one scene, and of scenes with seeds beside one another, draw other numbers.
 constexpr std::uint64_t next_seed = 0x9e3779b97f4a7c15;
@@ -141,7 +146,10 @@ int texels(double of_windshield, double metres, double metres_of_windshield) {
 }  // namespace
 
 std::span<const Parameter> parameters() {
-  static const std::vector<Parameter> all = make_parameters();
+  static const std::vector<Parameter> all = parameters_of(
+      std::vector<MemberParameter<Settings>>(),
+      {motion_parameters(), drops::parameters("windshield"), parameters_of(step_members()), drops::splat_parameters("windshield"),
+       parameters_of(scene_members()), effect::sequence_parameters(), parameters_of(detail_members()), parameters_of(picture_members())});
   return all;
 }
 
@@ -151,15 +159,7 @@ Settings settings_from(const Config& config) {
   s.seed = static_cast<std::uint64_t>(config.integer("seed"));
   s.fps = config.real("run.fps");
   apply(step_members(), config, s);
-  const MotionSettings motion = motion_settings_from(config);
-  s.corners = motion.corners;
-  s.panes = motion.panes;
-  s.weather = motion.weather;
-  s.gravity = motion.gravity;
-  s.vehicle = motion.vehicle;
-  s.wipers = motion.wipers;
-  s.capture = motion.capture;
-  s.pane_wipers = motion.pane_wipers;
+  static_cast<MotionSettings&>(s) = motion_settings_from(config);
   s.drops = drops::settings_from(config, "windshield");
   const char* rate = s.corrected ? "rain.rate" : "windshield.spawn_rate";
   s.weather.rain = config.real(rate);
@@ -169,7 +169,7 @@ Settings settings_from(const Config& config) {
     throw Error(ExitCode::usage, config.entry(rate).origin.at,
                 fmt::format("{}: expected none beside rain.key_frames, found {:g}", rate, s.weather.rain));
 
-  const PlaneFrame plane = s.corrected ? motion.glass.plane() : motion.glass.axes();
+  const PlaneFrame plane = s.corrected ? s.glass.plane() : s.glass.axes();
   s.splat.corrected = s.corrected;
   s.splat.keys = drops::splat_keys(config, "windshield");
   s.splat.frame = plane.frame;
@@ -181,15 +181,12 @@ Settings settings_from(const Config& config) {
   s.surface.fps = s.fps;
   s.surface.frame = plane.frame;
   s.surface.half_width = s.wipers.half_width;
-  read_surface(config, "windshield", s.surface);
-  s.blur = blur_pyramid::blur_settings(config, "blur", s.surface.rounding);
+  s.blur.corrected = s.corrected;
+  s.blur.rounding = s.surface.rounding;
 
-  apply(picture_parameters(), config, s.picture);
+  apply(picture_members(), config, s.picture);
   apply(scene_members(), config, s);
-  apply(falling_members(), config, s);
-  apply(smear_members(), config, s);
-  apply(condensation_members(), config, s);
-  apply(interior_members(), config, s);
+  apply(detail_members(), config, s);
   s.picture.width = static_cast<int>(config.integer2("run.size")[0]);
   s.picture.height = static_cast<int>(config.integer2("run.size")[1]);
   constexpr double most = 300000;
@@ -205,15 +202,14 @@ Settings settings_of_pane(const Settings& car, int number) {
   Settings s = car;
   if (number == 0) return s;
   s.corners = car.panes[static_cast<std::size_t>(number) - 1];
-  const Glass glass = make_glass(s.corners, pane_name(number)), windshield = make_glass(car.corners);
-  const PaneWipers& own = car.pane_wipers[static_cast<std::size_t>(number) - 1];
-  s.wipers = own.wipers;
-  s.capture = own.capture;
-  s.surface.half_width = own.wipers.half_width;
+  s.glass = make_glass(s.corners, pane_name(number));
+  static_cast<PaneWipers&>(s) = car.pane_wipers[static_cast<std::size_t>(number) - 1];
+  s.surface.half_width = s.wipers.half_width;
   s.drops.seed += static_cast<std::uint64_t>(number) * next_seed;
-  s.drops_share = glass.area / windshield.area;
+  s.drops_share = s.glass.area / car.glass.area;
   s.drops.spawn_rate *= s.drops_share;
-  const PlaneFrame plane = s.corrected ? glass.plane() : glass.axes(), of_windshield = s.corrected ? windshield.plane() : windshield.axes();
+  const PlaneFrame plane = s.corrected ? s.glass.plane() : s.glass.axes(),
+                   of_windshield = s.corrected ? car.glass.plane() : car.glass.axes();
   s.surface.frame = s.splat.frame = plane.frame;
   s.surface.width = s.splat.keys.width = texels(car.surface.width, plane.frame[0], of_windshield.frame[0]);
   s.surface.height = s.splat.keys.height = texels(car.surface.height, plane.frame[2], of_windshield.frame[2]);

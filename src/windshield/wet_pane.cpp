@@ -5,8 +5,8 @@
 
 #include "pass/run.h"
 #include "windshield/motion/host.h"
-#include "windshield/motion/panes.h"
-#include "windshield/motion/wipe_drops.h"
+#include "windshield/motion/glass.h"
+#include "windshield/motion/kernels.h"
 #include "windshield/picture/mist.pass.h"
 #include "windshield/picture/soften.pass.h"
 

@@ -228,30 +228,12 @@ MassBalance Windshield::mass_balance(int pane) const {
   const FloatingPointGuard guard;
   return state_->pane(pane).mass_balance();
 }
-const Image& Windshield::height(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).height();
-}
-const Image& Windshield::mask(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).mask();
-}
-const Image& Windshield::film(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).film();
-}
-const Image& Windshield::normal(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).normal();
-}
-const Image& Windshield::smear(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).smear();
-}
-const Image& Windshield::condensation(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).condensation();
-}
+const Image& Windshield::height(int pane) const { return state_->pane(pane).height(); }
+const Image& Windshield::mask(int pane) const { return state_->pane(pane).mask(); }
+const Image& Windshield::film(int pane) const { return state_->pane(pane).film(); }
+const Image& Windshield::normal(int pane) const { return state_->pane(pane).normal(); }
+const Image& Windshield::smear(int pane) const { return state_->pane(pane).smear(); }
+const Image& Windshield::condensation(int pane) const { return state_->pane(pane).condensation(); }
 const Image& Windshield::scene_colour() const { return state_->scene.colour; }
 const Image& Windshield::scene_depth() const { return state_->scene.depth; }
 std::vector<FallingDropView> Windshield::falling() const {

@@ -1,7 +1,6 @@
 // What a running windshield holds.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -12,7 +11,6 @@
 #include "rainref/error.h"
 #include "rainref/windshield.h"
 #include "state/items.h"
-#include "windshield/memory.h"
 #include "windshield/parameters.h"
 #include "windshield/picture/falling_rain.h"
 #include "windshield/scene/blades_seen.h"

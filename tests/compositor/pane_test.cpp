@@ -1,13 +1,13 @@
 // Panes of glass and the water on them, against geometry and the laws of optics in closed form.
 #include "compositor/embree_isas.h"
 #include "compositor/pane.h"
+#include "compositor/pane_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "compositor/pane_scene.h"
 #include "compositor/shading_support.h"
 #include "compositor/straight_path.h"
 #include "rainref/error.h"

@@ -62,19 +62,16 @@ void add(Hasher& hasher, std::span<const Hit> hits) {
     hasher.add(std::as_bytes(std::span(&hit.u, 2)));
   }
 }
-/// Of first and any hits, in tasks of 500 rays.
+/// Of first hits, in tasks of 500 rays.
 std::string hash_of(const Tracer& tracer, const std::vector<Ray>& rays, int threads) {
   const parallel::Executor executor(threads);
   std::vector<Hit> hits(rays.size());
-  std::vector<std::uint8_t> blocked(rays.size());
   executor.for_range(static_cast<std::int64_t>(rays.size()), 500, [&](std::int64_t begin, std::int64_t end) {
     const auto first = static_cast<std::size_t>(begin), count = static_cast<std::size_t>(end - begin);
     tracer.first_hits(std::span(rays).subspan(first, count), std::span(hits).subspan(first, count));
-    tracer.any_hits(std::span(rays).subspan(first, count), std::span(blocked).subspan(first, count));
   });
   Hasher hasher;
   add(hasher, hits);
-  hasher.add(std::as_bytes(std::span(blocked)));
   return hasher.finish().text();
 }
 
@@ -87,13 +84,10 @@ TEST(Tracer, FindsWhatAskingEverySurfaceFinds) {
   Tracer tracer;
   world.add_to(tracer);
   const std::vector<Hit> hits = test::first_hits(tracer, rays);
-  std::vector<std::uint8_t> blocked(rays.size());
-  tracer.any_hits(rays, blocked);
   int met[3] = {};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Hit expected = first_hit_of_all(world.surfaces, rays[i]);
     ASSERT_TRUE(same(hits[i], expected)) << "ray " << i << ": " << text(hits[i]) << ", oracle " << text(expected);
-    ASSERT_EQ(blocked[i] != 0, expected.is_surface()) << "ray " << i;
     if (expected.is_surface()) ++met[expected.surface];
   }
   // Water, boxes and the pane all take part.

@@ -3,7 +3,6 @@
 #include <bit>
 
 #include "capture/hash_of_frames.h"
-#include "edge_splash/evaluations.h"
 #include "edge_splash/info.h"
 #include "edge_splash/shapes.h"
 #include "edge_splash/support.h"

@@ -6,12 +6,12 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "drops/motion/scalar.h"
 #include "judge/lists.h"
 #include "math/path_enumeration.h"
 #include "rainref/error.h"
-#include "windshield/evaluations.h"
+#include "windshield/info.h"
 #include "windshield/motion/uniforms.h"
 
 namespace rainref::judge {

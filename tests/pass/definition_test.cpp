@@ -20,10 +20,7 @@ namespace scalar {
 using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
-#include "image/sampling_perturbed-inl.h"
-#include "image/sampling-inl.h"
-#include "image/sampling_enclosed-inl.h"
-#include "image/sampling_rearranged-inl.h"
+#include "image/sampling_numbers-inl.h"
 #include "pass/frost.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
@@ -146,8 +143,8 @@ capture::EffectInfo frost() {
   capture::EffectInfo info;
   info.name = "frost";
   info.passes = {pass::info_of<GrowPass>(), pass::info_of<ShinePass>()};
-  info.records = {scene::record<Seed>("Seed", {scene::member<&Seed::column>("column", "texel", "Of the crystal."),
-                                               scene::member<&Seed::strength>("strength", "mm", "There.")})};
+  info.records = {
+      scene::record<Seed>({scene::member<&Seed::column>("texel", "Of the crystal."), scene::member<&Seed::strength>("mm", "There.")})};
   info.buffers = {{"height", "r16f", "Of the glass."},
                   {"mask", "r8", "Where ice may be."},
                   {"seeds", "records", "Crystals.", "1", {0, 1}, "none", "none", "none", "", "Seed", "corrected"},

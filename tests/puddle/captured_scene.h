@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "night_street/night_street.h"
-#include "puddle/environment.h"
+#include "puddle/scenery.h"
 #include "puddle/golden_scenes.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "puddle/environment.h"
+#include "puddle/scenery.h"
 #include "puddle/scene_support.h"
 #include "random/counter.h"
 

@@ -6,7 +6,6 @@
 #include "math/simd_target.h"
 #include "rainy_glass/support.h"
 #include "pass/same_as_definition.h"
-#include "rainy_glass/evaluations.h"
 #include "rainy_glass/info.h"
 
 namespace rainref::rainy_glass {

@@ -16,7 +16,7 @@ namespace rainref::scene {
 namespace {
 
 // Every scalar type and every vector length, with gaps within a row, at its end and at the end of the block.
-struct Uniforms {
+struct WaveStepUniforms {
   std::array<float, 3> camera_position;
   float pixel_scale;
   std::int32_t drop_count;
@@ -37,24 +37,23 @@ struct Uniforms {
 };
 
 UniformBlock uniforms() {
-  return uniform_block<Uniforms>("WaveStepUniforms",
-                                 {
-                                     member<&Uniforms::camera_position>("camera_position", "m", any_word, "Where the camera is."),
-                                     member<&Uniforms::pixel_scale>("pixel_scale", "1", any_word, "Height of a pixel at distance 1."),
-                                     member<&Uniforms::drop_count>("drop_count", "1", any_word, "Number of drops."),
-                                     member<&Uniforms::texel>("texel", "1", any_word, "One over the size."),
-                                     member<&Uniforms::seed_bits>("seed_bits", "1", any_word, "The seed."),
-                                     member<&Uniforms::frame_index>("frame_index", "frame", any_word, "The frame."),
-                                     member<&Uniforms::cell>("cell", "1", any_word, "The cell."),
-                                     member<&Uniforms::tint>("tint", "1", any_word, "The tint."),
-                                     member<&Uniforms::wave_size>("wave_size", "texel", any_word, "Size of the wave buffer."),
-                                     member<&Uniforms::hash_bits>("hash_bits", "1", any_word, "A hash."),
-                                     member<&Uniforms::bounds>("bounds", "texel", any_word, "A rectangle."),
-                                     member<&Uniforms::time>("time", "s", any_word, "Time of the frame."),
-                                 });
+  return uniform_block<WaveStepUniforms>({
+      member<&WaveStepUniforms::camera_position>("m", any_word, "Where the camera is."),
+      member<&WaveStepUniforms::pixel_scale>("1", any_word, "Height of a pixel at distance 1."),
+      member<&WaveStepUniforms::drop_count>("1", any_word, "Number of drops."),
+      member<&WaveStepUniforms::texel>("1", any_word, "One over the size."),
+      member<&WaveStepUniforms::seed_bits>("1", any_word, "The seed."),
+      member<&WaveStepUniforms::frame_index>("frame", any_word, "The frame."),
+      member<&WaveStepUniforms::cell>("1", any_word, "The cell."),
+      member<&WaveStepUniforms::tint>("1", any_word, "The tint."),
+      member<&WaveStepUniforms::wave_size>("texel", any_word, "Size of the wave buffer."),
+      member<&WaveStepUniforms::hash_bits>("1", any_word, "A hash."),
+      member<&WaveStepUniforms::bounds>("texel", any_word, "A rectangle."),
+      member<&WaveStepUniforms::time>("s", any_word, "Time of the frame."),
+  });
 }
 
-struct DropRecord {
+struct Drop {
   float x, y;
   float strength;
   float padding0;
@@ -64,13 +63,13 @@ struct DropRecord {
 };
 
 UniformBlock drop() {
-  return record<DropRecord>("Drop", {
-                                        member<&DropRecord::x>("x", "texel", "Centre."),
-                                        member<&DropRecord::y>("y", "texel", "Centre."),
-                                        member<&DropRecord::strength>("strength", "1", "Strength."),
-                                        member<&DropRecord::velocity>("velocity", "texel/s", "Velocity."),
-                                        member<&DropRecord::id>("id", "1", "Stable id."),
-                                    });
+  return record<Drop>({
+      member<&Drop::x>("texel", "Centre."),
+      member<&Drop::y>("texel", "Centre."),
+      member<&Drop::strength>("1", "Strength."),
+      member<&Drop::velocity>("texel/s", "Velocity."),
+      member<&Drop::id>("1", "Stable id."),
+  });
 }
 
 class LayoutFile : public testing::Test {
@@ -167,14 +166,14 @@ TEST_F(LayoutFile, ShadersDeclareTheBlock) {
 }
 
 // A block of one row for the exact texts.
-struct Small {
+struct SmallUniforms {
   std::array<float, 2> texel;
   std::uint32_t frame_index;
   float padding0;
 };
 UniformBlock small() {
-  return uniform_block<Small>("SmallUniforms", {member<&Small::texel>("texel", "1", any_word, "One over the size."),
-                                                member<&Small::frame_index>("frame_index", "frame", any_word, "The frame.")});
+  return uniform_block<SmallUniforms>({member<&SmallUniforms::texel>("1", any_word, "One over the size."),
+                                       member<&SmallUniforms::frame_index>("frame", any_word, "The frame.")});
 }
 const std::string head = "// SmallUniforms: 16 bytes, little endian. Comments: offset in bytes, [unit], meaning.\n";
 

@@ -8,7 +8,7 @@
 #include "rainref/error.h"
 #include "scene/effect_table.h"
 #include "scene/toml.h"
-#include "screen_drops/flow_info.h"
+#include "screen_drops/flow.h"
 #include "screen_drops/flow_support.h"
 
 namespace rainref::screen_drops {
@@ -20,9 +20,9 @@ using capture::PassCase;
 const std::vector<std::string> variants{"as-published", "corrected"};
 
 FlowSettings settings_of(const std::vector<std::string>& values, const std::string& variant = "corrected") {
-  const std::vector<scene::Parameter> all = flow_parameters("flow");
+  const std::vector<scene::Parameter> all = flow_parameters();
   const scene::EffectTable table{{{"screen_drops", variants, all}}};
-  return flow_settings(scene::parse("effect = 'screen_drops'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table), "flow",
+  return flow_settings(scene::parse("effect = 'screen_drops'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table),
                        {0.5, 0.25}, Rounding::rtz);
 }
 std::string refusal(const std::vector<std::string>& values, const std::string& variant = "corrected") {
@@ -35,7 +35,7 @@ std::string refusal(const std::vector<std::string>& values, const std::string& v
 }
 
 TEST(FlowDeclared, KeysAreSoundAndOfCorrectedAlone) {
-  const std::vector<scene::Parameter> all = flow_parameters("flow");
+  const std::vector<scene::Parameter> all = flow_parameters();
   scene::validate(all, variants);
   for (const scene::Parameter& p : all) EXPECT_FALSE(p.used_by("as-published")) << p.key;
   EXPECT_NE(refusal({"flow.capacity=9"}, "as-published"), "");

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "simulation/every_state.h"
-#include "state/load.h"
+#include "state/file.h"
 #include "windshield/instance.h"
 
 namespace rainref {

@@ -1,5 +1,5 @@
 // Pictures of which the passes run at a multiple: what the mean weighs, and that nothing else changes.
-#include "simulation/supersampling.h"
+#include "simulation/light_mean.h"
 
 #include <cstring>
 

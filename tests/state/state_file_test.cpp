@@ -11,7 +11,7 @@
 #include "base/hash.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
-#include "state/load.h"
+#include "state/file.h"
 
 namespace rainref::state {
 namespace {

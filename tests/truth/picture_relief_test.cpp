@@ -5,7 +5,6 @@
 #include <random>
 
 #include "truth/picture_relief.h"
-#include "truth/uncovered.h"
 
 namespace rainref::truth {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "compositor/embree_isas.h"
 #include "truth/golden_scenes.h"
-#include "truth/puddle_truth.h"
+#include "truth/puddle_scene.h"
 #include "golden/golden_check.h"
 #include "math/half.h"
 #include "math/simd_target.h"
@@ -97,12 +97,12 @@ TEST(TracedPuddle, LevelWaterLiesWhereThePassesSeeIt) {
   puddle.render();
   PuddleScene traced(white.settings, white.around, {}, executor);
   traced.update(puddle, executor);
-  const PuddleTruth truth = compare(puddle, white.settings, traced, {}, executor);
+  const Comparison truth = compare(puddle, white.settings, traced, {}, executor);
   const auto named = [&](const std::string& name) -> const Difference& {
     return *std::find_if(truth.differences.begin(), truth.differences.end(), [&](const Difference& d) { return d.name() == name; });
   };
-  EXPECT_GT(truth.water_in_both, 1000u);
-  EXPECT_EQ(truth.water_in_passes_only + truth.water_in_truth_only, 0u);
+  EXPECT_GT(truth.pixels[1].second, 1000u);  // water in both
+  EXPECT_EQ(truth.pixels[2].second + truth.pixels[3].second, 0u);
   // A few roundings of floats of metres up to 4, 2^-23 each, at angles of at least 27 degrees.
   EXPECT_LT(named("hit_distance").percentiles().max, 4e-6);
   EXPECT_LT(named("normal_angle").percentiles().max, 1e-6);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "truth/rainy_glass_truth.h"
-#include "truth/screen_drops_truth.h"
+#include "truth/rainy_glass_view.h"
+#include "truth/screen_drops_view.h"
 #include "compositor/shading_support.h"
 #include "compositor/straight_path.h"
 #include "rainref/error.h"
@@ -50,7 +50,7 @@ struct Window {
     fill();
     screen_drops::ScreenDrops drops(s, in, executor());
     drops.next_frame();
-    return compare(drops, ScreenDropsView(s, in.colour, thickness, {}, executor()), {}, executor());
+    return ScreenDropsView(s, in.colour, thickness, {}, executor()).compare(drops, {}, executor());
   }
 };
 std::size_t pixels(const Comparison& truth, const std::string& name) {
@@ -216,7 +216,7 @@ TEST(TracedGlass, GentleSlopesAreAsThePassHasThem) {
   c.s.vertical_fov_deg = 12;
   c.s.drop_tile = 0.1;
   c.render();
-  const Comparison truth = compare(*c.glass, c.view(1e-5), {}, executor());
+  const Comparison truth = c.view(1e-5).compare(*c.glass, {}, executor());
   EXPECT_GT(pixels(truth, "wet_pixels"), 300u);
   const Percentiles p = truth.differences[0].percentiles();
   // (n - 1) tan 3 = 1.0 degree at the rims; off the axis the image plane shortens it by sin^2 of up to 10 degrees, 3 %, and the

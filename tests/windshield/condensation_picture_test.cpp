@@ -8,7 +8,7 @@
 
 #include "math/half.h"
 #include "windshield/golden_scenes.h"
-#include "windshield/surface/condensation.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {

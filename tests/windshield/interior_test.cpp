@@ -1,5 +1,5 @@
 // Pillar and dashboard before the glass: where they stand, and that they hide what is behind and nothing else.
-#include "windshield/picture/interior.h"
+#include "windshield/picture/picture.h"
 
 #include <gtest/gtest.h>
 

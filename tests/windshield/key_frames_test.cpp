@@ -6,9 +6,8 @@
 #include "drops/uniforms.h"
 #include "rain/rain.h"
 #include "windshield/golden_scenes.h"
-#include "windshield/motion/key_frames.h"
 #include "windshield/motion/weather.h"
-#include "windshield/motion/wiper_motion.h"
+#include "windshield/motion/wipers.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {

@@ -3,7 +3,6 @@
 #include "math/simd_target.h"
 #include "pass/same_as_definition.h"
 #include "pass/stored_record.h"
-#include "windshield/evaluations.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/info.h"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "math/simd_target.h"
-#include "windshield/motion/wipe_drops.h"
+#include "windshield/motion/kernels.h"
 #include "windshield/scalar.h"
 #include "windshield/support.h"
 

@@ -7,10 +7,9 @@
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "pass/same_as_definition.h"
-#include "windshield/evaluations.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/info.h"
-#include "windshield/surface/smear.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {

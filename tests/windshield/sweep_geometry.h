@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "windshield/motion/wipe_drops.h"
+#include "windshield/motion/kernels.h"
 #include "windshield/scalar.h"
 #include "windshield/support.h"
 

@@ -10,30 +10,25 @@
 namespace rainref::drops {
 
 /// Each drop by itself.
-struct IntegratePass {
+struct IntegratePass : pass::Takes<IntegrateUniforms> {
   static constexpr pass::About about{"integrate",
                                      "Forces, motion, evaporation and age of every drop.",
                                      {1, capture::Judge::keyed},
                                      {1, capture::Judge::keyed},
                                      {"the forces", "length"}};
-  using Uniforms = IntegrateUniforms;
   using Record = Drop;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "IntegrateUniforms",
-        {member<&U::frame>("frame", "m", {-1e4, 1e4}, "corrected: x = frame.x u + frame.y v and y = frame.z v in the plane of the glass."),
-         member<&U::dt>("dt", "s", {0, 1}, "The step."),
-         member<&U::inertia_coupling>("inertia_coupling", "1", {0, 100}, "as-published: share of the vehicle's acceleration."),
-         member<&U::wind_coupling>("wind_coupling", "1/s", {0, 100}, "as-published: acceleration by a unit of wind."),
-         member<&U::drag>("drag", "1/s", {0, 1e9}, "as-published: rate of slowing down; corrected: that times mass^(2/3)."),
-         member<&U::wind_push>("wind_push", "1/m", {0, 1e9}, "corrected: acceleration over wind speed squared, times mass^(1/3)."),
-         member<&U::hold>("hold", "m/s^2", {0, 1e9}, "corrected: acceleration that hysteresis holds, times mass^(2/3)."),
-         member<&U::evaporation>("evaporation", "1/s", {0, 1e9}, "corrected: mass units lost in a second over mass^(1/3)."),
-         member<&U::margin>("margin", "1", scene::share, "corrected: how far outside the glass a drop lives."),
-         member<&U::rest_speed>("rest_speed", "m/s", scene::share, "corrected: a held drop below this speed rests."),
-         member<&U::phase_rate>("phase_rate", "1", {0, 1e7}, "corrected: turns in 64 s of the phase that rounds losses.")});
+    return block({member<&U::frame>("m", {-1e4, 1e4}, "corrected: x = frame.x u + frame.y v and y = frame.z v in the plane of the glass."),
+                  member<&U::dt>("s", {0, 1}, "The step."),
+                  member<&U::inertia_coupling>("1", {0, 100}, "as-published: share of the vehicle's acceleration."),
+                  member<&U::wind_coupling>("1/s", {0, 100}, "as-published: acceleration by a unit of wind."),
+                  member<&U::drag>("1/s", {0, 1e9}, "as-published: rate of slowing down; corrected: that times mass^(2/3)."),
+                  member<&U::wind_push>("1/m", {0, 1e9}, "corrected: acceleration over wind speed squared, times mass^(1/3)."),
+                  member<&U::hold>("m/s^2", {0, 1e9}, "corrected: acceleration that hysteresis holds, times mass^(2/3)."),
+                  member<&U::evaporation>("1/s", {0, 1e9}, "corrected: mass units lost in a second over mass^(1/3)."),
+                  member<&U::margin>("1", scene::share, "corrected: how far outside the glass a drop lives."),
+                  member<&U::rest_speed>("m/s", scene::share, "corrected: a held drop below this speed rests."),
+                  member<&U::phase_rate>("1", {0, 1e7}, "corrected: turns in 64 s of the phase that rounds losses.")});
   }
   template <class B>
   struct Io {

@@ -14,21 +14,16 @@
 
 namespace rainref::drops {
 
-struct MergePass {
+struct MergePass : pass::Takes<MergeUniforms> {
   static constexpr pass::About about{"merge",    "Drops that touch become one; sliding drops leave trails on the film.",
                                      {},         {1, capture::Judge::keyed},
                                      {"length"}, "ordered_scatter"};
-  using Uniforms = MergeUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "MergeUniforms",
-        {member<&U::frame>("frame", "m", {-1e4, 1e4}, "As in IntegrateUniforms."),
-         member<&U::radius>("radius", "m", scene::share, "Base radius over mass^(1/3)."),
-         member<&U::trail>("trail", "1/m^2", {0, 1e12}, "Mass units left over base radius and way."),
-         member<&U::dt>("dt", "s", {0, 1}, "The step."), member<&U::film>("film", "texel", {1, 65536}, "Columns and rows of the film."),
-         member<&U::drying>("drying", "1", {0, most_mass}, "Mass units that each texel of the film loses in this step.")});
+    return block({member<&U::frame>("m", {-1e4, 1e4}, "As in IntegrateUniforms."),
+                  member<&U::radius>("m", scene::share, "Base radius over mass^(1/3)."),
+                  member<&U::trail>("1/m^2", {0, 1e12}, "Mass units left over base radius and way."),
+                  member<&U::dt>("s", {0, 1}, "The step."), member<&U::film>("texel", {1, 65536}, "Columns and rows of the film."),
+                  member<&U::drying>("1", {0, most_mass}, "Mass units that each texel of the film loses in this step.")});
   }
   template <class Inputs>
   static std::string fault(const Inputs& m) {

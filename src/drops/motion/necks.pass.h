@@ -35,18 +35,14 @@ std::string necks_fault(const Records& necks) {
   return "";
 }
 
-struct NecksPass {
+struct NecksPass : pass::Takes<NecksUniforms> {
   static constexpr pass::About about{"necks",    "Outlines of drops that become one stay, with a neck, and recede.",
                                      {},         {1, capture::Judge::keyed},
                                      {"length"}, "ordered_scatter"};
-  using Uniforms = NecksUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("NecksUniforms", {member<&U::frame>("frame", "m", {-1e4, 1e4}, "As in IntegrateUniforms."),
-                                                     member<&U::radius>("radius", "m", scene::share, "Base radius over mass^(1/3)."),
-                                                     member<&U::dt>("dt", "s", {0, 1}, "The step."),
-                                                     member<&U::keep>("keep", "1", scene::share, "What a step leaves of a neck.")});
+    return block({member<&U::frame>("m", {-1e4, 1e4}, "As in IntegrateUniforms."),
+                  member<&U::radius>("m", scene::share, "Base radius over mass^(1/3)."), member<&U::dt>("s", {0, 1}, "The step."),
+                  member<&U::keep>("1", scene::share, "What a step leaves of a neck.")});
   }
   template <class Inputs>
   static std::string fault(const Inputs& m) {

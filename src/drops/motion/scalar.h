@@ -6,10 +6,7 @@
 #include "drops/motion/merge.pass.h"
 #include "drops/motion/necks.pass.h"
 #include "drops/records.h"
-#include "math/perturbed.h"
-#include "math/enclosure.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
+#include "math/numbers.h"
 #include "pass/stored_record.h"
 
 namespace rainref::drops::scalar {

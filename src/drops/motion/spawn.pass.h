@@ -12,22 +12,17 @@ namespace rainref::drops {
 
 constexpr std::size_t arrival_classes = 1024;  // the upper ten bits of a word
 
-struct SpawnPass {
+struct SpawnPass : pass::Takes<SpawnUniforms> {
   static constexpr pass::About about{"spawn", "New drops in free slots.", {1, capture::Judge::keyed}, {1, capture::Judge::keyed}};
-  using Uniforms = SpawnUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SpawnUniforms",
-        {member<&U::seed>("seed", "1", scene::any_word, "Low and high word of the seed."),
-         member<&U::step>("step", "1", scene::any_word, "Steps made before this one, modulo 2^32."),
-         member<&U::parts>("parts", "1", {0, 4096}, "Draws that add up to the count."),
-         member<&U::first_count>("first_count", "1", {0, 1 << 26}, "Drops of a draw whose word is below every threshold."),
-         member<&U::threshold_count>("threshold_count", "1", {0, 16000}, "Thresholds in the list; 0: each draw gives first_count."),
-         member<&U::first_id>("first_id", "1", scene::any_word, "Id of the first arrival; the others follow."),
-         member<&U::room>("room", "1", {0, DropArrays::most_slots}, "Free slots: arrivals beyond are lost."),
-         member<&U::life>("life", "s", {0, 4096}, "Life of a new drop.")});
+    return block({member<&U::seed>("1", scene::any_word, "Low and high word of the seed."),
+                  member<&U::step>("1", scene::any_word, "Steps made before this one, modulo 2^32."),
+                  member<&U::parts>("1", {0, 4096}, "Draws that add up to the count."),
+                  member<&U::first_count>("1", {0, 1 << 26}, "Drops of a draw whose word is below every threshold."),
+                  member<&U::threshold_count>("1", {0, 16000}, "Thresholds in the list; 0: each draw gives first_count."),
+                  member<&U::first_id>("1", scene::any_word, "Id of the first arrival; the others follow."),
+                  member<&U::room>("1", {0, DropArrays::most_slots}, "Free slots: arrivals beyond are lost."),
+                  member<&U::life>("s", {0, 4096}, "Life of a new drop.")});
   }
   template <class B>
   struct Io {

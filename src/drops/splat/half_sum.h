@@ -2,11 +2,8 @@
 #pragma once
 
 #include "image/code_range.h"
-#include "math/perturbed.h"
-#include "math/enclosure.h"
 #include "math/half.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
+#include "math/numbers.h"
 
 namespace rainref::drops {
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "drops/physics.h"
 #include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"

@@ -34,30 +34,25 @@
 namespace rainref::drops {
 
 /// Its lanes are written by hand, drop by drop: see kernels.cpp.
-struct SplatPass {
+struct SplatPass : pass::Takes<SplatUniforms> {
   static constexpr pass::About about{
       "splat", "The height of the water: every live drop, in slot order; corrected: on the film.", {1}, {3}, {"length"}, "ordered_scatter"};
-  using Uniforms = SplatUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SplatUniforms",
-        {member<&U::size>("size", "texel", {1, 65536}, "Columns and rows of the height texture."),
-         member<&U::radius_scale>("radius_scale", "m", scene::share, "Radius of a drop of mass 1."),
-         member<&U::height_scale>("height_scale", "mm", {0, 1e4}, "Height of a drop of mass 1."),
-         member<&U::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
-         member<&U::smallest_radius>("smallest_radius", "m", {0, 1e5}, "A smaller drop is drawn this wide, and as much lower."),
-         member<&U::kernel>("kernel", "1", {0, 4}, "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
-         member<&U::blend>("blend", "1", {0, 2}, "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
-         member<&U::drop_count>("drop_count", "1", {0, DropArrays::most_slots}, "Drops in the list."),
-         member<&U::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a mass unit in a texel."),
-         member<&U::gravity>("gravity", "1", {-1e9, 1e9}, "corrected: pull on a drop of mass 1, in plane axes, over what holds it."),
-         member<&U::wind>("wind", "1", {-1e9, 1e9}, "corrected: the same of the wind."),
-         member<&U::longer>("longer", "1", scene::share, "Of a drop that is just held, its length more than round; 0 as published."),
-         member<&U::taper>("taper", "1", scene::share, "Its width's slope along its half length; 0 as published."),
-         member<&U::skew>("skew", "1", scene::share, "Its height's slope along its half length; 0 as published."),
-         member<&U::moment>("moment", "1", scene::share, "corrected: mean squared place along it, over its half length squared.")});
+    return block({member<&U::size>("texel", {1, 65536}, "Columns and rows of the height texture."),
+                  member<&U::radius_scale>("m", scene::share, "Radius of a drop of mass 1."),
+                  member<&U::height_scale>("mm", {0, 1e4}, "Height of a drop of mass 1."),
+                  member<&U::frame>("m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
+                  member<&U::smallest_radius>("m", {0, 1e5}, "A smaller drop is drawn this wide, and as much lower."),
+                  member<&U::kernel>("1", {0, 4}, "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
+                  member<&U::blend>("1", {0, 2}, "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
+                  member<&U::drop_count>("1", {0, DropArrays::most_slots}, "Drops in the list."),
+                  member<&U::film_scale>("mm", {0, 1e9}, "corrected: height of a mass unit in a texel."),
+                  member<&U::gravity>("1", {-1e9, 1e9}, "corrected: pull on a drop of mass 1, in plane axes, over what holds it."),
+                  member<&U::wind>("1", {-1e9, 1e9}, "corrected: the same of the wind."),
+                  member<&U::longer>("1", scene::share, "Of a drop that is just held, its length more than round; 0 as published."),
+                  member<&U::taper>("1", scene::share, "Its width's slope along its half length; 0 as published."),
+                  member<&U::skew>("1", scene::share, "Its height's slope along its half length; 0 as published."),
+                  member<&U::moment>("1", scene::share, "corrected: mean squared place along it, over its half length squared.")});
   }
   /// Whether a drop may add something to a tile of texels. Others surely add nothing: this one ends a texel and a fiftieth of its radius
   /// further out than the text says. has_neck: it may have one.

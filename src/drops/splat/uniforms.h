@@ -22,22 +22,14 @@ enum class SplatBlend : std::int32_t {
 };
 
 struct SplatUniforms {
-  float size[2];          ///< of the height texture [texel]
-  float radius_scale;     ///< radius of a drop of mass 1 [m]
-  float height_scale;     ///< height of a drop of mass 1 [mm]
-  float frame[3];         ///< plane coordinates of a step in the texture: x of a column, x and y of a row [m/texel]
-  float smallest_radius;  ///< a smaller drop is drawn this wide, and as much lower [m]
-  std::int32_t kernel;    ///< a SplatKernel
-  std::int32_t blend;     ///< a SplatBlend
-  std::int32_t drop_count;
-  float film_scale;  ///< corrected: height of a mass unit in a texel [mm]
+  float size[2], radius_scale, height_scale;
+  float frame[3], smallest_radius;
+  std::int32_t kernel, blend, drop_count;
+  float film_scale;
   // corrected: how drops lean, that hysteresis holds on their line.
   float gravity[2];  ///< pull of gravity and inertia on a drop of mass 1, in axes of the plane, over what holds it; with mass^(2/3)
   float wind[2];     ///< the same of the wind; with mass^(1/3)
-  float longer;      ///< of a drop that hysteresis just holds: what its length is more than round
-  float taper;       ///< its width's slope along its half length
-  float skew;        ///< its height's slope along its half length
-  float moment;      ///< mean of the squared place along it under the kernel, over its half length squared
+  float longer, taper, skew, moment;
 };
 /// Whether drops are anything but round.
 inline bool leans(const SplatUniforms& u) { return u.longer != 0 || u.taper != 0 || u.skew != 0; }

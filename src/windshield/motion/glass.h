@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/parameter.h"
 
@@ -46,5 +48,12 @@ struct Glass {
 /// upper left, or turned: so their order says which side is outside, of a rear or a side window too. Throws Error(usage) naming `keys` when
 /// they span no plane: two of them coincide or all three lie on a line, to 1e-6 of their distances.
 Glass make_glass(const Corners& corners, std::string_view keys = "windshield.corner_0, windshield.corner_1, windshield.corner_2");
+
+/// "x y z, x y z, x y z; ...": the corners of each pane at (u, v) = (0, 0), (1, 0) and (0, 1) [m]. Throws Error(usage) naming
+/// windshield.panes and the pane.
+std::vector<Corners> parse_panes(std::string_view text);
+
+/// "windshield.panes, pane 2", of pane number k from 1 on; "the glass" of the windshield, number 0.
+std::string pane_name(int number);
 
 }  // namespace rainref::windshield

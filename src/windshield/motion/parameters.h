@@ -1,16 +1,36 @@
 // The scene parameters of glass, vehicle and wipers: declared once, for scenes, help, hashing and capture.
 #pragma once
 
-#include <array>
+#include <string>
 #include <vector>
 
 #include "math/constants.h"
 #include "scene/config.h"
 #include "windshield/motion/host.h"
 #include "windshield/motion/weather.h"
-#include "windshield/motion/wiper_parameters.h"
 
 namespace rainref::windshield {
+
+/// What a scene says of the blades of one pane.
+struct PaneWipers {
+  WiperSettings wipers;
+  Capture capture;  ///< as-published
+};
+
+/// So many of the panes behind the windshield may have wipers: the first ones of windshield.panes.
+constexpr int most_wiped_panes = 2;
+
+/// The table that speaks of pane `number`: "wipers" of the windshield, number 0, "pane_1_wipers" of the first of the others.
+std::string wiper_table(int number);
+
+/// The keys of that table. The windshield has two blades by default, another pane none; in all else the defaults are the same.
+std::vector<scene::Parameter> wiper_parameters(int number);
+
+/// What they say, checked, for this pane of glass. Throws Error(usage) as check and WiperMotion do.
+PaneWipers wipers_from(const scene::Config& config, int number, const Glass& glass);
+
+/// Throws Error(usage), placed, for any key of that table which the scene gives.
+void refuse_wipers(const scene::Config& config, int number, const std::string& why);
 
 /// windshield.corner_*, windshield.panes, vehicle.*, world.*, rain.key_frames, rain.shelter, wipers.* and pane_1_wipers.* on
 std::vector<scene::Parameter> motion_parameters();

@@ -10,32 +10,26 @@
 namespace rainref::windshield {
 
 /// One record, from uniforms alone.
-struct WindshieldFramePass {
+struct WindshieldFramePass : pass::Takes<WindshieldFrameUniforms> {
   static constexpr pass::About about{"windshield_frame",
                                      "Gravity, apparent wind and inertia in glass coordinates.",
                                      {1, capture::Judge::keyed},
                                      {1, capture::Judge::keyed},
                                      {"dot"}};
-  using Uniforms = WindshieldFrameUniforms;
   using Record = drops::GlassFrame;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "WindshieldFrameUniforms",
-        {member<&U::heading>("heading", "1", scene::component, "Cosine and sine of the car's heading, positive to the left."),
-         member<&U::yaw_rate>("yaw_rate", "rad/s", {-1e3, 1e3}, "Turn rate of the car, positive to the left."),
-         member<&U::yaw_acceleration>("yaw_acceleration", "rad/s^2", {-1e6, 1e6}, "Derivative of yaw_rate."),
-         member<&U::world_wind>("world_wind", "m/s", {-100, 100}, "Velocity of the wind, world axes."),
-         member<&U::gravity>("gravity", "m/s^2", {-100, 100}, "Acceleration of gravity."),
-         member<&U::vehicle_velocity>("vehicle_velocity", "m/s", {-1e3, 1e3}, "Velocity of the car, world axes.")
-             .guarded("the road is level", 2),
-         member<&U::acceleration>("acceleration", "m/s^2", {-1e6, 1e6}, "Acceleration of the car's origin, car axes.")
-             .guarded("the road is level", 2),
-         member<&U::e_u>("e_u", "m", {-1e3, 1e3}, "Edge of the glass along u, car axes."),
-         member<&U::e_v>("e_v", "m", {-1e3, 1e3}, "Edge of the glass along v, car axes."),
-         member<&U::origin>("origin", "m", {-100, 100}, "corrected: corner (0, 0) of the glass, car axes."),
-         member<&U::inverse_metric>("inverse_metric", "1/m^2", {-1e12, 1e12},
+    return block(
+        {member<&U::heading>("1", scene::component, "Cosine and sine of the car's heading, positive to the left."),
+         member<&U::yaw_rate>("rad/s", {-1e3, 1e3}, "Turn rate of the car, positive to the left."),
+         member<&U::yaw_acceleration>("rad/s^2", {-1e6, 1e6}, "Derivative of yaw_rate."),
+         member<&U::world_wind>("m/s", {-100, 100}, "Velocity of the wind, world axes."),
+         member<&U::gravity>("m/s^2", {-100, 100}, "Acceleration of gravity."),
+         member<&U::vehicle_velocity>("m/s", {-1e3, 1e3}, "Velocity of the car, world axes.").guarded("the road is level", 2),
+         member<&U::acceleration>("m/s^2", {-1e6, 1e6}, "Acceleration of the car's origin, car axes.").guarded("the road is level", 2),
+         member<&U::e_u>("m", {-1e3, 1e3}, "Edge of the glass along u, car axes."),
+         member<&U::e_v>("m", {-1e3, 1e3}, "Edge of the glass along v, car axes."),
+         member<&U::origin>("m", {-100, 100}, "corrected: corner (0, 0) of the glass, car axes."),
+         member<&U::inverse_metric>("1/m^2", {-1e12, 1e12},
                                     "as-published: 1 / |e_u|^2, 0, 1 / |e_v|^2; corrected: uu, uv and vv of the metric's inverse.")});
   }
   template <class B>

@@ -1,4 +1,4 @@
-#include "windshield/motion/wipe_drops.h"
+#include "windshield/motion/kernels.h"
 
 #include <algorithm>
 #include <array>

@@ -20,30 +20,25 @@ namespace rainref::windshield {
 
 /// Each drop by itself, and corrected each texel of the film; which drop then gets the water of the texels is told by wipe_drops.h. The
 /// film's lanes are written by hand.
-struct WipeDropsPass {
+struct WipeDropsPass : pass::Takes<WipeDropsUniforms> {
   static constexpr pass::About about{"wipe_drops",
                                      "Drops in the swept area ride on the blade; corrected: with the film that it sweeps.",
                                      {1, capture::Judge::keyed},
                                      {1, capture::Judge::keyed},
                                      {"length"}};
-  using Uniforms = WipeDropsUniforms;
   using Record = drops::Drop;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "WipeDropsUniforms",
-        {member<&U::frame>("frame", "m", {-1e4, 1e4}, "x = f0 u + f1 v, y = f2 v: plane coordinates of glass coordinates."),
-         member<&U::follow>("follow", "1", scene::share, "as-published: share of the way to the leading edge that a captured drop makes."),
-         member<&U::inverse_frame>("inverse_frame", "1/m", {-1e9, 1e9}, "u = i0 x + i1 y, v = i2 y."),
-         member<&U::inherit>("inherit", "1", scene::share, "as-published: share of the blade's velocity that a captured drop takes over."),
-         member<&U::gain>("gain", "1", {0, 100}, "as-published: mass that a captured drop gains."),
-         member<&U::radius_scale>("radius_scale", "m", scene::share, "corrected: base radius of a drop of one mass unit."),
-         member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Records in the list of wipers."),
-         member<&U::bin_count>("bin_count", "1", {0, 4096}, "corrected: radial bins that share out the film."),
-         member<&U::texel>("texel", "1", scene::share, "corrected: 1 over the film's columns and rows."),
-         member<&U::columns>("columns", "texel", {0, 65536}, "corrected: columns of the film."),
-         member<&U::rows>("rows", "texel", {0, 65536}, "corrected: rows of the film.")});
+    return block({member<&U::frame>("m", {-1e4, 1e4}, "x = f0 u + f1 v, y = f2 v: plane coordinates of glass coordinates."),
+                  member<&U::follow>("1", scene::share, "as-published: share of the way to the leading edge that a captured drop makes."),
+                  member<&U::inverse_frame>("1/m", {-1e9, 1e9}, "u = i0 x + i1 y, v = i2 y."),
+                  member<&U::inherit>("1", scene::share, "as-published: share of the blade's velocity that a captured drop takes over."),
+                  member<&U::gain>("1", {0, 100}, "as-published: mass that a captured drop gains."),
+                  member<&U::radius_scale>("m", scene::share, "corrected: base radius of a drop of one mass unit."),
+                  member<&U::wiper_count>("1", {0, 65536}, "Records in the list of wipers."),
+                  member<&U::bin_count>("1", {0, 4096}, "corrected: radial bins that share out the film."),
+                  member<&U::texel>("1", scene::share, "corrected: 1 over the film's columns and rows."),
+                  member<&U::columns>("texel", {0, 65536}, "corrected: columns of the film."),
+                  member<&U::rows>("texel", {0, 65536}, "corrected: rows of the film.")});
   }
   /// The records that count.
   template <class Inputs>

@@ -8,37 +8,31 @@
 
 namespace rainref::windshield {
 
-struct CompositePass {
+struct CompositePass : pass::Takes<CompositeUniforms> {
   static constexpr pass::About about{
       "composite", "The scene through film and drops, with glints: linear radiance.", {1}, {1}, {"dot", "length", "normalize"}};
-  using Uniforms = CompositeUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "CompositeUniforms",
-        {member<&U::u_row>("u_row", "1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
-         member<&U::glass_distance>("glass_distance", "m", {-1e9, 1e9},
-                                    "The glass lies glass_distance / w_row . (x, y, 1) along the view axis."),
-         member<&U::v_row>("v_row", "1", {-1e9, 1e9}, "v likewise."),
-         member<&U::blur_lod>("blur_lod", "1", scene::mip_level, "Mip level of the picture behind the film."),
-         member<&U::w_row>("w_row", "1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
-         member<&U::wetness>("wetness", "1", scene::share, "Weight of the blurred picture where the glass was not wiped."),
-         member<&U::plane_x>("plane_x", "1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
-         member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which water begins to show as a drop."),
-         member<&U::plane_y>("plane_y", "1", scene::component, "Second axis."),
-         member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
-         member<&U::outward>("outward", "1", scene::component, "Normal of the glass, away from the car."),
-         member<&U::refraction>("refraction", "1", scene::component, "as-published: offset in pictures per unit of n.xy."),
-         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
-         member<&U::shininess>("shininess", "1", {1, 4096}, "Power of a highlight."),
-         member<&U::glint_strength>("glint_strength", "1", {0, 10}, "Weight of the highlights."),
-         member<&U::cabin>("cabin", "1", scene::radiance, "Radiance beside the glass."),
-         member<&U::glint_count>("glint_count", "1", {0, 65536}, "Lights in the list.").guarded("a scene has one light"),
-         member<&U::water_ior>("water_ior", "1", {0, 2}, "corrected: refractive index of the water."),
-         member<&U::inner>("inner", "1", scene::share, "corrected: share of the blurred scene that the water's surface mirrors.")});
+    return block({member<&U::u_row>("1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
+                  member<&U::glass_distance>("m", {-1e9, 1e9}, "The glass lies glass_distance / w_row . (x, y, 1) along the view axis."),
+                  member<&U::v_row>("1", {-1e9, 1e9}, "v likewise."),
+                  member<&U::blur_lod>("1", scene::mip_level, "Mip level of the picture behind the film."),
+                  member<&U::w_row>("1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
+                  member<&U::wetness>("1", scene::share, "Weight of the blurred picture where the glass was not wiped."),
+                  member<&U::plane_x>("1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
+                  member<&U::visible_from>("mm", {0, 10}, "Height at which water begins to show as a drop."),
+                  member<&U::plane_y>("1", scene::component, "Second axis."),
+                  member<&U::visible_to>("mm", {0, 10}, "Height from which it shows fully."),
+                  member<&U::outward>("1", scene::component, "Normal of the glass, away from the car."),
+                  member<&U::refraction>("1", scene::component, "as-published: offset in pictures per unit of n.xy."),
+                  member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                  member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                  member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+                  member<&U::shininess>("1", {1, 4096}, "Power of a highlight."),
+                  member<&U::glint_strength>("1", {0, 10}, "Weight of the highlights."),
+                  member<&U::cabin>("1", scene::radiance, "Radiance beside the glass."),
+                  member<&U::glint_count>("1", {0, 65536}, "Lights in the list.").guarded("a scene has one light"),
+                  member<&U::water_ior>("1", {0, 2}, "corrected: refractive index of the water."),
+                  member<&U::inner>("1", scene::share, "corrected: share of the blurred scene that the water's surface mirrors.")});
   }
   template <class B>
   struct Io {

@@ -1,7 +1,6 @@
 #include "windshield/picture/falling_rain.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "math/constants.h"
 #include "math/half.h"

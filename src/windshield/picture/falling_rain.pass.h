@@ -15,23 +15,17 @@ namespace rainref::windshield {
 
 struct FallingRainUniforms {
   std::int32_t streak_count;
-  float sharpness;  ///< 1 over the depth in which what stands in the street hides a streak [1/m]
-  float padding0, padding1;
+  float sharpness, padding0, padding1;
 };
 static_assert(sizeof(FallingRainUniforms) == 16);
 
 /// In place, on level 0 of the pyramid: behind it all lies the fog, before it the film. It runs where the scene asks for it.
-struct FallingRainPass {
+struct FallingRainPass : pass::Takes<FallingRainUniforms> {
   static constexpr pass::About about{
       "falling_rain", "Streaks of the rain behind the glass over the fogged scene, far ones first.", {1}, {1}, {"length"}};
-  using Uniforms = FallingRainUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "FallingRainUniforms",
-        {member<&U::streak_count>("streak_count", "1", {0, 1 << 24}, "Streaks in the list."),
-         member<&U::sharpness>("sharpness", "1/m", {0, 1000}, "1 over the depth in which what stands in the street hides a streak.")});
+    return block({member<&U::streak_count>("1", {0, 1 << 24}, "Streaks in the list."),
+                  member<&U::sharpness>("1/m", {0, 1000}, "1 over the depth in which what stands in the street hides a streak.")});
   }
   /// As many as the uniform says, or all: of a port that lost some there may be fewer.
   static std::span<const Streak> counted(const Uniforms& u, std::span<const Streak> all) {

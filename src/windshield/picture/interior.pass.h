@@ -8,19 +8,15 @@
 namespace rainref::windshield {
 
 struct InteriorUniforms {
-  float light;  ///< radiance of what is 1 in `interior`
-  float padding0, padding1, padding2;
+  float light, padding0, padding1, padding2;
 };
 static_assert(sizeof(InteriorUniforms) == 16);
 
 /// It follows the passes of all panes where the scene asks for it. In place.
-struct InteriorPass {
+struct InteriorPass : pass::Takes<InteriorUniforms> {
   static constexpr pass::About about{"interior", "Pillar and dashboard before the glass, over what is seen through it.", {}, {1}};
-  using Uniforms = InteriorUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    return scene::uniform_block<Uniforms>(
-        "InteriorUniforms", {member<&Uniforms::light>("light", "1", {0, 100}, "Radiance of what is 1 in the interior's picture.")});
+    return block({member<&U::light>("1", {0, 100}, "Radiance of what is 1 in the interior's picture.")});
   }
   template <class B>
   struct Io {

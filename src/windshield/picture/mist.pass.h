@@ -9,46 +9,33 @@
 namespace rainref::windshield {
 
 struct MistUniforms {
-  float u_row[3];        ///< these as in that pane's CompositeUniforms
-  float glass_distance;  ///< along the view axis: glass_distance / w_row . (x, y, 1) [m]
-  float v_row[3];
-  float lod;  ///< mip level of the lookups at the taps
-  float w_row[3];
-  float veil;            ///< share of the light in the mist that comes from the scene as a whole
-  float pixel[2];        ///< extent of a pixel on the image plane at distance 1
-  float half_size[2];    ///< of the image plane at distance 1
-  float scene_scale[2];  ///< texture coordinates of the scene per unit of the image plane
-  float weight;          ///< of a tap
+  float u_row[3], glass_distance;
+  float v_row[3], lod;
+  float w_row[3], veil;
+  float pixel[2], half_size[2];
+  float scene_scale[2], weight;
   std::int32_t tap_count;
 };
 /// A place that the blurred picture behind the mist is the mean of, from the pixel's own.
 struct Tap {
-  float x, y;  ///< texture coordinates of the scene
-  float padding0, padding1;
+  float x, y, padding0, padding1;
 };
 static_assert(sizeof(MistUniforms) == 80 && sizeof(Tap) == 16);
 
 /// It follows composite of a pane where the scene asks for condensation.
-struct MistPass {
+struct MistPass : pass::Takes<MistUniforms> {
   static constexpr pass::About about{
       "mist", "What composite made of the scene, and through the mist on the glass a blurred and veiled one.", {}, {2}, {"dot"}};
-  using Uniforms = MistUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "MistUniforms",
-        {member<&U::u_row>("u_row", "1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
-         member<&U::glass_distance>("glass_distance", "m", {-1e9, 1e9}, "As composite's."),
-         member<&U::v_row>("v_row", "1", {-1e9, 1e9}, "v likewise."),
-         member<&U::lod>("lod", "1", scene::mip_level, "Mip level of the lookups at the taps."),
-         member<&U::w_row>("w_row", "1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
-         member<&U::veil>("veil", "1", scene::share, "Share of the light in the mist that comes from all the scene."),
-         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
-         member<&U::weight>("weight", "1", scene::share, "Of a tap."),
-         member<&U::tap_count>("tap_count", "1", {0, 4096}, "Taps in the list.")});
+    return block({member<&U::u_row>("1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
+                  member<&U::glass_distance>("m", {-1e9, 1e9}, "As composite's."), member<&U::v_row>("1", {-1e9, 1e9}, "v likewise."),
+                  member<&U::lod>("1", scene::mip_level, "Mip level of the lookups at the taps."),
+                  member<&U::w_row>("1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
+                  member<&U::veil>("1", scene::share, "Share of the light in the mist that comes from all the scene."),
+                  member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                  member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                  member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+                  member<&U::weight>("1", scene::share, "Of a tap."), member<&U::tap_count>("1", {0, 4096}, "Taps in the list.")});
   }
   template <class B>
   struct Io {

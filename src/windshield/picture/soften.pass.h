@@ -9,51 +9,37 @@
 namespace rainref::windshield {
 
 struct SoftenUniforms {
-  float u_row[3];        ///< these as in that pane's CompositeUniforms
-  float glass_distance;  ///< along the view axis: glass_distance / w_row . (x, y, 1) [m]
-  float v_row[3];
-  float lod;  ///< mip level of the lookups
-  float w_row[3];
-  float most;        ///< share of the light that the thickest streak scatters
-  float plane_x[3];  ///< axes of the glass in camera axes: right, up, forward
+  float u_row[3], glass_distance;
+  float v_row[3], lod;
+  float w_row[3], most;
+  float plane_x[3];
   std::int32_t deflection_count;
-  float plane_y[3];
-  float padding0;
-  float pixel[2];        ///< extent of a pixel on the image plane at distance 1
-  float half_size[2];    ///< of the image plane at distance 1
-  float scene_scale[2];  ///< texture coordinates of the scene per unit of the image plane
-  float padding1, padding2;
+  float plane_y[3], padding0;
+  float pixel[2], half_size[2];
+  float scene_scale[2], padding1, padding2;
 };
 /// By how much a share of the scattered light is turned.
 struct Deflection {
-  float tangent;  ///< of the angle, along the blade that left the film
-  float weight;   ///< share of the scattered light
-  float padding0, padding1;
+  float tangent, weight, padding0, padding1;
 };
 static_assert(sizeof(SoftenUniforms) == 112 && sizeof(Deflection) == 16);
 
 /// It follows composite of a pane with blades where the scene asks for smear.
-struct SoftenPass {
+struct SoftenPass : pass::Takes<SoftenUniforms> {
   static constexpr pass::About about{
       "soften", "What composite made of the scene, drawn out across the streaks of the film that blades left.", {}, {1}, {"dot"}};
-  using Uniforms = SoftenUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SoftenUniforms",
-        {member<&U::u_row>("u_row", "1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
-         member<&U::glass_distance>("glass_distance", "m", {-1e9, 1e9}, "As composite's."),
-         member<&U::v_row>("v_row", "1", {-1e9, 1e9}, "v likewise."),
-         member<&U::lod>("lod", "1", scene::mip_level, "Mip level of the lookups."),
-         member<&U::w_row>("w_row", "1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
-         member<&U::most>("most", "1", scene::share, "Share of the light that the thickest streak scatters."),
-         member<&U::plane_x>("plane_x", "1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
-         member<&U::deflection_count>("deflection_count", "1", {0, 4096}, "Deflections in the list."),
-         member<&U::plane_y>("plane_y", "1", scene::component, "Second axis."),
-         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane.")});
+    return block({member<&U::u_row>("1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
+                  member<&U::glass_distance>("m", {-1e9, 1e9}, "As composite's."), member<&U::v_row>("1", {-1e9, 1e9}, "v likewise."),
+                  member<&U::lod>("1", scene::mip_level, "Mip level of the lookups."),
+                  member<&U::w_row>("1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
+                  member<&U::most>("1", scene::share, "Share of the light that the thickest streak scatters."),
+                  member<&U::plane_x>("1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
+                  member<&U::deflection_count>("1", {0, 4096}, "Deflections in the list."),
+                  member<&U::plane_y>("1", scene::component, "Second axis."),
+                  member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                  member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                  member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane.")});
   }
   template <class B>
   struct Io {

@@ -1,8 +1,6 @@
 #include "windshield/scene/blades_seen.h"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "math/half.h"
 #include "windshield/motion/extent_between.h"

@@ -1,9 +1,11 @@
 #include "windshield/scene/pictures.h"
 
-#include "effect/scene_pictures.h"
+#include <algorithm>
+
 #include "effect/run_memory.h"
+#include "effect/scene_pictures.h"
+#include "math/half.h"
 #include "rainref/error.h"
-#include "windshield/scene/images.h"
 #include "windshield/scene/street.h"
 
 namespace rainref::windshield {
@@ -28,20 +30,26 @@ ScenePictures::Shown ScenePictures::shown_in(int frame) const {
 Surroundings ScenePictures::read(int frame, effect::Inputs& files) const {
   Surroundings s;
   if (!colour_) return s;
-  const auto [of_colour, of_depth] = shown_in(frame);
-  const Image colour = effect::linear_of(colour_->read(of_colour, files));
+  const Image colour = effect::linear_of(colour_->read(colour_->shown_in(frame), files));
   s.colour = opaque_half(colour);
-  if (!depth_) {
-    s.depth = far_depth(colour.width(), colour.height());
-    return s;
-  }
-  const image_io::Picture picture = depth_->read(of_depth, files);
-  try {
-    s.depth = effect::depth_of(picture, depth_scale_, street_far, colour);
-  } catch (const Error& e) {
-    throw depth_->about(e, of_depth);
-  }
+  s.depth = depth_ ? effect::depth_in(*depth_, frame, depth_scale_, street_far, colour, files) : far_depth(colour.width(), colour.height());
   return s;
+}
+
+Image opaque_half(const Image& linear) {
+  Image out(Format::rgba16f, linear.width(), linear.height());
+  for (int y = 0; y < out.height(); ++y) {
+    const float* from = linear.row<float>(y);
+    Half* to = out.row<Half>(y);
+    for (int i = 0; i < 4 * out.width(); ++i) to[i] = to_half(i % 4 == 3 ? 1.0f : std::clamp(from[i], 0.0f, 65504.0f));
+  }
+  return out;
+}
+
+Image far_depth(int width, int height) {
+  Image out(Format::r32f, width, height);
+  for (int y = 0; y < height; ++y) std::fill_n(out.row<float>(y), width, static_cast<float>(street_far));
+  return out;
 }
 
 }  // namespace rainref::windshield

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "effect/picture_sequence.h"
+#include "rainref/image.h"
 #include "rainref/windshield.h"
 
 namespace rainref::windshield {
@@ -26,5 +27,11 @@ class ScenePictures {
   std::optional<effect::PictureSource> colour_, depth_;
   double depth_scale_ = 1;
 };
+
+/// Of linear radiance, rgba32f, as rgba16f, alpha 1; negative values become 0, those beyond the range of a half its largest
+/// value.
+Image opaque_half(const Image& linear);
+/// As far as the street's sky everywhere.
+Image far_depth(int width, int height);
 
 }  // namespace rainref::windshield

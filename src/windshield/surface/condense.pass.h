@@ -8,32 +8,22 @@
 namespace rainref::windshield {
 
 struct CondenseUniforms {
-  float dt;             ///< time since the frame before, whole on the grid of wiped_grid [s]
-  float inverse_tau;    ///< [1/s]
-  float limit;          ///< what `clear_time` grows to at most; never cleared [s]
-  float wiped_limit;    ///< `wiped` of glass that no blade wiped, or long ago [s]
-  float most;           ///< what the mist grows to: share of the light that it scatters
-  float inverse_water;  ///< 1 / height of water that takes all of the mist up [1/mm]
-  float padding0, padding1;
+  float dt, inverse_tau, limit, wiped_limit;
+  float most, inverse_water, padding0, padding1;
 };
 static_assert(sizeof(CondenseUniforms) == 32);
 
 /// Where the scene asks for it. In place.
-struct CondensePass {
+struct CondensePass : pass::Takes<CondenseUniforms> {
   static constexpr pass::About about{
       "condense", "The mist of condensed water on the glass, as it has grown since water or a blade last cleared it.", {}, {1}};
-  using Uniforms = CondenseUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "CondenseUniforms",
-        {member<&U::dt>("dt", "s", {0, 1}, "Time since the frame before, so rounded that sums are exact."),
-         member<&U::inverse_tau>("inverse_tau", "1/s", {0, 100}, "1 over the time constant of the mist."),
-         member<&U::limit>("limit", "s", {0, 1 << 15}, "The time since the glass was cleared grows to this and no further."),
-         member<&U::wiped_limit>("wiped_limit", "s", {0, 1 << 15}, "Time since a wipe of glass that was never wiped."),
-         member<&U::most>("most", "1", scene::share, "What the mist grows to: share of the light that it scatters."),
-         member<&U::inverse_water>("inverse_water", "1/mm", {0, 1e6}, "1 over the height of water that takes all of the mist up.")});
+    return block({member<&U::dt>("s", {0, 1}, "Time since the frame before, so rounded that sums are exact."),
+                  member<&U::inverse_tau>("1/s", {0, 100}, "1 over the time constant of the mist."),
+                  member<&U::limit>("s", {0, 1 << 15}, "The time since the glass was cleared grows to this and no further."),
+                  member<&U::wiped_limit>("s", {0, 1 << 15}, "Time since a wipe of glass that was never wiped."),
+                  member<&U::most>("1", scene::share, "What the mist grows to: share of the light that it scatters."),
+                  member<&U::inverse_water>("1/mm", {0, 1e6}, "1 over the height of water that takes all of the mist up.")});
   }
   template <class B>
   struct Io {

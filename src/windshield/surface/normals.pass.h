@@ -13,25 +13,17 @@
 namespace rainref::windshield {
 
 struct NormalsUniforms {
-  float slope_x;      ///< slope along x for a difference of 1 mm across two columns
-  float slope_shear;  ///< slope along y for the same; 0 as published
-  float slope_y;      ///< slope along y for a difference of 1 mm across two rows
-  float padding0;
+  float slope_x, slope_shear, slope_y, padding0;
 };
 static_assert(sizeof(NormalsUniforms) == 16);
 
-struct NormalsPass {
+struct NormalsPass : pass::Takes<NormalsUniforms> {
   static constexpr pass::About about{
       "normals", "The normal of the water in axes of the glass, z outward.", {1}, {1}, {"length", "normalize"}};
-  using Uniforms = NormalsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "NormalsUniforms",
-        {member<&U::slope_x>("slope_x", "1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
-         member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two columns; 0 as published."),
-         member<&U::slope_y>("slope_y", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
+    return block({member<&U::slope_x>("1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
+                  member<&U::slope_shear>("1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two columns; 0 as published."),
+                  member<&U::slope_y>("1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
   }
   template <class B>
   struct Io {

@@ -8,22 +8,15 @@
 namespace rainref::windshield {
 
 struct PersistUniforms {
-  float keep;  ///< share of the height that a frame leaves
-  float padding0, padding1, padding2;
+  float keep, padding0, padding1, padding2;
 };
 static_assert(sizeof(PersistUniforms) == 16);
 
 /// As published alone, and only where the scene asks for it: corrected has a film.
-struct PersistPass {
+struct PersistPass : pass::Takes<PersistUniforms> {
   static constexpr pass::About about{
       "persist", "The height texture of the frame before, decayed, wherever this frame's drops are not higher.", {1}, {}};
-  using Uniforms = PersistUniforms;
-  static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("PersistUniforms",
-                                   {member<&U::keep>("keep", "1", scene::share, "Share of the height that a frame leaves.")});
-  }
+  static scene::UniformBlock uniforms() { return block({member<&U::keep>("1", scene::share, "Share of the height that a frame leaves.")}); }
   template <class B>
   struct Io {
     typename B::template Texels<Format::r16f> height = pass::In{.name = "height", .from = "splat"};  // [mm]

@@ -13,30 +13,23 @@
 namespace rainref::windshield {
 
 struct SmearUniforms {
-  float frame[3];       ///< these two as in WipeTextureUniforms
-  float edge_width;     ///< [m]
-  float inverse_water;  ///< 1 / height of water that takes all of the film up [1/mm]
-  float drying;         ///< of the thickest streak, what dries in a second [1/s]
+  float frame[3], edge_width;
+  float inverse_water, drying;
   std::int32_t wiper_count;
   float padding0;
 };
 static_assert(sizeof(SmearUniforms) == 32);
 
 /// Where the scene asks for it. In place.
-struct SmearPass {
+struct SmearPass : pass::Takes<SmearUniforms> {
   static constexpr pass::About about{
       "smear", "The thin film that blades leave in streaks along their way, and what of it is not dry yet.", {}, {1}, {"dot", "length"}};
-  using Uniforms = SmearUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SmearUniforms",
-        {member<&U::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
-         member<&U::edge_width>("edge_width", "m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
-         member<&U::inverse_water>("inverse_water", "1/mm", {0, 1e6}, "1 over the height of water that takes all of the film up."),
-         member<&U::drying>("drying", "1/s", {0, 1000}, "What of the thickness dries in a second."),
-         member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Wipers in the list.")});
+    return block({member<&U::frame>("m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
+                  member<&U::edge_width>("m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
+                  member<&U::inverse_water>("1/mm", {0, 1e6}, "1 over the height of water that takes all of the film up."),
+                  member<&U::drying>("1/s", {0, 1000}, "What of the thickness dries in a second."),
+                  member<&U::wiper_count>("1", {0, 65536}, "Wipers in the list.")});
   }
   /// As many as the uniform says, or all: of a port that lost some there may be fewer.
   static std::span<const Wiper> counted(const Uniforms& u, std::span<const Wiper> all) {

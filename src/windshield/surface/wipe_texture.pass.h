@@ -12,37 +12,27 @@
 namespace rainref::windshield {
 
 struct WipeTextureUniforms {
-  float frame[3];        ///< plane coordinates of a step in the texture: x of a column, x and y of a row [m/texel]
-  float edge_width;      ///< over which coverage falls at a blade's edge [m]
-  float axis_length[2];  ///< as-published: |e_u|, |e_v| [m]
-  float strength;        ///< as-published: what full coverage takes off [mm]
-  float keep;            ///< as-published: share of the mask that a frame leaves
-  float dt;              ///< corrected: time since the frame before, whole on the grid of wiped_grid [s]
-  float inverse_tau;     ///< corrected [1/s]
-  float wiped_limit;     ///< corrected: what `wiped` grows to at most; never wiped [s]
+  float frame[3], edge_width;
+  float axis_length[2], strength, keep;
+  float dt, inverse_tau, wiped_limit;
   std::int32_t wiper_count;
 };
 static_assert(sizeof(WipeTextureUniforms) == 48);
 
 /// In place. Its lanes leave wipers out that cannot reach them: see kernels.cpp.
-struct WipeTexturePass {
+struct WipeTexturePass : pass::Takes<WipeTextureUniforms> {
   static constexpr pass::About about{
       "wipe_texture", "What the blades take off the height, and the mask of freshly wiped glass.", {1}, {1}, {"dot", "length"}};
-  using Uniforms = WipeTextureUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "WipeTextureUniforms",
-        {member<&U::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
-         member<&U::edge_width>("edge_width", "m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
-         member<&U::axis_length>("axis_length", "m", {0, 1e4}, "as-published: lengths of the axes u and v."),
-         member<&U::strength>("strength", "mm", {0, 1000}, "as-published: what full coverage takes off the height."),
-         member<&U::keep>("keep", "1", scene::share, "as-published: share of the mask that a frame leaves."),
-         member<&U::dt>("dt", "s", {0, 1}, "corrected: time since the frame before, so rounded that sums are exact."),
-         member<&U::inverse_tau>("inverse_tau", "1/s", {0, 100}, "corrected: 1 over the time constant of the mask."),
-         member<&U::wiped_limit>("wiped_limit", "s", {0, 1 << 15}, "corrected: the time since a wipe grows to this and no further."),
-         member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Wipers in the list.")});
+    return block({member<&U::frame>("m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
+                  member<&U::edge_width>("m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
+                  member<&U::axis_length>("m", {0, 1e4}, "as-published: lengths of the axes u and v."),
+                  member<&U::strength>("mm", {0, 1000}, "as-published: what full coverage takes off the height."),
+                  member<&U::keep>("1", scene::share, "as-published: share of the mask that a frame leaves."),
+                  member<&U::dt>("s", {0, 1}, "corrected: time since the frame before, so rounded that sums are exact."),
+                  member<&U::inverse_tau>("1/s", {0, 100}, "corrected: 1 over the time constant of the mask."),
+                  member<&U::wiped_limit>("s", {0, 1 << 15}, "corrected: the time since a wipe grows to this and no further."),
+                  member<&U::wiper_count>("1", {0, 65536}, "Wipers in the list.")});
   }
   template <class B>
   struct Io {

@@ -1,21 +1,56 @@
-#include "puddle/oracle.h"
+// Water stepped by the scalar evaluations of wave_step over whole fields: in double the oracle of the tests, in float the
+// definition of the bits. A shell like kernels_wave.cpp, without lanes, tiles or a choice of drops by place.
+#pragma once
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
+#include "puddle/host.h"
 #include "puddle/scalar.h"
 
 namespace rainref::puddle {
-namespace {
 
 template <class Storage>
-using Number = scalar::Scalar<std::conditional_t<std::is_same_v<Storage, double>, double, float>>;
+using WaveNumber = scalar::Scalar<std::conditional_t<std::is_same_v<Storage, double>, double, float>>;
 
 // The texel that stands for index i outside [0, size); fixed boundaries have none.
-int inner_index(int i, int size, Boundary boundary) {
+inline int inner_index(int i, int size, Boundary boundary) {
   return boundary == Boundary::periodic ? ((i % size) + size) % size : std::clamp(i, 0, size - 1);
 }
 
-}  // namespace
+/// The number that steps water of this storage: double for the oracle, float for everything that is stored.
+template <class Storage>
+class ScalarWave {
+ public:
+  /// Level water of these settings' size, boundary, rounding and uniforms. The settings' own storage plays no part.
+  explicit ScalarWave(const Settings& settings);
+  /// As above, with uniforms that no settings give.
+  ScalarWave(const Settings& settings, const WaveStepUniforms& uniforms);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const WaveStepUniforms& uniforms() const { return uniforms_; }
+
+  /// Stored values, row-major. Writable: the state is these two levels and nothing else.
+  std::vector<Storage> newest, previous;
+
+  /// One wave step; every drop is offered to every texel, in order.
+  void step(std::span<const Drop> drops = {});
+
+ private:
+  bool corrected_;
+  Rounding rounding_;
+  Boundary boundary_;
+  int width_, height_, ghosts_;  // ghosts_: texels on every side that a step may read
+  WaveStepUniforms uniforms_;
+  Storage rest_;
+  std::vector<Storage> padded_;  // the newest level inside a frame of ghost texels
+
+  void fill_padded();
+};
+
+using OracleWave = ScalarWave<double>;
 
 template <class Storage>
 ScalarWave<Storage>::ScalarWave(const Settings& settings) : ScalarWave(settings, wave_step_uniforms(settings)) {}
@@ -29,7 +64,7 @@ ScalarWave<Storage>::ScalarWave(const Settings& s, const WaveStepUniforms& unifo
       height_(wave_size(s)[1]),
       ghosts_(static_cast<int>(uniforms.step) + 1),
       uniforms_(uniforms) {
-  store(&rest_, Number<Storage>(uniforms.rest), rounding_);
+  store(&rest_, WaveNumber<Storage>(uniforms.rest), rounding_);
   newest.assign(static_cast<std::size_t>(width_) * height_, rest_);
   previous = newest;
   padded_.resize(static_cast<std::size_t>(width_ + 2 * ghosts_) * (height_ + 2 * ghosts_));
@@ -50,7 +85,7 @@ void ScalarWave<Storage>::fill_padded() {
 
 template <class Storage>
 void ScalarWave<Storage>::step(std::span<const Drop> drops) {
-  using N = Number<Storage>;
+  using N = WaveNumber<Storage>;
   fill_padded();
   WaveStepUniforms u = uniforms_;
   u.drop_count = static_cast<int>(drops.size());
@@ -74,10 +109,5 @@ void ScalarWave<Storage>::step(std::span<const Drop> drops) {
   }
   newest.swap(previous);
 }
-
-template class ScalarWave<double>;
-template class ScalarWave<float>;
-template class ScalarWave<Half>;
-template class ScalarWave<Unorm8>;
 
 }  // namespace rainref::puddle
