@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
+#include "faults/replay.h"
 #include "judge/alternatives.h"
 #include "judge/evaluations.h"
 #include "judge/stored.h"
@@ -51,13 +50,8 @@ std::optional<judge::Cause> alternative_formula(const capture::PassCase& c, cons
       const auto inside = static_cast<std::int64_t>(held(failing));
       if (inside * 10 < static_cast<std::int64_t>(failing.size()) * 9) continue;
       if (held(passing) * 10 < static_cast<std::ptrdiff_t>(passing.size()) * 9) continue;
-      judge::Cause cause;
-      cause.name = "another formula: " + formula.name;
-      cause.sentence = formula.sentence;
-      cause.of = static_cast<std::int64_t>(failing.size());
-      cause.inside = inside;
-      cause.is_likely = cause.of >= 4;
-      return cause;
+      const auto of = static_cast<std::int64_t>(failing.size());
+      return Tried(What{Kind::another_formula, {formula.name, formula.sentence}}, {"", "", 0, of, inside, false, of >= 4});
     } catch (const Error&) {
       continue;  // the case has not what the other formula takes
     }

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <functional>
 
-#include <fmt/format.h>
-
 #include "faults/edits.h"
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -77,29 +76,24 @@ std::vector<Edit> curve_edits_of(const Probe& p, std::int32_t node) {
   const auto at = std::find_if(all.begin(), all.end(), [&](const Expression* e) { return e->node == variable; });
   if (at == all.end()) return out;
   const Expression x = **at;  // by the first path to it
-  const auto num = [](float v) { return number_of(v); };
-  const auto times = [](Expression a, Expression b) { return operation(Op::product, {std::move(a), std::move(b)}); };
-  const auto minus = [](Expression a, Expression b) { return operation(Op::difference, {std::move(a), std::move(b)}); };
-  const auto plus = [](Expression a, Expression b) { return operation(Op::sum, {std::move(a), std::move(b)}); };
   const std::string v = words_for(p, variable), text = words_for(p, node);
   const auto add = [&](Expression e, const std::string& curve) {
-    out.push_back({{std::move(e)},
-                   fmt::format("another curve: {} for {}", curve, text),
-                   fmt::format("of {} the curve {} stands in place of {}", v, curve, text)});
+    out.push_back({{std::move(e)}, {Kind::another_curve, {text, curve, v}}});
   };
-  const Expression one = num(1), squared = times(x, x), rest = minus(one, x);
-  add(x, fmt::format("linear, {}", v));
-  add(times(squared, minus(num(3), times(num(2), x))), "the cubic smoothstep, x^2 (3 - 2 x)");
-  add(times(times(squared, x), plus(times(x, minus(times(x, num(6)), num(15))), num(10))), "the quintic smoothstep");
+  const auto num = [](float value) { return number_of(value); };
+  const Expression one = num(1), squared = product(x, x), rest = difference(one, x);
+  add(x, "linear, " + v);
+  add(product(squared, difference(num(3), product(num(2), x))), "the cubic smoothstep, x^2 (3 - 2 x)");
+  add(product(product(squared, x), sum(product(x, difference(product(x, num(6)), num(15))), num(10))), "the quintic smoothstep");
   add(squared, "the square");
-  add(times(squared, x), "the cube");
-  add(times(squared, squared), "the fourth power");
+  add(product(squared, x), "the cube");
+  add(product(squared, squared), "the fourth power");
   add(operation(Op::root, {x}), "the root");
   add(rest, "1 - x");
-  add(times(rest, rest), "(1 - x)^2");
-  add(minus(one, times(rest, rest)), "1 - (1 - x)^2");
-  add(minus(one, squared), "1 - x^2");
-  add(times(num(0.5f), minus(one, operation(Op::cosine, {times(num(3.14159265f), x)}))), "the cosine's, (1 - cos(pi x)) / 2");
+  add(product(rest, rest), "(1 - x)^2");
+  add(difference(one, product(rest, rest)), "1 - (1 - x)^2");
+  add(difference(one, squared), "1 - x^2");
+  add(product(num(0.5f), difference(one, operation(Op::cosine, {product(num(3.14159265f), x)}))), "the cosine's, (1 - cos(pi x)) / 2");
   return out;
 }
 

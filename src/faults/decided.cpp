@@ -81,13 +81,8 @@ std::optional<Cause> read_beyond_end(const FailedRun& f, std::size_t output) {
     if (live >= all.size() || failing_with(f, output, array_of({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(live)}, stored)) > 0)
       continue;
     const char* const what = live == before_zeros ? ", all zero" : live == before_copies ? ", all alike" : "";
-    Cause cause;
-    cause.name = fmt::format("{} read beyond its end", expected.name);
-    cause.sentence =
-        fmt::format("behind the {} right records stand {} more{}: the buffer is read at its full capacity; read `count` records", live,
-                    all.size() - live, what);
-    cause.explained = cause.inside = cause.of = failing;
-    cause.of_records = cause.is_likely = true;
+    Tried cause(What{Kind::list_read_beyond_end, {expected.name, std::to_string(live), std::to_string(all.size() - live), what}},
+                {"", "", failing, failing, failing, true, true});
     return cause;
   }
   return std::nullopt;
@@ -109,12 +104,7 @@ std::optional<Cause> not_numbers(const FailedRun& f) {
       const judge::Failure& first = o.worst.front();
       const std::string place = o.records ? fmt::format("{} of record {}", first.field, first.x)
                                           : fmt::format("({}, {}).{}", first.x, first.y, "xyzw"[first.channel & 3]);
-      Cause cause;
-      cause.name = "not a number";
-      cause.sentence = fmt::format("each failing element is not a number (NaN), the first is {} of {} in {}", place, o.name, c.id);
-      cause.explained = cause.inside = cause.of = failing;
-      cause.of_records = o.records;
-      cause.is_likely = true;
+      Tried cause(What{Kind::not_a_number, {place, o.name, c.id}}, {"", "", failing, failing, failing, o.records, true});
       return cause;
     }
   return std::nullopt;

@@ -20,11 +20,11 @@ std::vector<judge::Cause> diagnose_lists(const capture::PackPass& pass, const ca
 
 /// Of what explains as much, how far it is from what is usually done wrong, or said: words that leave much out, what is fitted to the
 /// records that a port lost, an operation that is rarely taken for another.
-int far_fetched(const judge::Cause& c);
+int far_fetched(const Tried& c);
 
 /// The three best of them, of those that explain enough. Of causes that explain about as much, and come about as near, the one that
 /// comes first is taken: `causes` are in the order in which they are to be believed. What is fitted to the port comes after all others.
 /// Says which is likely.
-std::vector<judge::Cause> best_causes(std::vector<Tried> causes);
+std::vector<Tried> best_causes(std::vector<Tried> causes);
 
 }  // namespace rainref::faults

@@ -78,7 +78,7 @@ std::vector<float> typed_wrong(float x) {
     if (const std::optional<float> v = number_from<float>(text); v && *v != x && std::isfinite(*v)) out.push_back(*v);
   };
   // More digits than that are no literal of the text but computed from some.
-  if (right.find('e') != std::string::npos || right.size() > 9) return out;
+  if (std::count(right.begin(), right.end(), 'e') > 0 || right.size() > 9) return out;
   for (std::size_t at = 0; at < right.size(); ++at) {
     if (right[at] < '0' || right[at] > '9') continue;
     for (char digit = '0'; digit <= '9'; ++digit) {
@@ -144,21 +144,18 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
 
 }  // namespace
 
+Fault another_value(Kind kind, const Constant& constant, float said, float replacement) {
+  What what{kind, {constant.name, fmt::format("{:.5g}", said), fmt::format("{}", constant.value)}};
+  what.is_literal = constant.begins_as_literal;
+  return replaced(std::move(what), constant.value, replacement);
+}
+
 void add_fitted_constants(std::vector<Fault>& out, const EvaluateWith& evaluate, const Constants& constants,
                           const std::vector<Wanted>& wanted) {
   if (wanted.empty()) return;
-  for (const auto& [value, name, is_literal] : constants) {
-    const std::optional<float> other = fitted({evaluate, value}, wanted, is_literal);
-    if (!other) continue;
-    Fault d;
-    d.name = fmt::format("another value of {}", name);
-    d.sentence = fmt::format("{} is about {:.5g} in the port, {} in the reference", name, *other, value);
-    d.behaviour.fault = perturbed::Fault::constant;
-    d.behaviour.constant = value;
-    d.behaviour.replacement = *other;
-    d.for_diagnosis = true;
-    out.push_back(std::move(d));
-  }
+  for (const Constant& constant : constants)
+    if (const std::optional<float> other = fitted({evaluate, constant.value}, wanted, constant.is_literal))
+      out.push_back(another_value(Kind::another_value, constant, *other, *other));
 }
 
 }  // namespace rainref::faults

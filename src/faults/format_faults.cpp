@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstring>
 
-#include <fmt/format.h>
-
 #include "faults/decidable_faults.h"
 #include "faults/image_faults.h"
+#include "faults/members.h"
 #include "judge/rearrange.h"
 #include "math/half.h"
 
@@ -36,10 +35,8 @@ void add_formats(std::vector<Fault>& out, const capture::PassCase& c) {
   };
   const std::vector<Slot> slots = judge::slots_of(c);
   if (std::none_of(slots.begin(), slots.end(), [&](const Slot& s) { return is_wide(c, s); })) return;
-  const auto add = [&](std::string name, std::string sentence, std::function<float(float, int channel)> change) {
-    Fault d;
-    d.name = std::move(name);
-    d.sentence = std::move(sentence);
+  const auto add = [&](Kind kind, std::function<float(float, int channel)> change) {
+    Fault& d = out.emplace_back(What{kind});
     std::vector<int> of;
     for (const Slot& s : slots)
       if (is_wide(c, s)) of.push_back(s.output);
@@ -47,45 +44,34 @@ void add_formats(std::vector<Fault>& out, const capture::PassCase& c) {
       return std::find(of.begin(), of.end(), s.output) != of.end() ? change(v, s.channel) : v;
     };
     d.stores = judge::HalfMode::rne;  // whoever makes halves of them is no store of the device
-    d.for_diagnosis = true;
-    out.push_back(std::move(d));
   };
-  add("through 10 bits", "the buffer is held to [0, 1] in 10 bits a channel, alpha in 2: its format is RGB10A2", [](float v, int channel) {
+  add(Kind::through_10_bits, [](float v, int channel) {
     const double most = channel == 3 ? 3 : 1023;
     return static_cast<float>(std::floor(std::clamp<double>(v, 0, 1) * most + 0.5) / most);
   });
   for (const bool to_nearest : {true, false})
-    add(to_nearest ? "through 11 and 10 bits" : "through 11 and 10 bits, toward zero",
-        "the buffer has no sign, 6 bits of mantissa (blue 5) and no alpha: its format is R11G11B10F",
+    add(to_nearest ? Kind::through_11_bits : Kind::through_11_bits_cut,
         [to_nearest](float v, int channel) { return channel == 3 ? 1 : unsigned_float(v, channel == 2 ? 5 : 6, to_nearest); });
 }
 
 /// Codes of 10, 10, 10 and 2 bits, read as four of 8: where they are the reference's, the port's own bytes are explained.
 void add_packed_codes(std::vector<Fault>& out, const capture::PassCase& c, const std::vector<Array>& port) {
   for (const bool is_red_first : {true, false})
-    add_to_images(
-        out, c, port, is_red_first ? "RGB10A2 read as RGBA8" : "BGR10A2 read as RGBA8",
-        [=](const Array&) {
-          return fmt::format(
-              "the four bytes of a texel are codes of 10, 10, 10 and 2 bits ({} lowest): the target is RGB10A2 and its bytes are "
-              "taken for RGBA8",
-              is_red_first ? "red" : "blue");
-        },
-        [=](Array& a, const Array& stored) {
-          if (info(a.format).channels != 4 || info(a.format).channel_bytes != 1) return false;
-          for (std::size_t t = 0; t + 4 <= a.levels[0].size(); t += 4) {
-            std::uint32_t packed;
-            std::memcpy(&packed, stored.levels[0].data() + t, 4);
-            bool is_same = true;
-            for (std::size_t k = 0; k < 4; ++k) {
-              const std::uint32_t shift = k == 3 ? 30 : static_cast<std::uint32_t>(10 * (is_red_first ? k : 2 - k));
-              const double code = k == 3 ? 85.0 * (packed >> 30) : (packed >> shift & 1023) * (255.0 / 1023);
-              is_same &= std::abs(code - std::to_integer<int>(a.levels[0][t + k])) <= 1.25;
-            }
-            if (is_same) std::memcpy(a.levels[0].data() + t, &packed, 4);
-          }
-          return true;
-        });
+    add_to_images(out, c, port, is_red_first ? Kind::rgb10_read_as_rgba8 : Kind::bgr10_read_as_rgba8, [=](Array& a, const Array& stored) {
+      if (info(a.format).channels != 4 || info(a.format).channel_bytes != 1) return false;
+      for (std::size_t t = 0; t + 4 <= a.levels[0].size(); t += 4) {
+        std::uint32_t packed;
+        std::memcpy(&packed, stored.levels[0].data() + t, 4);
+        bool is_same = true;
+        for (std::size_t k = 0; k < 4; ++k) {
+          const std::uint32_t shift = k == 3 ? 30 : static_cast<std::uint32_t>(10 * (is_red_first ? k : 2 - k));
+          const double code = k == 3 ? 85.0 * (packed >> 30) : (packed >> shift & 1023) * (255.0 / 1023);
+          is_same &= std::abs(code - std::to_integer<int>(a.levels[0][t + k])) <= 1.25;
+        }
+        if (is_same) std::memcpy(a.levels[0].data() + t, &packed, 4);
+      }
+      return true;
+    });
 }
 
 /// Calls change(channel, alpha) for the three colours of each texel of an image of four halves or floats.
@@ -116,37 +102,26 @@ bool change_colours(Array& a, Change change) {
 void add_alpha(std::vector<Fault>& out, const Probed& p, const std::vector<Array>& port) {
   const capture::PassCase& c = p.c;
   for (const bool is_multiplied : {true, false}) {
-    const char* const name = is_multiplied ? "multiplied by its alpha" : "divided by its alpha";
-    const char* const kind = is_multiplied ? "premultiplied where straight alpha is meant" : "straight where premultiplied alpha is meant";
     const auto change = [is_multiplied](float v, float alpha) { return is_multiplied ? v * alpha : alpha > 0 ? v / alpha : v; };
-    add_to_images(
-        out, c, port, name, [=](const Array&) { return fmt::format("the colour is {}: {}", name, kind); },
-        [change](Array& a, const Array&) { return change_colours(a, change); });
+    const auto kind = [&](Kind multiplied, Kind divided) { return is_multiplied ? multiplied : divided; };
+    add_to_images(out, c, port, kind(Kind::multiplied_by_alpha, Kind::divided_by_alpha),
+                  [change](Array& a, const Array&) { return change_colours(a, change); });
     for (const capture::CaseInput& in : c.inputs) {
       if (in.array.is_records || info(in.array.format).channels != 4) continue;
-      Fault d;
-      d.name = fmt::format("input {} {}", in.name, name);
-      d.sentence = fmt::format("the colour of {} is {}: {}", in.name, name, kind);
-      d.alter_case = [input = in.name, change](capture::PassCase& altered) {
-        for (capture::CaseInput& i : altered.inputs)
-          if (i.name == input) change_colours(i.array, change);
-      };
-      d.for_diagnosis = true;
-      out.push_back(std::move(d));
+      out.emplace_back(What{kind(Kind::input_multiplied_by_alpha, Kind::input_divided_by_alpha), {in.name}}).alter_case =
+          [input = in.name, change](capture::PassCase& altered) {
+            for (capture::CaseInput& i : altered.inputs)
+              if (i.name == input) change_colours(i.array, change);
+          };
     }
     for (const scene::Member& m : p.pass.block.members) {
-      if (m.scalar != scene::Scalar::float32 || m.components != 4 || !m.name.ends_with("color")) continue;
-      Fault d;
-      d.name = fmt::format("uniform {} {}", m.name, name);
-      d.sentence = fmt::format("{} is {}: {}", m.name, name, kind);
-      d.alter_case = [offset = m.offset, change](capture::PassCase& altered) {
-        std::array<float, 4> colour;
-        std::memcpy(colour.data(), altered.uniforms.data() + offset, sizeof colour);
-        for (std::size_t k = 0; k < 3; ++k) colour[k] = change(colour[k], colour[3]);
-        std::memcpy(altered.uniforms.data() + offset, colour.data(), sizeof colour);
-      };
-      d.for_diagnosis = true;
-      out.push_back(std::move(d));
+      if (m.scalar != scene::Scalar::float32 || m.components != 4 || !is_colour(m)) continue;
+      out.emplace_back(What{kind(Kind::uniform_multiplied_by_alpha, Kind::uniform_divided_by_alpha), {m.name}}).alter_case =
+          [offset = m.offset, change](capture::PassCase& altered) {
+            auto colour = number_at<std::array<float, 4>>(altered.uniforms.data(), offset);
+            for (std::size_t k = 0; k < 3; ++k) colour[k] = change(colour[k], colour[3]);
+            put_number(altered.uniforms.data(), offset, colour);
+          };
     }
   }
 }
@@ -158,23 +133,17 @@ void add_format_faults(std::vector<Fault>& out, const Probed& p, const std::vect
   add_formats(out, c);
   add_packed_codes(out, c, port);
   add_alpha(out, p, port);
-  add_to_images(
-      out, c, port, "without subnormal halves",
-      [](const Array&) {
-        return std::string(
-            "halves below 2^-14 are stored as 0: the store, or a conversion on the way to the file, drops subnormal numbers");
-      },
-      [](Array& a, const Array&) {
-        if (info(a.format).kind != FormatInfo::float16) return false;
-        for (std::vector<std::byte>& level : a.levels)
-          for (std::size_t at = 0; at + 2 <= level.size(); at += 2) {
-            Half h;
-            std::memcpy(&h, level.data() + at, 2);
-            if ((h.bits & 0x7c00u) == 0) h.bits &= 0x8000u;
-            std::memcpy(level.data() + at, &h, 2);
-          }
-        return true;
-      });
+  add_to_images(out, c, port, Kind::without_subnormals, [](Array& a, const Array&) {
+    if (info(a.format).kind != FormatInfo::float16) return false;
+    for (std::vector<std::byte>& level : a.levels)
+      for (std::size_t at = 0; at + 2 <= level.size(); at += 2) {
+        Half h;
+        std::memcpy(&h, level.data() + at, 2);
+        if ((h.bits & 0x7c00u) == 0) h.bits &= 0x8000u;
+        std::memcpy(level.data() + at, &h, 2);
+      }
+    return true;
+  });
 }
 
 }  // namespace rainref::faults

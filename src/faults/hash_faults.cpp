@@ -67,9 +67,7 @@ void add_hash_faults(std::vector<Fault>& out, const Probed& p, Texel at) {
   }
   const std::set<std::int32_t> hashes = hashes_of(trace);
   if (hashes.empty()) return;
-  Fault d;
-  d.name = "hash in half precision";
-  d.sentence = "the hash is computed in half precision (mediump, half, min16float): its large products have no fraction left";
+  Fault d(What{Kind::hash_in_half});
   for (const std::int32_t node : hashes) {
     const Trace::Node& n = trace.nodes[static_cast<std::size_t>(node)];
     const auto round = [&](std::int8_t operand) {
@@ -86,7 +84,6 @@ void add_hash_faults(std::vector<Fault>& out, const Probed& p, Texel at) {
       if (n.of[k] >= 0 && !hashes.contains(n.of[k])) round(static_cast<std::int8_t>(k));
     round(Substitution::result);
   }
-  d.for_diagnosis = true;
   out.push_back(std::move(d));
 }
 

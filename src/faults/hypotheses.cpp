@@ -5,14 +5,13 @@
 #include <map>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "faults/draw_faults.h"
 #include "faults/edit_faults.h"
 #include "faults/failing_texels.h"
 #include "faults/order_faults.h"
 #include "faults/place_faults.h"
 #include "faults/substitution_faults.h"
+#include "faults/text.h"
 #include "faults/whole_faults.h"
 
 namespace rainref::faults {
@@ -54,12 +53,7 @@ std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
   return all;
 }
 
-/// A channel of an input that has another sign, is taken from 1, or counts as 0: in the text a term has.
-bool is_of_channel(const Fault& d) {
-  const std::string& n = d.name;
-  return n.starts_with("input ") &&
-         (n.ends_with(" negated") || n.ends_with(" from 1 down") || n.find(" without its ") != std::string::npos);
-}
+bool is_of_channel(const Fault& d) { return d.is(trait::channel); }
 
 /// Failing texels away from the edges, if there are some: what stands beyond an edge has no name.
 std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassModel& model) {
@@ -105,24 +99,16 @@ void add_fitted_thresholds(std::vector<Fault>& out, const Probed& p, const Const
       if (std::isfinite(sides[1])) ++r.has_below, r.below = std::min(r.below, sides[1]);
     }
   }
-  for (const auto& [value, name, is_literal] : constants) {
-    const auto found = ranges.find(value);
-    if (found == ranges.end() || value == 0) continue;
-    const auto add = [&, value = value, &name = name](float bound, const char* side) {
-      const float other = bound + (bound - value) * 1e-3f;
-      if (other == value) return;
-      Fault d;
-      d.name = fmt::format("another value of {}", name);
-      d.sentence = fmt::format("{}, which is compared with, is {} {:.5g} in the port, {} in the reference", name, side, bound, value);
-      d.behaviour.fault = perturbed::Fault::constant;
-      d.behaviour.constant = value;
-      d.behaviour.replacement = other;
-      d.for_diagnosis = true;
-      out.push_back(std::move(d));
+  for (const Constant& constant : constants) {
+    const auto found = ranges.find(constant.value);
+    if (found == ranges.end() || constant.value == 0) continue;
+    const auto add = [&](float bound, Kind kind) {
+      const float other = bound + (bound - constant.value) * 1e-3f;
+      if (other != constant.value) out.push_back(another_value(kind, constant, bound, other));
     };
     const Range& r = found->second;
-    if (r.has_above == failing.size()) add(r.above, "at least");
-    if (r.has_below == failing.size()) add(r.below, "at most");
+    if (r.has_above == failing.size()) add(r.above, Kind::another_threshold_above);
+    if (r.has_below == failing.size()) add(r.below, Kind::another_threshold_below);
   }
 }
 
@@ -132,13 +118,12 @@ std::vector<float> without_records(std::vector<float> known, const std::vector<P
   std::set<float> of_records;
   for (const Probe& p : probes)
     for (std::size_t n = 0; n < p.names.size(); ++n)
-      if (p.trace.nodes[n].op == perturbed::Op::constant && p.names[n].find(" of ") != std::string::npos)
-        of_records.insert(p.trace.nodes[n].value);
+      if (p.trace.nodes[n].op == perturbed::Op::constant && is_of_list(p.names[n])) of_records.insert(p.trace.nodes[n].value);
   std::erase_if(known, [&](float v) { return of_records.contains(v); });
   return known;
 }
 
-bool is_of_uniform(const Fault& d) { return d.name.starts_with("uniform") && !d.name.ends_with("stale"); }
+bool is_of_uniform(const Fault& d) { return d.is(trait::uniform); }
 
 bool is_of_operation(const Fault& d) {
   return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
@@ -167,9 +152,9 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   add_place_faults(all, probes, known, PlaceKind::plain);
   // A scalar that is missing from three components is rather not set: vectors come after the uniforms.
   std::vector<Fault> vectors;
-  take(all, vectors, [](const Fault& d) { return d.name.ends_with(", in all components"); });
+  take(all, vectors, [](const Fault& d) { return d.is_of_all_components(); });
   add_named_constants(all, constants, false);
-  take(uniforms, all, [](const Fault& d) { return d.name.ends_with("is zero") || d.name.ends_with("the other way"); });
+  take(uniforms, all, [](const Fault& d) { return d.is(trait::set_at_all); });
   add_uniform_mixups(all, p, uniforms_met(probes, p.pass));
   // The same places, with all constants alike: the components of a vector are one place then, whatever they are multiplied by.
   std::move(vectors.begin(), vectors.end(), std::back_inserter(all));

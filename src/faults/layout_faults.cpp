@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cstring>
 #include <set>
-
-#include <fmt/format.h>
+#include <string>
 
 #include "faults/decidable_faults.h"
 #include "faults/image_faults.h"
@@ -60,39 +59,28 @@ void add_layout_faults(std::vector<Fault>& out, const capture::PassCase& c, cons
     const std::size_t row = static_cast<std::size_t>(a.width) * a.element_bytes();
     return usual_pitches(row, a.element_bytes()).contains(pitch);
   };
-  const auto row_text = [](const Array& a) { return static_cast<std::size_t>(a.width) * a.element_bytes(); };
+  const auto row_text = [](const Array& a) { return std::to_string(static_cast<std::size_t>(a.width) * a.element_bytes()); };
   for (const std::size_t pitch : pitches) {
-    add_to_images(
-        out, c, port, fmt::format("rows of {} bytes taken as tight", pitch),
-        [=](const Array& a) {
-          return fmt::format(
-              "rows lie {} bytes apart and are copied as if they followed each other: of each {} bytes {} are texels "
-              "(row_pitch, bytesPerRow, RowPitch)",
-              pitch, pitch, row_text(a));
-        },
-        [=](Array& a, const Array&) {
-          if (!has(a, pitch)) return false;
-          take_as_tight(a, pitch);
-          return true;
-        });
-    add_to_images(
-        out, c, port, fmt::format("tight rows taken as rows of {} bytes", pitch),
-        [=](const Array& a) {
-          return fmt::format("rows of {} bytes follow each other and are copied as if they lay {} bytes apart", row_text(a), pitch);
-        },
-        [=](Array& a, const Array&) {
-          if (!has(a, pitch)) return false;
-          take_as_padded(a, pitch);
-          return true;
-        });
+    const auto add = [&](Kind kind, void (*take)(Array&, std::size_t)) {
+      add_to_images(
+          out, c, port,
+          [=](const Array& a) {
+            return What{kind, {std::to_string(pitch), row_text(a)}};
+          },
+          [=](Array& a, const Array&) {
+            if (!has(a, pitch)) return false;
+            take(a, pitch);
+            return true;
+          });
+    };
+    add(Kind::rows_taken_as_tight, take_as_tight);
+    add(Kind::rows_taken_as_padded, take_as_padded);
   }
-  add_to_images(
-      out, c, port, "by half a turn", [](const Array&) { return std::string("the picture is turned by 180 degrees"); },
-      [](Array& a, const Array&) {
-        judge::flip_rows(a);
-        judge::flip_columns(a);
-        return true;
-      });
+  add_to_images(out, c, port, Kind::half_a_turn, [](Array& a, const Array&) {
+    judge::flip_rows(a);
+    judge::flip_columns(a);
+    return true;
+  });
 }
 
 }  // namespace rainref::faults

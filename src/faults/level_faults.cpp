@@ -4,10 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "capture/bound_texture.h"
-#include "faults/case_adder.h"
+#include "faults/members.h"
 #include "faults/whole_faults.h"
 #include "math/half.h"
 
@@ -66,24 +64,18 @@ void coarsen(Array& a, double lod) {
 }  // namespace
 
 void add_level_faults(std::vector<Fault>& out, const Probed& p) {
-  CaseAdder add(out);
   for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
     const Array& a = p.c.inputs[i].array;
     if (a.is_records || a.levels.size() < 2 || !has_floats(a)) continue;
-    const std::string& name = p.c.inputs[i].name;
     const auto at = [&](double lod, const std::string& level) {
       if (lod > 0)
-        add(fmt::format("input {} at level {}", name, level),
-            fmt::format("{} is looked up at level {} where its level 0, the sharp one, is meant", name, level),
-            [i, lod](PassCase& altered) { coarsen(altered.inputs[i].array, lod); });
+        out.emplace_back(What{Kind::input_at_level, {p.c.inputs[i].name, level}}).alter_case = [i, lod](PassCase& altered) {
+          coarsen(altered.inputs[i].array, lod);
+        };
     };
-    for (const scene::Member& m : p.pass.block.members) {
-      const bool is_level = m.name.ends_with("lod") || m.name.ends_with("level");
-      if (!is_level || m.scalar != scene::Scalar::float32 || m.components != 1) continue;
-      float lod;
-      std::memcpy(&lod, p.c.uniforms.data() + m.offset, 4);
-      at(lod, m.name);
-    }
+    for (const scene::Member& m : p.pass.block.members)
+      if (is_level(m) && m.scalar == scene::Scalar::float32 && m.components == 1)
+        at(number_at<float>(p.c.uniforms.data(), m.offset), m.name);
     for (int k = 1; k < static_cast<int>(a.levels.size()); ++k) at(k, std::to_string(k));
   }
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include "faults/members.h"
 
 namespace rainref::faults {
 
@@ -13,7 +13,7 @@ List::List(const PassCase& c, std::size_t o) : output(o), name(c.outputs[o].name
   for (const Member& m : layout.members) {
     if (m.name == "id")
       id = m.offset;
-    else if (!m.name.starts_with("padding"))
+    else if (!is_padding(m))
       fields.push_back(m);
   }
 }
@@ -31,13 +31,12 @@ std::size_t List::place(const Records& records, std::uint32_t of) const {
                                   records.begin());
 }
 
-Fault& Adder::add(const std::string& name, std::string sentence, Alter alter) {
-  Fault d;
-  d.name = fmt::format("{} {}", list_.name, name);
-  d.sentence = std::move(sentence);
+Fault& Adder::add(Kind kind, Alter alter, std::vector<std::string> more) {
+  more.insert(more.begin(), list_.name);
+  Fault& d = out_.emplace_back(What{kind, std::move(more)}, false);
   d.list_output = static_cast<int>(list_.output);
   d.alter_list = [list = list_, alter](const PassCase& c, ListEdit& e) { return alter(list, c, e); };
-  return out_.emplace_back(std::move(d));
+  return d;
 }
 
 }  // namespace rainref::faults

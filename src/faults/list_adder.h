@@ -61,8 +61,8 @@ class Adder {
   Adder(std::vector<Fault>& out, List list) : out_(out), list_(std::move(list)) {}
   using Alter = std::function<bool(const List&, const capture::PassCase&, ListEdit&)>;
 
-  /// `name` stands behind the list's.
-  Fault& add(const std::string& name, std::string sentence, Alter alter);
+  /// `more`: what its words speak of beside the list.
+  Fault& add(Kind kind, Alter alter, std::vector<std::string> more = {});
   const List& list() const { return list_; }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "faults/hypotheses.h"
 #include "faults/list_faults.h"
+#include "faults/members.h"
 #include "faults/place_faults.h"
 #include "faults/whole_faults.h"
 #include "judge/evaluations.h"
@@ -46,7 +47,7 @@ std::vector<Word> words_of(const UniformBlock& layout) {
   std::vector<Word> out;
   for (const bool floats : {true, false})
     for (const scene::Member& m : layout.members) {
-      if (m.name == "id" || m.name.starts_with("padding") || (m.scalar == scene::Scalar::float32) != floats) continue;
+      if (m.name == "id" || is_padding(m) || (m.scalar == scene::Scalar::float32) != floats) continue;
       for (int k = 0; k < m.components; ++k) out.push_back({m.offset + 4 * static_cast<std::size_t>(k), floats});
     }
   return out;
@@ -236,7 +237,7 @@ bool ListReplay::is_none_alone(const Fault& d) const {
 }
 
 Tried ListReplay::cause(const Fault& d) const {
-  Tried cause{{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size()), 0, true}};
+  Tried cause = untried(d, failing_.size(), true);
   if (is_none_alone(d)) return cause;
   const std::optional<Array> list = faulty_list(d, c_, output_, *evaluations_, model_, reference_, failing_, &stored_);
   if (!list) return cause;
@@ -263,7 +264,7 @@ Tried ListReplay::cause(const Fault& d) const {
 }
 
 std::vector<Tried> ListReplay::causes(const std::vector<Fault>& all) const {
-  return tried(executor_, all, {"", "", 0, static_cast<std::int64_t>(failing_.size()), 0, true}, [&](const Fault& d) { return cause(d); });
+  return tried(executor_, all, failing_.size(), true, [&](const Fault& d) { return cause(d); });
 }
 
 ListReplay::ListReplay(const ListReplay& of, const capture::PassCase& c, const capture::PassModel& model)

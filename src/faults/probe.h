@@ -49,8 +49,11 @@ std::vector<Probe> probes_again(const capture::PassModel& model, const std::vect
 /// A number that is met everywhere.
 struct Constant {
   float value;
-  std::string name;  ///< "damping", "pixel_scale or up.y", "the literal 4"
-  bool is_literal;
+  std::string name;        ///< "damping", "pixel_scale or up.y", "the literal 4"
+  bool is_literal;         ///< the number itself is one of its names
+  bool begins_as_literal;  ///< the first of them
+  bool is_made;            ///< the first of them is a function of several numbers
+  std::string head;        ///< the first word of its name
 };
 using Constants = std::vector<Constant>;
 /// Constants that the probes met and that are `known`; those of records are none.

@@ -4,9 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -17,17 +16,6 @@ using Node = perturbed::Trace::Node;
 
 /// Whether the arithmetic can be done again with another number there.
 bool is_again(Op op) { return !is_leaf(op) && op != Op::lookup; }
-
-Fault fault_of(std::vector<Substitution> all, const std::shared_ptr<const std::vector<float>>& known, std::string name,
-               std::string sentence) {
-  Fault d;
-  d.name = std::move(name);
-  d.sentence = std::move(sentence);
-  d.substitutions = std::move(all);
-  d.at_texel = [known](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = known.get(); };
-  d.for_diagnosis = true;
-  return d;
-}
 
 }  // namespace
 
@@ -59,9 +47,10 @@ void add_vector_substitutions(std::vector<Fault>& out, const Probe& probe, const
         if (!is_before || is_same || ++made > most) continue;
         const std::string wrong = words_for(probe, static_cast<std::int32_t>(value[0]));
         if (wrong == right || wrong == "...") continue;
-        out.push_back(fault_of(std::move(all), shared, fmt::format("wrong value: {} for {}, in all components", wrong, right),
-                               fmt::format("in {} stands {} where {} is meant, and so in the other components",
-                                           words_for(probe, static_cast<std::int32_t>(use[0])), wrong, right)));
+        Fault& d = out.emplace_back(
+            What{Kind::wrong_value, {"in " + words_for(probe, static_cast<std::int32_t>(use[0])), wrong, right}, Reach::all});
+        d.substitutions = std::move(all);
+        tell_places_by(d, shared);
       }
     }
 }

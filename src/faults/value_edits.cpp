@@ -1,11 +1,10 @@
 // What is done to a value, or to the components of a vector, too much or otherwise: an encoding, a tone curve, a clamp, a packing.
-#include <array>
 #include <functional>
-
-#include <fmt/format.h>
+#include <string>
 
 #include "faults/edits.h"
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -14,10 +13,6 @@ using perturbed::Op;
 using Node = perturbed::Trace::Node;
 using Make = std::function<Expression(const Expression&)>;
 
-Expression product(Expression a, Expression b) { return operation(Op::product, {std::move(a), std::move(b)}); }
-Expression sum(Expression a, Expression b) { return operation(Op::sum, {std::move(a), std::move(b)}); }
-Expression difference(Expression a, Expression b) { return operation(Op::difference, {std::move(a), std::move(b)}); }
-Expression quotient(Expression a, Expression b) { return operation(Op::quotient, {std::move(a), std::move(b)}); }
 Expression power(const Expression& x, float exponent) {
   return operation(Op::power, {operation(Op::maximum, {x, number_of(0)}), number_of(exponent)});
 }
@@ -35,62 +30,60 @@ Expression in_codes(const Expression& x) {
 }
 
 struct Curve {
-  const char *name, *formula;  ///< "decoded from sRGB"
+  Kind kind;            ///< of applying it
+  const char* formula;  ///< of x
   Make make;
 };
 /// Of colours.
 const std::vector<Curve>& colour_curves() {
   static const std::vector<Curve> all{
-      {"decoded from sRGB", "the sRGB curve, from code to light", decoded},
-      {"encoded as sRGB", "the sRGB curve, from light to code", encoded},
-      {"to the power 2.2", "x^2.2", [](const Expression& x) { return power(x, 2.2f); }},
-      {"to the power 1/2.2", "x^(1/2.2)", [](const Expression& x) { return power(x, 1 / 2.2f); }},
-      {"tone mapped by x / (1 + x)", "x / (1 + x)", [](const Expression& x) { return quotient(x, sum(number_of(1), x)); }},
-      {"tone mapped by 1 - exp(-x)", "1 - exp(-x)",
+      {Kind::decoded_from_srgb, "the sRGB curve, from code to light", decoded},
+      {Kind::encoded_as_srgb, "the sRGB curve, from light to code", encoded},
+      {Kind::to_power_2_2, "x^2.2", [](const Expression& x) { return power(x, 2.2f); }},
+      {Kind::to_power_inverse_2_2, "x^(1/2.2)", [](const Expression& x) { return power(x, 1 / 2.2f); }},
+      {Kind::tone_mapped, "x / (1 + x)", [](const Expression& x) { return quotient(x, sum(number_of(1), x)); }},
+      {Kind::tone_mapped_by_exp, "1 - exp(-x)",
        [](const Expression& x) { return difference(number_of(1), operation(Op::exponential, {operation(Op::negation, {x})})); }},
-      {"rounded to 8 bits", "x in steps of 1/255", in_codes},
+      {Kind::in_8_bits, "x in steps of 1/255", in_codes},
   };
   return all;
 }
 /// Of any numbers.
 const std::vector<Curve>& plain_curves() {
   static const std::vector<Curve> all{
-      {"held to [0, 1]", "x held to [0, 1]", clamped},
-      {"unpacked by 2 x - 1", "2 x - 1", [](const Expression& x) { return difference(product(number_of(2), x), number_of(1)); }},
-      {"packed by x / 2 + 1/2", "x / 2 + 1/2", [](const Expression& x) { return sum(product(number_of(0.5f), x), number_of(0.5f)); }},
-      {"taken for its root", "sqrt(x)",
-       [](const Expression& x) {
-         return operation(Op::root, {operation(Op::maximum, {x, number_of(0)})});
-       }},
-      {"taken as 1", "1", [](const Expression&) { return number_of(1); }},
-      {"less a half", "x - 1/2", [](const Expression& x) { return difference(x, number_of(0.5f)); }},
-      {"and a half", "x + 1/2", [](const Expression& x) { return sum(x, number_of(0.5f)); }},
+      {Kind::held, "", clamped},
+      {Kind::unpacked, "", [](const Expression& x) { return difference(product(number_of(2), x), number_of(1)); }},
+      {Kind::packed, "", [](const Expression& x) { return sum(product(number_of(0.5f), x), number_of(0.5f)); }},
+      {Kind::taken_for_root, "", [](const Expression& x) { return root_of(x); }},
+      {Kind::taken_as_1, "", [](const Expression&) { return number_of(1); }},
+      {Kind::less_a_half, "", [](const Expression& x) { return difference(x, number_of(0.5f)); }},
+      {Kind::and_a_half, "", [](const Expression& x) { return sum(x, number_of(0.5f)); }},
   };
   return all;
 }
 
-/// What the curve of an operation is taken of, and what that curve is; of none no name.
+/// What the curve of an operation is taken of, and which one that is.
 struct Own {
-  Expression of;
-  std::string name;
+  enum class Is { none, power, clamp, srgb } is = Is::none;
+  Expression of = {};
 };
 Own own_curve(const Probe& p, std::int32_t node) {
   const Expression e = expression_of(p, node, 4);
   if (!e.is_operation()) return {};
-  const auto is_number = [&](const Expression& x, float low, float high) {
+  const auto is_between = [&](const Expression& x, float low, float high) {
     if (x.node < 0 || x.is_operation() || node_of(p, x.node).op != Op::constant) return false;
     const float v = node_of(p, x.node).value;
     return low <= v && v <= high;
   };
-  if (e.step.op == Op::power && is_number(e.of[1], 0.3f, 3)) return {e.of[0], "power"};
-  if (e.step.op == Op::minimum && e.of[0].is_operation() && e.of[0].step.op == Op::maximum) return {e.of[0].of[0], "clamp"};
+  if (e.step.op == Op::power && is_between(e.of[1], 0.3f, 3)) return {Own::Is::power, e.of[0]};
+  if (e.step.op == Op::minimum && e.of[0].is_operation() && e.of[0].step.op == Op::maximum) return {Own::Is::clamp, e.of[0].of[0]};
   if (e.step.op == Op::choice)
     for (const std::size_t k : {0u, 1u}) {
       const Expression& linear = e.of[k];
       if (!linear.is_operation() || (linear.step.op != Op::product && linear.step.op != Op::quotient)) continue;
       for (const std::size_t j : {0u, 1u})
-        if (is_number(linear.of[1 - j], 12.9f, 12.93f) || is_number(linear.of[1 - j], 1 / 12.93f, 1 / 12.9f))
-          return {linear.of[j], "the sRGB curve"};
+        if (is_between(linear.of[1 - j], 12.9f, 12.93f) || is_between(linear.of[1 - j], 1 / 12.93f, 1 / 12.9f))
+          return {Own::Is::srgb, linear.of[j]};
     }
   return {};
 }
@@ -101,14 +94,8 @@ std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::in
   std::vector<Edit> out;
   const std::string text = words_for(p, values[0]);
   const auto add = [&](const Curve& curve) {
-    Edit& e = out.emplace_back();
+    Edit& e = out.emplace_back(Edit{{}, {curve.kind, {text}}});
     for (const std::int32_t node : values) e.made.push_back(curve.make(itself(node)));
-    const std::string_view name = curve.name;
-    const bool is_clamp = name.starts_with("held"), is_verb = name.find("ed ") != std::string_view::npos && !name.starts_with("taken");
-    e.name = fmt::format("{}: {}", is_clamp ? "held" : name, text);
-    e.sentence = is_clamp  ? fmt::format("{} is held to [0, 1], where it should not be", text)
-                 : is_verb ? fmt::format("{} is {}, which it should not be", text, name)
-                           : fmt::format("for x = {} stands {}", text, curve.formula);
   };
   const Op op = node_of(p, values[0]).op;
   if (op != Op::comparison && op != Op::coordinate && op != Op::level) {
@@ -119,13 +106,13 @@ std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::in
   std::vector<Own> own;
   for (const std::int32_t node : values) own.push_back(own_curve(p, node));
   for (const Own& one : own)
-    if (one.name.empty() || one.name != own[0].name) return out;
+    if (one.is == Own::Is::none || one.is != own[0].is) return out;
+  const std::string of = text_of(p, own[0].of), right = own[0].is == Own::Is::power   ? text
+                                                        : own[0].is == Own::Is::clamp ? "clamp"
+                                                                                      : "the sRGB curve";
   for (const Curve& curve : colour_curves()) {
-    Edit& e = out.emplace_back();
+    Edit& e = out.emplace_back(Edit{{}, {Kind::another_curve_for, {text, curve.formula, of, right}}});
     for (const Own& one : own) e.made.push_back(curve.make(one.of));
-    const std::string of = text_of(p, own[0].of);
-    e.name = fmt::format("another curve: {} for {}", curve.formula, text);
-    e.sentence = fmt::format("of {} the curve {} stands in place of {}", of, curve.formula, own[0].name == "power" ? text : own[0].name);
   }
   return out;
 }
@@ -152,9 +139,7 @@ std::vector<JointEdit> turned_edits_of(const Probe& p) {
       terms.push_back(words_for(p, node_of(p, at).of[1]));
       one.edit.made.push_back(std::move(e));
     }
-    one.edit.name = fmt::format("turned the other way: ({}, {})", words_for(p, a), words_for(p, b));
-    one.edit.sentence = fmt::format("in ({}, {}) the terms {} and {} have the other sign: it is turned the other way", words_for(p, a),
-                                    words_for(p, b), terms[0], terms[1]);
+    one.edit.what = {Kind::pair_turned, {words_for(p, a), words_for(p, b), terms[0], terms[1]}};
   }
   return out;
 }
@@ -189,10 +174,7 @@ std::vector<JointEdit> blend_edits_of(const Probe& p) {
       for (const auto& [value, share] : layers) made = operation(Op::mix, {std::move(made), value, share});
       one.edit.made.push_back(std::move(made));
     }
-    const std::string text = words_for(p, v[0].top);
-    one.edit.name = fmt::format("order of {} blends reversed: {}", count, text);
-    one.edit.sentence = fmt::format("in {} the {} values that are blended over each other stand in the other order{}", text, count,
-                                    v.size() > 1 ? ", and so in the other components" : "");
+    one.edit.what = {v.size() > 1 ? Kind::blends_of_all_reversed : Kind::blends_reversed, {words_for(p, v[0].top), std::to_string(count)}};
   };
   for (std::size_t i = 0; i < chains.size();) {
     std::vector<Chain> v{chains[i]};
