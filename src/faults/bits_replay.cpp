@@ -4,18 +4,13 @@
 
 #include "faults/draw_faults.h"
 #include "faults/list_faults.h"
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 
 namespace rainref::faults {
 namespace {
 
 /// Record k, or nothing where the list is shorter.
 std::vector<std::byte> at(const Records& list, std::size_t k) { return k < list.size() ? list[k] : std::vector<std::byte>(); }
-
-const capture::PassModel& no_model() {
-  static const capture::ListPass none("", nullptr);
-  return none;
-}
 
 }  // namespace
 

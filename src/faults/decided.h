@@ -1,4 +1,4 @@
-// What is decided before any search: a mistake of decidable_faults.h, a list read beyond its end, what is not a number.
+// What is decided before any search: one of decidable_faults(), a list read beyond its end, what is not a number.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-#include "faults/edit_faults.h"
+// An operation of the pass text whose parts are put together otherwise: exchanged, grouped or mapped otherwise, another curve.
+#include "faults/generators.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include "faults/edits.h"
 #include "faults/place_faults.h"
 #include "faults/targets.h"
-#include "faults/vector_groups.h"
 
 namespace rainref::faults {
 namespace {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "faults/list_faults.h"
 #include "faults/members.h"
-#include "faults/output_faults.h"
+#include "faults/probe.h"
+#include "faults/generators.h"
 #include "judge/rearrange.h"
 #include "rainref/error.h"
 
@@ -60,24 +60,11 @@ void add_stores(std::vector<Fault>& out, const PassCase& c) {
 /// Every literal and uniform that the pass meets all over the picture, as another number. What only some rows meet comes
 /// from their own index.
 void add_constants(std::vector<Fault>& out, const PassCase& c, const capture::PassModel& model) {
-  std::map<float, int> values;
-  std::vector<float> met;
-  constexpr int probes = 8;
-  if (model.width() > 0) {
-    perturbed::Behaviour collecting;
-    collecting.constants = &met;
-    const perturbed::Scope scope(collecting);
-    std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
-    for (int j = 0; j < probes; ++j)
-      for (int i = 0; i < probes; ++i) {
-        model.evaluate(i * (model.width() - 1) / (probes - 1), j * (model.height() - 1) / (probes - 1), unused.data());
-        for (const float v : std::set<float>(met.begin(), met.end())) ++values[v];
-        met.clear();
-      }
-  }
-  for (const float v : constants_of_lists(model, c)) values[v] = probes * probes;
+  constexpr int all = 64;
+  std::map<float, int> values = constants_met(model);
+  for (const float v : constants_of_lists(model, c)) values[v] = all;
   for (const auto& [v, places] : values) {
-    if (places < probes * probes / 2 || v == 0 || !(v > -1e30f && v < 1e30f)) continue;
+    if (places < all / 2 || v == 0 || !(v > -1e30f && v < 1e30f)) continue;
     const auto add = [&, value = v](Kind kind, float replacement, bool for_diagnosis = true) {
       out.push_back(replaced({kind, {fmt::format("{}", value), fmt::format("{}", replacement)}}, value, replacement, for_diagnosis));
     };

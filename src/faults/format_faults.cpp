@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "faults/decidable_faults.h"
+#include "faults/generators.h"
 #include "faults/image_faults.h"
 #include "faults/members.h"
 #include "judge/rearrange.h"

@@ -2,7 +2,7 @@
 #include <set>
 #include <vector>
 
-#include "faults/decidable_faults.h"
+#include "faults/generators.h"
 
 namespace rainref::faults {
 namespace {
@@ -57,14 +57,7 @@ std::set<std::int32_t> hashes_of(const Trace& trace) {
 }  // namespace
 
 void add_hash_faults(std::vector<Fault>& out, const Probed& p, Texel at) {
-  Trace trace;
-  {
-    perturbed::Behaviour following;
-    following.trace = &trace;
-    const perturbed::Scope scope(following);
-    std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(p.model.values()));
-    p.model.evaluate(at.x, at.y, unused.data());
-  }
+  const Trace trace = trace_of(p.model, at);
   const std::set<std::int32_t> hashes = hashes_of(trace);
   if (hashes.empty()) return;
   Fault d(What{Kind::hash_in_half});

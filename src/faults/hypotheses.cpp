@@ -6,13 +6,10 @@
 #include <set>
 
 #include "faults/draw_faults.h"
-#include "faults/edit_faults.h"
+#include "faults/generators.h"
 #include "faults/failing_texels.h"
-#include "faults/order_faults.h"
 #include "faults/place_faults.h"
-#include "faults/substitution_faults.h"
 #include "faults/text.h"
-#include "faults/whole_faults.h"
 
 namespace rainref::faults {
 namespace {
@@ -73,15 +70,8 @@ void add_fitted_thresholds(std::vector<Fault>& out, const Probed& p, const Const
     std::size_t has_above = 0, has_below = 0;
   };
   std::map<float, Range> ranges;
-  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(p.model.values()));
   for (const Texel at : failing) {
-    perturbed::Trace trace;
-    perturbed::Behaviour following;
-    following.trace = &trace;
-    {
-      const perturbed::Scope scope(following);
-      p.model.evaluate(at.x, at.y, unused.data());
-    }
+    const perturbed::Trace trace = trace_of(p.model, at);
     std::map<float, std::array<float, 2>> nearest;  // of what is compared with it: above, below
     for (const perturbed::Trace::Node& n : trace.nodes)
       for (const std::size_t k : {0u, 1u}) {

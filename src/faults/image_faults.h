@@ -1,11 +1,14 @@
 // What happens to a finished image: added for all of a case's images, and for each of them alone.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <vector>
 
 #include "faults/fault.h"
+#include "judge/rearrange.h"
 
 namespace rainref::faults {
 
@@ -15,6 +18,29 @@ inline std::vector<std::size_t> enveloped_images(const capture::PassCase& c) {
   for (std::size_t o = 0; o < c.outputs.size(); ++o)
     if (c.outputs[o].judge == capture::Judge::envelope && !c.outputs[o].array.is_records) out.push_back(o);
   return out;
+}
+
+using Alter = std::function<void(capture::Array&)>;
+/// Channel `to` of each texel as channel `from` of another image of the same format and size.
+inline Alter taking_channel(const capture::Array& source, int from, int to) {
+  return [source, from, to](capture::Array& a) {
+    const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes);
+    for (std::size_t t = 0; t + a.element_bytes() <= a.levels[0].size(); t += a.element_bytes())
+      std::memcpy(a.levels[0].data() + t + n * static_cast<std::size_t>(to),
+                  source.levels[0].data() + t + n * static_cast<std::size_t>(from), n);
+  };
+}
+/// Channel k, of halves or floats, with the other sign.
+inline Alter negating_channel(const FormatInfo& f, int k) {
+  return [last = (k + 1) * f.channel_bytes - 1](capture::Array& a) {
+    judge::each_texel(a, [last](std::byte* t) { t[last] ^= std::byte{0x80}; });
+  };
+}
+/// Channel k as 0.
+inline Alter clearing_channel(const FormatInfo& f, int k) {
+  return [first = k * f.channel_bytes, n = f.channel_bytes](capture::Array& a) {
+    judge::each_texel(a, [first, n](std::byte* t) { std::fill(t + first, t + first + n, std::byte{0}); });
+  };
 }
 
 /// alter(image, port's image): false where it does not apply. what(image): of the first image that it is said of. The port's images must

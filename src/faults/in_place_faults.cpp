@@ -7,7 +7,7 @@
 #include <string>
 
 #include "capture/bound_texture.h"
-#include "faults/decidable_faults.h"
+#include "faults/generators.h"
 #include "faults/taps.h"
 #include "judge/slots.h"
 

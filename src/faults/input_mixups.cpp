@@ -5,8 +5,9 @@
 #include <tuple>
 #include <utility>
 
+#include "faults/image_faults.h"
 #include "faults/members.h"
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 #include "image/colour.h"
 #include "judge/rearrange.h"
 #include "math/half.h"
@@ -99,12 +100,8 @@ class Adder {
       }
     if (f.kind == FormatInfo::float16 || f.kind == FormatInfo::float32)
       for (int k = 0; k < f.channels; ++k) {
-        const int last = (k + 1) * f.channel_bytes - 1, first = k * f.channel_bytes;
-        array(i, Kind::input_channel_negated, {component_name(k)},
-              [last](Array& altered) { judge::each_texel(altered, [last](std::byte* t) { t[last] ^= std::byte{0x80}; }); });
-        array(i, Kind::input_without_channel, {component_name(k)}, [first, last](Array& altered) {
-          judge::each_texel(altered, [first, last](std::byte* t) { std::fill(t + first, t + last + 1, std::byte{0}); });
-        });
+        array(i, Kind::input_channel_negated, {component_name(k)}, negating_channel(f, k));
+        array(i, Kind::input_without_channel, {component_name(k)}, clearing_channel(f, k));
       }
     const auto coded = [&](Kind kind, double (*change)(double)) {
       array(i, kind, {}, [change](Array& altered) { recode(altered, change); });

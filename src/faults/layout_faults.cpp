@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "faults/decidable_faults.h"
+#include "faults/generators.h"
 #include "faults/image_faults.h"
 #include "judge/rearrange.h"
 
@@ -61,7 +61,7 @@ void add_layout_faults(std::vector<Fault>& out, const capture::PassCase& c, cons
   };
   const auto row_text = [](const Array& a) { return std::to_string(static_cast<std::size_t>(a.width) * a.element_bytes()); };
   for (const std::size_t pitch : pitches) {
-    const auto add = [&](Kind kind, void (*take)(Array&, std::size_t)) {
+    const auto add = [&](Kind kind, void (*relaid)(Array&, std::size_t)) {
       add_to_images(
           out, c, port,
           [=](const Array& a) {
@@ -69,7 +69,7 @@ void add_layout_faults(std::vector<Fault>& out, const capture::PassCase& c, cons
           },
           [=](Array& a, const Array&) {
             if (!has(a, pitch)) return false;
-            take(a, pitch);
+            relaid(a, pitch);
             return true;
           });
     };

@@ -6,7 +6,7 @@
 
 #include "capture/bound_texture.h"
 #include "faults/members.h"
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 #include "math/half.h"
 
 namespace rainref::faults {

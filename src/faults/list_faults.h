@@ -18,7 +18,7 @@ std::uint32_t id_of(const std::vector<std::byte>& record, const scene::UniformBl
 
 /// Adds the mistakes that can be made in the case's keyed lists. `before`: the run of the same pass before, or null.
 void add_list_faults(std::vector<Fault>& out, const capture::PassCase& c, const capture::PassCase* before);
-/// Literals and uniforms that a model meets for at least every other record of a keyed list.
+/// Literals and uniforms that a model meets for at least every other record of a keyed list. Sorted.
 std::vector<float> constants_of_lists(const capture::PassModel& model, const capture::PassCase& c);
 
 /// The list that a port with this mistake stores in place of `finished`, which is c.outputs[output] as the reference gives

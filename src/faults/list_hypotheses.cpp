@@ -1,12 +1,9 @@
 // All that the diagnosis of a failing list tries.
 #include "faults/draw_faults.h"
-#include "faults/edit_faults.h"
+#include "faults/generators.h"
 #include "faults/hypotheses.h"
 #include "faults/list_faults.h"
-#include "faults/order_faults.h"
 #include "faults/place_faults.h"
-#include "faults/substitution_faults.h"
-#include "faults/whole_faults.h"
 #include "judge/evaluations.h"
 
 namespace rainref::faults {
@@ -46,9 +43,7 @@ std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCas
 Hypotheses list_hypotheses(const Probed& p, const std::string& list, const std::vector<Probed>& alone) {
   std::vector<Fault> all;
   add_input_mixups(all, p, false);
-  std::vector<float> known = constants_of_lists(p.model, p.c);
-  std::sort(known.begin(), known.end());
-  known.erase(std::unique(known.begin(), known.end()), known.end());
+  const std::vector<float> known = constants_of_lists(p.model, p.c);
   const bool is_followed = p.bind && p.model.keyed(list);
   const std::vector<Probe> probes = is_followed ? probes_of_records(p, list, known, alone) : std::vector<Probe>();
   const Constants constants = names_of_constants(probes, known);

@@ -8,7 +8,8 @@
 #include "faults/list_faults.h"
 #include "faults/list_replay.h"
 #include "faults/members.h"
-#include "faults/substitution_faults.h"
+#include "faults/solver.h"
+#include "faults/generators.h"
 #include "judge/evaluations.h"
 #include "rainref/error.h"
 
@@ -54,9 +55,7 @@ void ListReplay::find_alone() {
 
 std::vector<Fault> ListReplay::solved() {
   const std::string& name = c_.outputs[output_].name;
-  std::vector<float> known = constants_of_lists(*model_, c_);
-  std::sort(known.begin(), known.end());
-  known.erase(std::unique(known.begin(), known.end()), known.end());
+  const std::vector<float> known = constants_of_lists(*model_, c_);
   std::vector<std::unique_ptr<Probe>> probes;
   std::vector<Solvable> texels;
   for (const std::shared_ptr<Alone>& one : alone_) {

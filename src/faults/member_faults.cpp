@@ -8,7 +8,7 @@
 
 #include "faults/list_adder.h"
 #include "faults/members.h"
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 
 namespace rainref::faults {
 namespace {

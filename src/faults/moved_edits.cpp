@@ -5,7 +5,6 @@
 #include "faults/edits.h"
 #include "faults/targets.h"
 #include "faults/text.h"
-#include "faults/vector_groups.h"
 
 namespace rainref::faults {
 namespace {

@@ -1,4 +1,5 @@
-#include "faults/order_faults.h"
+// Mistakes in the order of steps: a value of before in place of the new one, a factor that is applied too early or too late.
+#include "faults/generators.h"
 
 #include <algorithm>
 #include <memory>
@@ -173,10 +174,7 @@ void add_commuted(Adder& add, const Probe& p, const Site& site) {
 void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most) {
   Adder add(out, known, most);
   for (const Probe& p : probes) {
-    std::vector<int> uses(p.trace.nodes.size());
-    for (const Node& n : p.trace.nodes)
-      for (const std::int32_t of : n.of)
-        if (of >= 0) ++uses[static_cast<std::size_t>(of)];
+    const std::vector<int> uses = uses_of(p.trace);
     std::vector<Site> sites;
     for (std::vector<std::size_t>& vector : vectors_of(p)) sites.push_back({std::move(vector), -1});
     for (std::size_t at = p.trace.nodes.size(); at-- > 0;) {

@@ -1,8 +1,10 @@
-#include "faults/output_faults.h"
+// Mistakes in what happens to a finished buffer: orientation, channel order, encoding, timing.
+#include "faults/generators.h"
 
 #include <algorithm>
 #include <cstring>
 
+#include "faults/image_faults.h"
 #include "faults/members.h"
 #include "image/colour.h"
 #include "judge/rearrange.h"
@@ -14,7 +16,6 @@ namespace {
 
 using capture::Array;
 using capture::PassCase;
-using judge::each_texel;
 using judge::flip_columns;
 using judge::flip_rows;
 using judge::shift;
@@ -92,13 +93,8 @@ void add_output_faults(std::vector<Fault>& out, const PassCase& c, const PassCas
     if (f.channels >= 3) one(Kind::output_as_bgra, [](Array& a) { swap_channels(a, 0, 2); });
     if (f.channels >= 3) one(Kind::output_second_pair_swapped, [](Array& a) { swap_channels(a, 1, 2); }), out.back().for_diagnosis = true;
     for (int k = 0; k < f.channels; ++k) {
-      const int first = k * f.channel_bytes, last = first + f.channel_bytes;
-      if (f.kind == FormatInfo::float16 || f.kind == FormatInfo::float32)
-        one(
-            Kind::output_channel_negated, [last](Array& a) { each_texel(a, [last](std::byte* t) { t[last - 1] ^= std::byte{0x80}; }); }, k);
-      one(
-          Kind::output_without_channel,
-          [first, last](Array& a) { each_texel(a, [first, last](std::byte* t) { std::fill(t + first, t + last, std::byte{0}); }); }, k);
+      if (f.kind == FormatInfo::float16 || f.kind == FormatInfo::float32) one(Kind::output_channel_negated, negating_channel(f, k), k);
+      one(Kind::output_without_channel, clearing_channel(f, k), k);
     }
     const auto changed = [&](Kind kind, float (*change)(float)) {
       one(kind, [slot, change](Array& a) { change_values(a, slot, change); });
@@ -114,15 +110,7 @@ void add_output_faults(std::vector<Fault>& out, const PassCase& c, const PassCas
     }
     if (const capture::CaseInput* in = c.input(o.name);
         in && in->array.levels.size() == 1 && in->array.levels[0].size() == o.array.levels[0].size()) {
-      for (int k = 0; f.channels > 1 && k < f.channels; ++k)
-        one(
-            Kind::output_keeps_channel,
-            [before_pass = in->array, k](Array& a) {
-              const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes), at_k = n * static_cast<std::size_t>(k);
-              for (std::size_t t = at_k; t + n <= a.levels[0].size(); t += a.element_bytes())
-                std::memcpy(a.levels[0].data() + t, before_pass.levels[0].data() + t, n);
-            },
-            k);
+      for (int k = 0; f.channels > 1 && k < f.channels; ++k) one(Kind::output_keeps_channel, taking_channel(in->array, k, k), k);
       one(Kind::output_is_its_input, [stale = in->array](Array& a) { a.levels = stale.levels; });
     }
     if (const capture::CaseOutput* old = before ? before->output(o.name) : nullptr;

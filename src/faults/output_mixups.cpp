@@ -5,7 +5,7 @@
 
 #include "faults/image_faults.h"
 #include "faults/members.h"
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 #include "image/colour.h"
 #include "judge/rearrange.h"
 
@@ -102,21 +102,12 @@ void add_single_images(std::vector<Fault>& out, const PassCase& c, const PassCas
       for (int to = 0; to < f.channels; ++to)
         for (int from = 0; from < f.channels; ++from) {
           if (to == from && in.name == name) continue;
-          add(Kind::image_takes_channel, {component_name(to), in.name, component_name(from)}, [source = in.array, to, from](Array& a) {
-            const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes);
-            for (std::size_t t = 0; t + a.element_bytes() <= a.levels[0].size(); t += a.element_bytes())
-              std::memcpy(a.levels[0].data() + t + n * static_cast<std::size_t>(to),
-                          source.levels[0].data() + t + n * static_cast<std::size_t>(from), n);
-          });
+          add(Kind::image_takes_channel, {component_name(to), in.name, component_name(from)}, taking_channel(in.array, from, to));
         }
     }
     const capture::CaseOutput* old = before ? before->output(name) : nullptr;
     for (int k = 0; old && f.channels > 1 && k < f.channels && old->array.levels[0].size() == c.outputs[o].array.levels[0].size(); ++k)
-      add(Kind::image_with_stale_channel, {component_name(k)}, [stale = old->array, k](Array& a) {
-        const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes);
-        for (std::size_t t = n * static_cast<std::size_t>(k); t + n <= a.levels[0].size(); t += a.element_bytes())
-          std::memcpy(a.levels[0].data() + t, stale.levels[0].data() + t, n);
-      });
+      add(Kind::image_with_stale_channel, {component_name(k)}, taking_channel(old->array, k, k));
     for (int from = 0; f.channels > 2 && from < 3; ++from)
       add(Kind::image_channel_for_each, {component_name(from)}, [from](Array& a) {
         for (int to = 0; to < 3; ++to)

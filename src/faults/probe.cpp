@@ -139,10 +139,27 @@ void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed
 
 }  // namespace
 
-std::vector<float> constants_everywhere(const capture::PassModel& model) {
-  if (model.width() == 0) return {};
+Trace trace_of(const capture::PassModel& model, Texel at) {
+  Trace trace;
+  perturbed::Behaviour following;
+  following.trace = &trace;
+  const perturbed::Scope scope(following);
+  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
+  model.evaluate(at.x, at.y, unused.data());
+  return trace;
+}
+std::vector<int> uses_of(const Trace& trace) {
+  std::vector<int> out(trace.nodes.size());
+  for (const Node& n : trace.nodes)
+    for (const std::int32_t of : n.of)
+      if (of >= 0) ++out[static_cast<std::size_t>(of)];
+  return out;
+}
+
+std::map<float, int> constants_met(const capture::PassModel& model) {
   constexpr int probes = 8;
   std::map<float, int> places;
+  if (model.width() == 0) return places;
   std::vector<float> met;
   perturbed::Behaviour collecting;
   collecting.constants = &met;
@@ -154,9 +171,13 @@ std::vector<float> constants_everywhere(const capture::PassModel& model) {
       model.evaluate(i * (model.width() - 1) / (probes - 1), j * (model.height() - 1) / (probes - 1), unused.data());
       for (const float v : std::set<float>(met.begin(), met.end())) ++places[v];
     }
+  return places;
+}
+std::vector<float> constants_everywhere(const capture::PassModel& model) {
+  constexpr int of_two_rows = 16;  // a row's own is met by one row of eight
   std::vector<float> out;
-  for (const auto& [value, count] : places)
-    if (count > probes * 2 && value > -1e30f && value < 1e30f) out.push_back(value);  // a row's own is met by one row of eight
+  for (const auto& [value, count] : constants_met(model))
+    if (count > of_two_rows && value > -1e30f && value < 1e30f) out.push_back(value);
   return out;
 }
 

@@ -33,6 +33,13 @@ struct Probe {
   bool is_of_column(const perturbed::Trace::Node& n) const;
 };
 
+/// What an invocation does.
+perturbed::Trace trace_of(const capture::PassModel& model, Texel at);
+/// How often each node of an invocation is used by others.
+std::vector<int> uses_of(const perturbed::Trace& trace);
+
+/// Literals and uniforms that a pass meets at 8 x 8 texels, and at how many.
+std::map<float, int> constants_met(const capture::PassModel& model);
 /// The numbers that a pass is given anywhere: the same at every texel. Sorted.
 std::vector<float> constants_everywhere(const capture::PassModel& model);
 

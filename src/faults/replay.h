@@ -14,7 +14,6 @@ namespace rainref::faults {
 /// A mistake that was tried on a run.
 struct Tried : judge::Cause {
   Tried() = default;
-  Tried(judge::Cause cause, double how_far = 0) : Cause(std::move(cause)), misfit(how_far) {}
   /// With its words.
   Tried(What of, judge::Cause figures, double how_far = 0);
   What what;                 ///< by which it is ranked
@@ -72,6 +71,12 @@ Tried untried(const Fault& d, std::size_t of, bool of_records, double misfit = 0
 /// nothing of `of`.
 std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, std::size_t of, bool of_records,
                          const std::function<Tried(const Fault&)>& try_one);
+
+/// Of a pass without one.
+inline const capture::PassModel& no_model() {
+  static const capture::ListPass none("", nullptr);
+  return none;
+}
 
 /// What explains a run, best first. `other`: another failing run of the pass, or null: what explains both is believed. A cause is
 /// likely where no rival, which would be another mistake elsewhere, explains as much.

@@ -27,19 +27,9 @@ What said(const Probe& p, const Target& t, const Source& s, Put how, Change chan
   const bool is_itself = s.nodes.size() == t.nodes.size() && !s.nodes.empty() && s.nodes[0] == value;
   const std::int32_t source = s.nodes.empty() ? -1 : s.nodes[0];
   if (is_itself && how == Put::instead) {
-    switch (change) {
-      case Change::floored:
-      case Change::rounded:
-      case Change::truncated:
-        return what(Kind::rounded_there);
-      case Change::as_half:
-      case Change::as_code:
-        return what(Kind::precision);
-      case Change::saturated:
-        return what(Kind::clamp_too_many);
-      default:
-        break;
-    }
+    if (change == Change::floored || change == Change::rounded || change == Change::truncated) return what(Kind::rounded_there);
+    if (change == Change::as_half || change == Change::as_code) return what(Kind::precision);
+    if (change == Change::saturated) return what(Kind::clamp_too_many);
   }
   if (source >= 0 && source != value && change == Change::none && s.nodes.size() == 1) {
     if (how == Put::divided_by && is_part(p, value, source, true)) return what(Kind::own_factor_too_many);
@@ -52,27 +42,15 @@ What said(const Probe& p, const Target& t, const Source& s, Put how, Change chan
                                          : Kind::negative_cubed_term_too_many;
     return {kind, {place_text(p, t), closed(s.text), right}};
   }
-  switch (how) {
-    case Put::instead:
-      return what(wrong == right ? Kind::wrong_texel : Kind::wrong_value);
-    case Put::times:
-      return what(Kind::factor_too_many);
-    case Put::divided_by:
-      return what(Kind::divisor_too_many);
-    case Put::plus:
-      return what(Kind::term_too_many);
-    case Put::minus:
-      return what(Kind::negative_term_too_many);
-    case Put::from:
-      return what(Kind::wrong_value_from);
-    case Put::over:
-      return what(Kind::wrong_value_over);
-    case Put::larger:
-      return what(Kind::max_too_many);
-    case Put::smaller:
-      return what(Kind::min_too_many);
-  }
-  return {};
+  if (how == Put::instead) return what(wrong == right ? Kind::wrong_texel : Kind::wrong_value);
+  return what(how == Put::times        ? Kind::factor_too_many
+              : how == Put::divided_by ? Kind::divisor_too_many
+              : how == Put::plus       ? Kind::term_too_many
+              : how == Put::minus      ? Kind::negative_term_too_many
+              : how == Put::from       ? Kind::wrong_value_from
+              : how == Put::over       ? Kind::wrong_value_over
+              : how == Put::larger     ? Kind::max_too_many
+                                       : Kind::min_too_many);
 }
 
 }  // namespace rainref::faults

@@ -1,9 +1,11 @@
-#include "faults/substitution_faults.h"
+// A wrong variable: the components of a vector that are those of another.
+#include "faults/generators.h"
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
+#include "faults/place_faults.h"
 #include "faults/targets.h"
 #include "faults/text.h"
 

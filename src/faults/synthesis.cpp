@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include "base/number_text.h"
-#include "faults/substitution_faults.h"
+#include "faults/generators.h"
+#include "faults/place_faults.h"
+#include "faults/solver.h"
 #include "faults/targets.h"
 #include "faults/text.h"
 
@@ -197,10 +199,7 @@ class Search {
     const std::size_t most_asked = nodes > 1000 ? 1 : 4;
     std::vector<std::vector<float>> right;
     for (std::size_t k = 0; k < std::min(most_asked, solvers_.size()); ++k) right.push_back(solvers_[k].values({}));
-    std::vector<int> uses(first_.trace.nodes.size());
-    for (const Node& n : first_.trace.nodes)
-      for (const std::int32_t of : n.of)
-        if (of >= 0) ++uses[static_cast<std::size_t>(of)];
+    const std::vector<int> uses = uses_of(first_.trace);
     const std::vector<Source> none;
     for (const Target& t : all) {
       std::vector<Substitution> places = t.places(first_);

@@ -13,7 +13,7 @@
 #include "faults/members.h"
 #include "faults/taps.h"
 #include "faults/text.h"
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 
 namespace rainref::faults {
 namespace {

@@ -32,12 +32,7 @@ int whole_of(const Array& a, float v) { return static_cast<int>(std::lround(info
 constexpr int middle = 100, reach = 90;
 
 std::vector<float> loads_of(const capture::PassModel& model, Texel at) {
-  perturbed::Trace trace;
-  perturbed::Behaviour following;
-  following.trace = &trace;
-  const perturbed::Scope scope(following);
-  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
-  model.evaluate(at.x, at.y, unused.data());
+  const perturbed::Trace trace = trace_of(model, at);
   std::vector<float> out;
   for (const auto& n : trace.nodes)
     if (n.op == perturbed::Op::load) out.push_back(n.value);

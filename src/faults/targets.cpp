@@ -75,10 +75,7 @@ std::vector<std::vector<std::int32_t>> vectors_in(const Probe& p) {
 
 std::vector<Target> targets_of(const Probe& p) {
   std::vector<Target> out;
-  std::vector<int> uses(p.trace.nodes.size());
-  for (const Node& n : p.trace.nodes)
-    for (const std::int32_t of : n.of)
-      if (of >= 0) ++uses[static_cast<std::size_t>(of)];
+  const std::vector<int> uses = uses_of(p.trace);
   const auto add = [&](const std::vector<std::int32_t>& nodes) {
     const Node& n = node_of(p, nodes[0]);
     if (is_leaf(n.op)) return;

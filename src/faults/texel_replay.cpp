@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "faults/alternative_formulas.h"
-#include "faults/decidable_faults.h"
+#include "faults/generators.h"
 #include "faults/failing_texels.h"
 #include "faults/hypotheses.h"
-#include "faults/output_faults.h"
-#include "faults/substitution_faults.h"
+#include "faults/solver.h"
 #include "image/code_range.h"
 #include "judge/reference_outputs.h"
 #include "math/path_enumeration.h"

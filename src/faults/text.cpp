@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -23,30 +24,12 @@ constexpr const char *signs_alone = ".<+-*/ ()", *digits = "0123456789.-e";
 
 /// "min", "sqrt", ...; "" where it is written otherwise.
 const char* function_of(Op op) {
-  switch (op) {
-    case Op::minimum:
-      return "min";
-    case Op::maximum:
-      return "max";
-    case Op::exponential2:
-      return "exp2";
-    case Op::logarithm:
-      return "log";
-    case Op::sine:
-      return "sin";
-    case Op::cosine:
-      return "cos";
-    case Op::angle:
-      return "atan2";
-    case Op::mix:
-      return "mix";
-    case Op::smoothstep:
-      return "smoothstep";
-    case Op::choice:
-      return "select";
-    default:
-      return bend_name(op);
-  }
+  constexpr std::pair<Op, const char*> names[] = {
+      {Op::minimum, "min"}, {Op::maximum, "max"}, {Op::exponential2, "exp2"}, {Op::logarithm, "log"},         {Op::sine, "sin"},
+      {Op::cosine, "cos"},  {Op::angle, "atan2"}, {Op::mix, "mix"},           {Op::smoothstep, "smoothstep"}, {Op::choice, "select"}};
+  for (const auto& [one, name] : names)
+    if (one == op) return name;
+  return bend_name(op);
 }
 /// " + ", " * ", ... with its spaces; "" where none stands between two operands.
 const char* sign_of(Op op) {
@@ -156,45 +139,21 @@ std::string place_text(const Probe& p, const Target& t) {
 std::string closed(const std::string& text) { return text.find(' ') != npos ? fmt::format("({})", text) : text; }
 std::string changed_text(Change change, const std::string& text) {
   const std::string one = closed(text);
-  switch (change) {
-    case Change::none:
-      return text;
-    case Change::negated:
-      return "-" + one;
-    case Change::from_one:
-      return "1 - " + one;
-    case Change::magnitude:
-      return fmt::format("abs({})", text);
-    case Change::squared:
-      return fmt::format("square({})", text);
-    case Change::rooted:
-      return fmt::format("sqrt({})", text);
-    case Change::inverted:
-      return "1 / " + one;
-    case Change::doubled:
-      return "2 * " + one;
-    case Change::halved:
-      return "0.5 * " + one;
-    case Change::floored:
-      return fmt::format("floor({})", text);
-    case Change::rounded:
-      return fmt::format("round({})", text);
-    case Change::truncated:
-      return fmt::format("trunc({})", text);
-    case Change::fraction:
-      return fmt::format("fract({})", text);
-    case Change::saturated:
-      return fmt::format("saturate({})", text);
-    case Change::as_half:
-      return fmt::format("{} in half precision", one);
-    case Change::as_code:
-      return fmt::format("{} in 8 bits", one);
-    case Change::cubed:
-      return fmt::format("{} cubed", one);
-    case Change::smoothed:
-      return fmt::format("the cubic smoothstep of {}", one);
-  }
-  return text;
+  constexpr std::pair<Change, const char*> functions[] = {
+      {Change::magnitude, "abs"}, {Change::squared, "square"},  {Change::rooted, "sqrt"},    {Change::floored, "floor"},
+      {Change::rounded, "round"}, {Change::truncated, "trunc"}, {Change::fraction, "fract"}, {Change::saturated, "saturate"}};
+  for (const auto& [one_of, name] : functions)
+    if (one_of == change) return fmt::format("{}({})", name, text);
+  return change == Change::negated    ? "-" + one
+         : change == Change::from_one ? "1 - " + one
+         : change == Change::inverted ? "1 / " + one
+         : change == Change::doubled  ? "2 * " + one
+         : change == Change::halved   ? "0.5 * " + one
+         : change == Change::as_half  ? one + " in half precision"
+         : change == Change::as_code  ? one + " in 8 bits"
+         : change == Change::cubed    ? one + " cubed"
+         : change == Change::smoothed ? "the cubic smoothstep of " + one
+                                      : text;
 }
 
 const char* bend_name(Op op) {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "faults/members.h"
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 #include "image/colour.h"
 #include "math/scalar.h"
 

@@ -1,5 +1,4 @@
-#include "faults/vector_groups.h"
-
+// Nodes of a probe that belong together: the components of vectors, the channels that one lookup gives.
 #include <algorithm>
 #include <set>
 #include <string>

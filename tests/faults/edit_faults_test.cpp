@@ -1,5 +1,5 @@
 // Parts of an operation put together otherwise: passes made up here, none of them an effect's.
-#include "faults/edit_faults.h"
+#include "faults/generators.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Mistakes in the order of steps, and in what is drawn of random words.
-#include "faults/order_faults.h"
+#include "faults/generators.h"
 
 #include <algorithm>
 

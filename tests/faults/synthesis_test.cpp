@@ -8,7 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "faults/substitution_faults.h"
+#include "faults/generators.h"
+#include "faults/solver.h"
 #include "math/half.h"
 
 namespace rainref::faults {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 #include "judge/evaluations.h"
 #include "judge/support.h"
 #include "math/half.h"
