@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "faults/place_faults.h"
+#include "faults/solver.h"
 
 namespace rainref::faults {
 namespace {
@@ -31,21 +32,6 @@ std::size_t farthest_slot(const Wanted& w) {
   return best;
 }
 
-/// A value between two at which `off` changes its sign.
-template <class Off>
-float bisected(float low, float high, const Off& off) {
-  double at_low = off(low);
-  for (int round = 0; round < 40; ++round) {
-    const float middle = low + (high - low) / 2;
-    const double at = off(middle);
-    if ((at < 0) == (at_low < 0))
-      low = middle, at_low = at;
-    else
-      high = middle;
-  }
-  return low + (high - low) / 2;
-}
-
 /// With so many significant digits.
 float rounded(float x, int digits) { return number_from<float>(fmt::format("{:.{}g}", x, digits)).value_or(x); }
 
@@ -63,7 +49,8 @@ std::vector<float> replacements(const Replaced& pass, const Wanted& w) {
   double before = off(tried[0]);
   for (std::size_t k = 1; k < tried.size(); ++k) {
     const double now = off(tried[k]);
-    if (std::isfinite(before) && std::isfinite(now) && (before < 0) != (now < 0)) roots.push_back(bisected(tried[k - 1], tried[k], off));
+    if (std::isfinite(before) && std::isfinite(now) && (before < 0) != (now < 0))
+      roots.push_back(bisected(tried[k - 1], tried[k], before, 40, off));
     before = now;
   }
   std::sort(roots.begin(), roots.end(), [v](float a, float b) { return std::abs(a - v) < std::abs(b - v); });

@@ -79,23 +79,9 @@ template <class Change>
 bool change_colours(Array& a, Change change) {
   const FormatInfo& f = info(a.format);
   if (a.is_records || f.channels != 4 || (f.kind != FormatInfo::float16 && f.kind != FormatInfo::float32)) return false;
-  const auto load = [&](const std::byte* at) {
-    Half h;
-    float v;
-    if (f.kind == FormatInfo::float32) return std::memcpy(&v, at, 4), v;
-    return std::memcpy(&h, at, 2), to_float(h);
-  };
   judge::each_texel(a, [&](std::byte* t) {
-    const float alpha = load(t + 3 * f.channel_bytes);
-    for (int k = 0; k < 3; ++k) {
-      std::byte* const at = t + k * f.channel_bytes;
-      const float v = change(load(at), alpha);
-      const Half h = to_half(v);
-      if (f.kind == FormatInfo::float32)
-        std::memcpy(at, &v, 4);
-      else
-        std::memcpy(at, &h, 2);
-    }
+    const float alpha = channel_at(f, t + 3 * f.channel_bytes);
+    for (int k = 0; k < 3; ++k) put_channel(f, t + k * f.channel_bytes, change(channel_at(f, t + k * f.channel_bytes), alpha));
   });
   return true;
 }

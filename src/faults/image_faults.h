@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "faults/fault.h"
+#include "faults/members.h"
 #include "judge/rearrange.h"
+#include "math/half.h"
 
 namespace rainref::faults {
 
@@ -18,6 +20,20 @@ inline std::vector<std::size_t> enveloped_images(const capture::PassCase& c) {
   for (std::size_t o = 0; o < c.outputs.size(); ++o)
     if (c.outputs[o].judge == capture::Judge::envelope && !c.outputs[o].array.is_records) out.push_back(o);
   return out;
+}
+
+/// A channel of a texel; a code of 8 bits as a share of 255.
+inline float channel_at(const FormatInfo& f, const std::byte* at) {
+  return f.kind == FormatInfo::float32   ? number_at<float>(at, 0)
+         : f.kind == FormatInfo::float16 ? to_float(number_at<Half>(at, 0))
+                                         : static_cast<float>(std::to_integer<int>(*at)) / 255.0f;
+}
+/// Puts a channel of halves or floats.
+inline void put_channel(const FormatInfo& f, std::byte* at, float v) {
+  if (f.kind == FormatInfo::float16)
+    put_number(at, 0, to_half(v));
+  else
+    put_number(at, 0, v);
 }
 
 using Alter = std::function<void(capture::Array&)>;

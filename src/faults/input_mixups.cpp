@@ -10,7 +10,6 @@
 #include "faults/generators.h"
 #include "image/colour.h"
 #include "judge/rearrange.h"
-#include "math/half.h"
 #include "math/unorm.h"
 
 namespace rainref::faults {
@@ -29,25 +28,11 @@ void recode(Array& a, Change change, bool is_any = false) {
     std::vector<std::byte> out;
     const std::size_t n = static_cast<std::size_t>(f.channel_bytes);
     for (std::size_t t = 0, k = 0; t + n <= level.size(); t += n, ++k) {
-      float v = 0;
-      if (f.kind == FormatInfo::float32) {
-        std::memcpy(&v, &level[t], 4);
-      } else if (f.kind == FormatInfo::float16) {
-        Half h;
-        std::memcpy(&h, &level[t], 2);
-        v = to_float(h);
-      } else {
-        v = std::to_integer<int>(level[t]) / 255.0f;
-      }
+      float v = channel_at(f, &level[t]);
       const bool is_alpha = f.channels == 4 && k % 4 == 3;
       if (!is_alpha && (is_any || (v >= 0 && v <= 1))) v = static_cast<float>(change(v));
-      if (f.kind == FormatInfo::float16) {
-        const Half h = to_half(v);
-        std::memcpy(&level[t], &h, 2);
-        continue;
-      }
       if (!to_floats) {
-        std::memcpy(&level[t], &v, 4);
+        put_channel(f, &level[t], v);
         continue;
       }
       const auto* bytes = reinterpret_cast<const std::byte*>(&v);

@@ -1,13 +1,11 @@
 // An image with levels, whose first level is read where it is meant: what a port has that looks up a coarser one there.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "capture/bound_texture.h"
-#include "faults/members.h"
+#include "faults/image_faults.h"
 #include "faults/generators.h"
-#include "math/half.h"
 
 namespace rainref::faults {
 namespace {
@@ -52,12 +50,7 @@ void coarsen(Array& a, double lod) {
       for (int k = 0; k < f.channels; ++k, to += f.channel_bytes) {
         const double u = (x + 0.5) / a.width, v = (y + 0.5) / a.height;
         const auto value = static_cast<float>(filtered(low, u, v, k) * (1 - share) + filtered(high, u, v, k) * share);
-        if (f.kind == FormatInfo::float32) {
-          std::memcpy(to, &value, 4);
-        } else {
-          const Half h = to_half(value);
-          std::memcpy(to, &h, 2);
-        }
+        put_channel(f, to, value);
       }
 }
 

@@ -204,7 +204,7 @@ bool is_left_out(Kind kind) {
 
 }  // namespace
 
-Tried::Tried(What of, Cause figures, double how_far) : Cause(std::move(figures)), what(std::move(of)), misfit(how_far) {
+Tried::Tried(What made, Cause figures, double how_far) : Cause(std::move(figures)), what(std::move(made)), misfit(how_far) {
   name = name_of(what);
   sentence = sentence_of(what);
 }

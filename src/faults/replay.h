@@ -15,7 +15,7 @@ namespace rainref::faults {
 struct Tried : judge::Cause {
   Tried() = default;
   /// With its words.
-  Tried(What of, judge::Cause figures, double how_far = 0);
+  Tried(What made, judge::Cause figures, double how_far = 0);
   What what;                 ///< by which it is ranked
   double misfit = 0;         ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
   bool is_untested = false;  ///< another run could not be asked about it
