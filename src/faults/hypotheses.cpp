@@ -50,8 +50,6 @@ std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
   return all;
 }
 
-bool is_of_channel(const Fault& d) { return d.is(trait::channel); }
-
 /// Failing texels away from the edges, if there are some: what stands beyond an edge has no name.
 std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassModel& model) {
   std::vector<Texel> out;
@@ -113,8 +111,6 @@ std::vector<float> without_records(std::vector<float> known, const std::vector<P
   return known;
 }
 
-bool is_of_uniform(const Fault& d) { return d.is(trait::uniform); }
-
 bool is_of_operation(const Fault& d) {
   return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
 }
@@ -123,7 +119,8 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, operations, channels;
   // Constants are tried by their names; uniforms and what an operation may be mistaken for everywhere, after each place by itself.
   std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
-  take(all, uniforms, is_of_uniform);
+  // What is wrong with a uniform itself: a mistake in the text that gives the same is believed first.
+  take(all, uniforms, [](const Fault& d) { return d.is(trait::uniform); });
   take(all, operations, is_of_operation);
   const std::vector<random::Purpose> drawn = purposes_drawn([&] {
     std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(p.model.values()));
@@ -134,7 +131,8 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   add_tap_faults(all, p);
   add_input_mixups(all, p);
   add_level_faults(all, p);
-  take(all, channels, is_of_channel);
+  // A channel of an input that has another sign, is taken from 1, or counts as 0: in the text a term has.
+  take(all, channels, [](const Fault& d) { return d.is(trait::channel); });
   const std::vector<float> known = constants_everywhere(p.model);
   const std::vector<Probe> probes = probes_of(p, spread(inner(failing, p.model), 4), known);
   const Constants constants = names_of_constants(probes, known);

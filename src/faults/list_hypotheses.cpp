@@ -10,7 +10,7 @@ namespace rainref::faults {
 namespace {
 
 /// That one is not set is plain, as what is wrong with all of a list.
-bool is_mixed_up_uniform(const Fault& d) { return is_of_uniform(d) && !d.is(trait::unset); }
+bool is_mixed_up_uniform(const Fault& d) { return d.is(trait::uniform) && !d.is(trait::unset); }
 
 /// Some records, each by itself, that with the most operations first; of a list whose records are not alone all of it.
 std::vector<Probe> probes_of_records(const Probed& p, const std::string& list, const std::vector<float>& known,
