@@ -80,8 +80,10 @@ std::optional<Cause> read_beyond_end(const FailedRun& f, std::size_t output) {
   for (const std::size_t live : std::set<std::size_t>{before_zeros, before_copies, right}) {
     if (live >= all.size() || failing_with(f, output, array_of({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(live)}, stored)) > 0)
       continue;
-    const char* const what = live == before_zeros ? ", all zero" : live == before_copies ? ", all alike" : "";
-    Tried cause(What{Kind::list_read_beyond_end, {expected.name, std::to_string(live), std::to_string(all.size() - live), what}},
+    const Kind kind = live == before_zeros    ? Kind::list_read_into_zeros
+                      : live == before_copies ? Kind::list_read_into_copies
+                                              : Kind::list_read_beyond_end;
+    Tried cause(What{kind, {expected.name, std::to_string(live), std::to_string(all.size() - live)}},
                 {"", "", failing, failing, failing, true, true});
     return cause;
   }
