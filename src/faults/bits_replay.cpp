@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "faults/draw_faults.h"
-#include "faults/list_faults.h"
 #include "faults/generators.h"
+#include "faults/list_faults.h"
 
 namespace rainref::faults {
 namespace {

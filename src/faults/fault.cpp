@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "faults/generators.h"
 #include "faults/list_faults.h"
 #include "faults/members.h"
 #include "faults/probe.h"
-#include "faults/generators.h"
 #include "judge/rearrange.h"
 #include "rainref/error.h"
 

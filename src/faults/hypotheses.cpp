@@ -6,8 +6,8 @@
 #include <set>
 
 #include "faults/draw_faults.h"
-#include "faults/generators.h"
 #include "faults/failing_texels.h"
+#include "faults/generators.h"
 #include "faults/place_faults.h"
 #include "faults/text.h"
 

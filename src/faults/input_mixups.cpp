@@ -5,9 +5,9 @@
 #include <tuple>
 #include <utility>
 
+#include "faults/generators.h"
 #include "faults/image_faults.h"
 #include "faults/members.h"
-#include "faults/generators.h"
 #include "image/colour.h"
 #include "judge/rearrange.h"
 #include "math/unorm.h"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "capture/bound_texture.h"
-#include "faults/image_faults.h"
 #include "faults/generators.h"
+#include "faults/image_faults.h"
 
 namespace rainref::faults {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "faults/generators.h"
 #include "faults/hypotheses.h"
 #include "faults/list_faults.h"
 #include "faults/members.h"
 #include "faults/place_faults.h"
-#include "faults/generators.h"
 #include "judge/evaluations.h"
 #include "judge/keyed.h"
 #include "math/path_enumeration.h"

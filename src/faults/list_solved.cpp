@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "faults/generators.h"
 #include "faults/list_faults.h"
 #include "faults/list_replay.h"
 #include "faults/members.h"
 #include "faults/solver.h"
-#include "faults/generators.h"
 #include "judge/evaluations.h"
 #include "rainref/error.h"
 

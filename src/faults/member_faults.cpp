@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "faults/generators.h"
 #include "faults/list_adder.h"
 #include "faults/members.h"
-#include "faults/generators.h"
 
 namespace rainref::faults {
 namespace {

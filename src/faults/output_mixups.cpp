@@ -3,9 +3,9 @@
 #include <cstring>
 #include <utility>
 
+#include "faults/generators.h"
 #include "faults/image_faults.h"
 #include "faults/members.h"
-#include "faults/generators.h"
 #include "image/colour.h"
 #include "judge/rearrange.h"
 

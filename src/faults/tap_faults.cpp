@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
+#include "faults/generators.h"
 #include "faults/members.h"
 #include "faults/taps.h"
 #include "faults/text.h"
-#include "faults/generators.h"
 
 namespace rainref::faults {
 namespace {

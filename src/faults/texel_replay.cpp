@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "faults/alternative_formulas.h"
-#include "faults/generators.h"
 #include "faults/failing_texels.h"
+#include "faults/generators.h"
 #include "faults/hypotheses.h"
 #include "faults/solver.h"
 #include "image/code_range.h"

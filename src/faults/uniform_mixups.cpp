@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "faults/members.h"
 #include "faults/generators.h"
+#include "faults/members.h"
 #include "image/colour.h"
 #include "math/scalar.h"
 

@@ -17,8 +17,8 @@
 #include "judge/judge.h"
 #include "judge/keyed.h"
 #include "judge/support.h"
-#include "registry/registry.h"
 #include "rainref/error.h"
+#include "registry/registry.h"
 
 namespace rainref::faults {
 namespace {
