@@ -1,8 +1,7 @@
-#include "faults/alternative_formulas.h"
-
+// Whether a port computes what a pass does by another formula, one that real arithmetic makes equal.
 #include <algorithm>
 
-#include "faults/replay.h"
+#include "faults/texel_replay.h"
 #include "judge/alternatives.h"
 #include "judge/evaluations.h"
 #include "judge/stored.h"

@@ -1,4 +1,5 @@
-#include "faults/decided.h"
+// What is decided before any search: how bytes lie, a list read beyond its end, what is not a number.
+#include "faults/diagnose.h"
 
 #include <algorithm>
 #include <set>
@@ -6,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "faults/failing_texels.h"
 #include "faults/list_faults.h"
+#include "faults/texel_replay.h"
 #include "judge/bits.h"
 #include "judge/keyed.h"
 #include "judge/slots.h"

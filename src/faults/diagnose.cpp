@@ -7,11 +7,9 @@
 #include <string>
 
 #include "faults/bits_replay.h"
-#include "faults/decided.h"
 #include "faults/list_replay.h"
 #include "faults/texel_replay.h"
 #include "faults/text.h"
-#include "faults/where.h"
 #include "judge/evaluations.h"
 #include "judge/judge.h"
 #include "judge/keyed.h"

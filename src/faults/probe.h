@@ -33,6 +33,11 @@ struct Probe {
   bool is_of_column(const perturbed::Trace::Node& n) const;
 };
 
+/// The texels of a run that no alternative accepts, row by row.
+std::vector<Texel> failing_texels(const judge::CaseJudgement& judgement);
+/// At most so many of them, spread evenly.
+std::vector<Texel> spread(const std::vector<Texel>& all, std::size_t most);
+
 /// What an invocation does.
 perturbed::Trace trace_of(const capture::PassModel& model, Texel at);
 /// How often each node of an invocation is used by others.

@@ -6,8 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "faults/alternative_formulas.h"
-#include "faults/failing_texels.h"
 #include "faults/generators.h"
 #include "faults/hypotheses.h"
 #include "faults/solver.h"

@@ -1,4 +1,5 @@
-#include "faults/where.h"
+// Where a pass fails: one sentence when its failures share a place.
+#include "faults/diagnose.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "faults/failing_texels.h"
+#include "faults/probe.h"
 #include "faults/text.h"
 #include "judge/invocation_judge.h"
 
