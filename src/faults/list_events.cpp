@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "faults/list_adder.h"
+#include "faults/list_faults.h"
 #include "judge/evaluations.h"
 
 namespace rainref::faults {

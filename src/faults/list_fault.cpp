@@ -3,7 +3,7 @@
 #include <cstring>
 #include <map>
 
-#include "faults/list_adder.h"
+#include "faults/list_faults.h"
 #include "faults/members.h"
 #include "judge/keyed.h"
 

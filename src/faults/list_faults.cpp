@@ -5,7 +5,6 @@
 #include <limits>
 #include <set>
 
-#include "faults/list_adder.h"
 #include "faults/members.h"
 #include "judge/keyed.h"
 #include "math/half.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "faults/generators.h"
-#include "faults/list_adder.h"
+#include "faults/list_faults.h"
 #include "faults/members.h"
 
 namespace rainref::faults {

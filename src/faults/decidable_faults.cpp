@@ -1,8 +1,12 @@
-// What another format, an exporter or a blend makes of the values of an image.
+// Mistakes that need no search: how the bytes of an image lie, what another format, an exporter or a blend makes of its values, and a hash
+// of fractions in half precision.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "faults/generators.h"
 #include "faults/image_faults.h"
@@ -11,10 +15,86 @@
 #include "math/half.h"
 
 namespace rainref::faults {
-namespace {
 
 using capture::Array;
 using judge::Slot;
+using perturbed::Op;
+using perturbed::Substitution;
+using perturbed::Trace;
+
+namespace {
+
+/// Bytes from row to row that devices and APIs choose for rows of so many bytes.
+std::set<std::size_t> usual_pitches(std::size_t row, std::size_t texel) {
+  std::set<std::size_t> out;
+  const auto add = [&](std::size_t multiple) {
+    const std::size_t pitch = (row + multiple - 1) / multiple * multiple;
+    if (pitch > row && pitch % texel == 0) out.insert(pitch);
+  };
+  for (const std::size_t bytes : {16, 32, 64, 128, 256, 512, 1024, 4096}) add(bytes);
+  for (const std::size_t texels : {4, 8, 16, 32, 64, 128}) add(texels * texel);
+  std::size_t texels = 1;
+  while (texels * texel < row) texels *= 2;
+  add(texels * texel);
+  return out;
+}
+
+/// Memory whose rows lie `pitch` bytes apart, zeros between, copied as if they followed each other.
+void take_as_tight(Array& a, std::size_t pitch) {
+  const std::vector<std::byte> right = a.levels[0];
+  std::vector<std::byte>& out = a.levels[0];
+  const std::size_t row = static_cast<std::size_t>(a.width) * a.element_bytes();
+  std::fill(out.begin(), out.end(), std::byte{0});
+  for (std::size_t y = 0; y * pitch < out.size(); ++y)
+    std::memcpy(out.data() + y * pitch, right.data() + y * row, std::min(row, out.size() - y * pitch));
+}
+/// Memory without padding, copied as if its rows lay `pitch` bytes apart. Behind its end are zeros.
+void take_as_padded(Array& a, std::size_t pitch) {
+  const std::vector<std::byte> right = a.levels[0];
+  std::vector<std::byte>& out = a.levels[0];
+  const std::size_t row = static_cast<std::size_t>(a.width) * a.element_bytes();
+  std::fill(out.begin(), out.end(), std::byte{0});
+  for (std::size_t y = 0; y * row < out.size() && y * pitch < right.size(); ++y)
+    std::memcpy(out.data() + y * row, right.data() + y * pitch, std::min(row, right.size() - y * pitch));
+}
+
+}  // namespace
+
+void add_layout_faults(std::vector<Fault>& out, const capture::PassCase& c, const std::vector<Array>& port) {
+  std::set<std::size_t> pitches;  // of all images
+  for (const std::size_t o : enveloped_images(c)) {
+    const Array& a = c.outputs[o].array;
+    pitches.merge(usual_pitches(static_cast<std::size_t>(a.width) * a.element_bytes(), a.element_bytes()));
+  }
+  const auto has = [](const Array& a, std::size_t pitch) {
+    const std::size_t row = static_cast<std::size_t>(a.width) * a.element_bytes();
+    return usual_pitches(row, a.element_bytes()).contains(pitch);
+  };
+  const auto row_text = [](const Array& a) { return std::to_string(static_cast<std::size_t>(a.width) * a.element_bytes()); };
+  for (const std::size_t pitch : pitches) {
+    const auto add = [&](Kind kind, void (*relaid)(Array&, std::size_t)) {
+      add_to_images(
+          out, c, port,
+          [=](const Array& a) {
+            return What{kind, {std::to_string(pitch), row_text(a)}};
+          },
+          [=](Array& a, const Array&) {
+            if (!has(a, pitch)) return false;
+            relaid(a, pitch);
+            return true;
+          });
+    };
+    add(Kind::rows_taken_as_tight, take_as_tight);
+    add(Kind::rows_taken_as_padded, take_as_padded);
+  }
+  add_to_images(out, c, port, Kind::half_a_turn, [](Array& a, const Array&) {
+    judge::flip_rows(a);
+    judge::flip_columns(a);
+    return true;
+  });
+}
+
+namespace {
 
 /// A number without a sign and with this many bits of mantissa behind its first, whose exponent is a half's.
 float unsigned_float(float v, int mantissa_bits, bool to_nearest) {
@@ -130,6 +210,77 @@ void add_format_faults(std::vector<Fault>& out, const Probed& p, const std::vect
       }
     return true;
   });
+}
+
+namespace {
+
+/// Nodes that a fraction went into, in the order of the trace.
+std::vector<bool> made_of_fractions(const Trace& trace) {
+  std::vector<bool> out(trace.nodes.size(), false);
+  for (std::size_t k = 0; k < trace.nodes.size(); ++k)
+    for (const std::int32_t of : trace.nodes[k].of)
+      if (of >= 0 && (out[static_cast<std::size_t>(of)] || trace.nodes[static_cast<std::size_t>(of)].op == Op::fract)) out[k] = true;
+  return out;
+}
+
+/// Adds a fraction and what it is made of, down to the fractions that other ones were made of and their arguments.
+void gather(const Trace& trace, const std::vector<bool>& is_made_of, std::int32_t node, std::set<std::int32_t>& out) {
+  if (node < 0 || !out.insert(node).second) return;
+  const Trace::Node& n = trace.nodes[static_cast<std::size_t>(node)];
+  for (const std::int32_t of : n.of) {
+    if (of < 0) continue;
+    const auto k = static_cast<std::size_t>(of);
+    const bool is_leaf = trace.nodes[k].op == Op::constant || trace.nodes[k].op == Op::load || trace.nodes[k].op == Op::index;
+    if (is_made_of[k] || trace.nodes[k].op == Op::fract)
+      gather(trace, is_made_of, of, out);
+    else if (n.op == Op::fract && !is_leaf)
+      out.insert(of);
+  }
+}
+
+/// Nodes of hashes: a fraction of a product that three fractions or more went into, and all that it is made of.
+std::set<std::int32_t> hashes_of(const Trace& trace) {
+  const std::vector<bool> is_made_of = made_of_fractions(trace);
+  std::set<std::int32_t> out;
+  for (std::size_t k = 0; k < trace.nodes.size(); ++k) {
+    if (trace.nodes[k].op != Op::fract || !is_made_of[k]) continue;
+    std::set<std::int32_t> own;
+    gather(trace, is_made_of, static_cast<std::int32_t>(k), own);
+    std::size_t fractions = 0, products = 0;
+    for (const std::int32_t node : own) {
+      const Op op = trace.nodes[static_cast<std::size_t>(node)].op;
+      fractions += op == Op::fract;
+      products += op == Op::product;
+    }
+    if (fractions > 3 && products > 3) out.merge(own);
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_hash_faults(std::vector<Fault>& out, const Probed& p, Texel at) {
+  const Trace trace = trace_of(p.model, at);
+  const std::set<std::int32_t> hashes = hashes_of(trace);
+  if (hashes.empty()) return;
+  Fault d(What{Kind::hash_in_half});
+  for (const std::int32_t node : hashes) {
+    const Trace::Node& n = trace.nodes[static_cast<std::size_t>(node)];
+    const auto round = [&](std::int8_t operand) {
+      Substitution s;
+      s.shape = n.shape;
+      s.occurrence = n.occurrence;
+      s.operand = operand;
+      s.number = 1;
+      s.how = perturbed::Put::times;
+      s.last = perturbed::Change::as_half;
+      d.substitutions.push_back(s);
+    };
+    for (std::size_t k = 0; k < n.of.size(); ++k)
+      if (n.of[k] >= 0 && !hashes.contains(n.of[k])) round(static_cast<std::int8_t>(k));
+    round(Substitution::result);
+  }
+  out.push_back(std::move(d));
 }
 
 }  // namespace rainref::faults
