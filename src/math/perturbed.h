@@ -69,13 +69,12 @@ enum class Fault : std::uint8_t {
   constant
 };
 
-struct FaultInfo {
-  Fault fault;
-  std::string_view name;      ///< "fused multiply-add"
-  std::string_view sentence;  ///< what to look for in the port
-};
 /// Every fault but none and constant, in the order in which a diagnosis tries them.
-const std::vector<FaultInfo>& faults();
+inline std::vector<Fault> faults() {
+  std::vector<Fault> all;
+  for (auto f = static_cast<int>(Fault::fused); f < static_cast<int>(Fault::constant); ++f) all.push_back(static_cast<Fault>(f));
+  return all;
+}
 
 /// What a conforming machine may do, drawn at random at every operation: the accuracies, roundings, fusions and
 /// samplers of a profile, and formulas that a profile does not name because every one of them allows them.
