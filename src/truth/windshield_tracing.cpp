@@ -7,11 +7,12 @@ namespace {
 
 class WindshieldTracing : public Tracing {
  public:
-  WindshieldTracing(const scene::Config& config, const windshield::Instance& windshield, const parallel::Executor& on)
+  WindshieldTracing(const scene::Config& config, const windshield::Instance& windshield, const effect::Inputs& inputs,
+                    const parallel::Executor& on)
       : Tracing(choice_from(config), on),
         windshield_(windshield),
         view_(windshield.settings(), {config.real("compositor.glass_thickness"), config.real("compositor.glass_radius")}, choice().tracer,
-              on) {}
+              windshield.has_street() ? windshield::street_of(windshield.settings(), inputs) : nullptr, on) {}
 
   Comparison compare() override {
     look_outside();
@@ -38,26 +39,26 @@ class WindshieldTracing : public Tracing {
 }  // namespace
 
 EffectTracing windshield_tracing() {
-  return {
-      "windshield",
-      [] {
-        std::vector<scene::Parameter> all = parameters();
-        all.push_back(pane_thickness());
-        all.push_back(scene::real("compositor.glass_radius", "m", 0, 1e6, 0,
-                                  "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."));
-        return all;
-      },
-      [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
-        return std::make_unique<WindshieldTracing>(config, static_cast<const windshield::Instance&>(instance), executor);
-      },
-      [](effect::RunMemory& m, const scene::Config& config) {
-        // The pictures as rays look them up: floats, and their depths. Their size is not known yet; as the effect does, the street's
-        // counts.
-        const auto [width, height] = config.integer2("scene.size");
-        if (choice_from(config).is_traced && effect::is_named(config, "scene.image"))
-          m.peak.hold(static_cast<std::size_t>(width * height) * (4 + 1) * sizeof(float));
-        hold_traced(m, config);
-      }};
+  return {"windshield",
+          [] {
+            std::vector<scene::Parameter> all = parameters();
+            all.push_back(pane_thickness());
+            all.push_back(scene::real("compositor.glass_radius", "m", 0, 1e6, 0,
+                                      "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."));
+            return all;
+          },
+          [](const scene::Config& config, const effect::Instance& instance, const effect::Inputs& inputs,
+             const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
+            return std::make_unique<WindshieldTracing>(config, static_cast<const windshield::Instance&>(instance), inputs, executor);
+          },
+          [](effect::RunMemory& m, const scene::Config& config) {
+            // The pictures as rays look them up: floats, and their depths. Their size is not known yet; as the effect does, the street's
+            // counts.
+            const auto [width, height] = config.integer2("scene.size");
+            if (choice_from(config).is_traced && effect::is_named(config, "scene.image"))
+              m.peak.hold(static_cast<std::size_t>(width * height) * (4 + 1) * sizeof(float));
+            hold_traced(m, config);
+          }};
 }
 
 }  // namespace rainref::truth

@@ -58,7 +58,7 @@ WindshieldTruth compare(const windshield::Windshield& rendered, const Windshield
         const bool is_wet = path.interfaces > 2;
         if (is_drop && path.end == StraightPath::End::mirrored) ++mirrored;
         if (path.end != StraightPath::End::out || is_drop != is_wet || (!is_drop && pixel.visibility > 0)) continue;
-        const night_street::Street::Sight seen = view.look(distance, path.origin, path.direction);
+        const scene::Scenery::Sight seen = view.look(distance, path.origin, path.direction);
         const bool is_sky = std::isinf(seen.distance);
         const Vec from_eye = is_sky ? path.direction : path.origin + seen.distance * path.direction - camera.position;
         const Vec from_trick = basis.forward + pixel.x * basis.right + pixel.y * basis.up;

@@ -35,7 +35,7 @@ class OutsideCar : public Environment {
         out[i] = cabin;
         continue;
       }
-      const night_street::Street::Sight seen = view_.look(distance_, escaped_ray.origin, escaped_ray.direction);
+      const scene::Scenery::Sight seen = view_.look(distance_, escaped_ray.origin, escaped_ray.direction);
       // The fog of level 0 of the blur pyramid, by the length of the ray; there the sky is as far as can be.
       const double far = std::min(seen.distance, windshield::street_far), clear = exp_real(Real64(-s.blur.fog_density * far)).v;
       out[i] = falling_.through(escaped_ray.origin, escaped_ray.direction, seen.distance, (1 - clear) * fog + clear * seen.radiance);
@@ -64,13 +64,13 @@ class OutsideCar : public Environment {
 }  // namespace
 
 WindshieldView::WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
-                               const parallel::Executor& executor)
+                               std::shared_ptr<const scene::Scenery> street, const parallel::Executor& executor)
     : settings_(settings),
       tracer_(tracer),
       executor_(executor),
       panes_{Pane(shape_of(settings.corners, glass))},
       vehicle_(settings.vehicle),
-      street_({settings.seed, settings.clear_lane}) {
+      street_(std::move(street)) {
   for (const windshield::Corners& corners : settings.panes) panes_.emplace_back(shape_of(corners, {glass.thickness, 0}));
 }
 
@@ -79,13 +79,13 @@ void WindshieldView::show(const Image& colour, const Image& depth) {
   pictures_.emplace(camera(), half_height * settings_.picture.width / settings_.picture.height, half_height, colour, depth);
 }
 
-night_street::Street::Sight WindshieldView::look(double distance, const Vec& origin, const Vec& direction) const {
+scene::Scenery::Sight WindshieldView::look(double distance, const Vec& origin, const Vec& direction) const {
   if (pictures_) {
     const PictureRelief::Sight seen = pictures_->look(origin, direction);
     return {seen.radiance, seen.distance};
   }
   const Vec place = windshield::place_in_street(settings_.street_start, distance);
-  return street_.look(place + windshield::in_street(origin), windshield::in_street(direction));
+  return street_->look(place + windshield::in_street(origin), windshield::in_street(direction));
 }
 
 double WindshieldView::distance(const windshield::Windshield& rendered) const {

@@ -40,12 +40,6 @@ TEST(NightStreet, HasTheSameBitsOnAnyNumberOfThreadsInAnyOrder) {
   }
 }
 
-TEST(NightStreet, HasTheRecordedBits) {
-  const parallel::Executor executor(2);
-  EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), "e504582cb2514ed447a1dd920b17a160");
-  EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), "f60c47c226363a842ad4e18ed9547152");
-}
-
 TEST(NightStreet, AClearLaneHasNoCarAndNothingElseChanges) {
   const Street clear({1, true});
   const auto free_way = [](const Street& s, double x) { return s.look({x, 0.6, 190}, {0, 0, -1}).distance; };

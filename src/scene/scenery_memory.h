@@ -1,17 +1,17 @@
-// What pictures of the street take.
+// What pictures of a scenery take.
 #pragma once
 
 #include "base/memory.h"
 #include "rainref/image.h"
 
-namespace rainref::night_street {
+namespace rainref::scene {
 
 /// One ray for each texel, before neighbours are compared: radiance, tone, object, ground.
 inline std::uint64_t centres_bytes(int width, int height) {
-  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 40;  // Centre of antialias.cpp
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 40;  // Centre of night_street/antialias.cpp
 }
 
-/// Street::view. Holds colour, depth and normal.
+/// Scenery::view. Holds colour, depth and normal.
 inline MemoryPeak view_memory(int width, int height) {
   MemoryPeak memory;
   memory.hold(Image::memory_bytes(Format::r32f, width, height) + 2 * Image::memory_bytes(Format::rgba32f, width, height));
@@ -21,7 +21,7 @@ inline MemoryPeak view_memory(int width, int height) {
 /// What a View keeps besides its normals, which most leave.
 inline std::uint64_t normal_bytes(int width, int height) { return Image::memory_bytes(Format::rgba32f, width, height); }
 
-/// Street::panorama. Holds the picture.
+/// Scenery::panorama. Holds the picture.
 inline MemoryPeak panorama_memory(int width, int height) {
   MemoryPeak memory;
   memory.hold(Image::memory_bytes(Format::rgba32f, width, height));
@@ -29,4 +29,4 @@ inline MemoryPeak panorama_memory(int width, int height) {
   return memory;
 }
 
-}  // namespace rainref::night_street
+}  // namespace rainref::scene
