@@ -51,7 +51,6 @@ effect::RunMemory memory_of(const scene::Config& config) {
   const std::size_t inputs = image_bytes(m, Format::rgba32f) + image_bytes(m, Format::r32f);
   if (config.text("scene.source") == "street") {
     m.peak.then(scene::view_memory(s.width, s.height));
-    m.peak.release(scene::normal_bytes(s.width, s.height));
   } else {
     m.peak.hold(inputs);
   }

@@ -88,7 +88,6 @@ effect::RunMemory memory_of(const scene::Config& config) {
   } else {
     m.peak.then(scene::view_memory(s.width, s.height));
     if (s.use_probe) m.peak.then(scene::panorama_memory(1024, 512));
-    m.peak.release(scene::normal_bytes(s.width, s.height));
   }
   m.peak.pass(colour);                                    // out of focus
   m.peak.pass(colour + image_bytes(m, Format::rgba16f));  // the glass, for its bars

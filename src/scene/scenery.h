@@ -32,7 +32,6 @@ class Scenery {
   struct View {
     Image colour;  ///< rgba32f, linear radiance, alpha 1
     Image depth;   ///< r32f, metres along the view axis at the texel centre; `far` for sky and whatever lies beyond
-    Image normal;  ///< rgba32f, world normal at the texel centre, alpha 1 on surfaces; 0 0 0 0 where depth is `far`
   };
   /// Rays of a texel where its neighbours differ.
   enum class Parts : std::uint8_t { nine, three };

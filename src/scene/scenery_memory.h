@@ -11,16 +11,13 @@ inline std::uint64_t centres_bytes(int width, int height) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 40;  // Centre of night_street/antialias.cpp
 }
 
-/// Scenery::view. Holds colour, depth and normal.
+/// Scenery::view. Holds colour and depth.
 inline MemoryPeak view_memory(int width, int height) {
   MemoryPeak memory;
-  memory.hold(Image::memory_bytes(Format::r32f, width, height) + 2 * Image::memory_bytes(Format::rgba32f, width, height));
+  memory.hold(Image::memory_bytes(Format::r32f, width, height) + Image::memory_bytes(Format::rgba32f, width, height));
   memory.pass(centres_bytes(width, height));
   return memory;
 }
-/// What a View keeps besides its normals, which most leave.
-inline std::uint64_t normal_bytes(int width, int height) { return Image::memory_bytes(Format::rgba32f, width, height); }
-
 /// Scenery::panorama. Holds the picture.
 inline MemoryPeak panorama_memory(int width, int height) {
   MemoryPeak memory;

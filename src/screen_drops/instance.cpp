@@ -49,7 +49,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
     m.peak.hold(image_bytes(m, Format::rgba32f));
   } else {
     m.peak.then(scene::view_memory(s.width, s.height));
-    m.peak.release(scene::normal_bytes(s.width, s.height) + image_bytes(m, Format::r32f));
+    m.peak.release(image_bytes(m, Format::r32f));
   }
   const std::optional<FlowSettings> flow = flow_from(config, s);
   m.peak.then(memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));

@@ -38,7 +38,6 @@ inline std::vector<std::string> golden_lines(const GoldenScene& scene, const par
   };
   line("view colour", view.colour);
   line("view depth", view.depth);
-  line("view normal", view.normal);
   line("panorama colour", street.panorama(96, 48, {0, 0.05, 0}, executor));
   line("look rays", rays);
   return lines;

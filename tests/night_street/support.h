@@ -9,7 +9,7 @@
 namespace rainref::night_street {
 
 inline std::string hash_of(const Image& image) { return capture::hash_of(image).text(); }
-inline std::string hash_of(const Street::View& view) { return hash_of(view.colour) + hash_of(view.depth) + hash_of(view.normal); }
+inline std::string hash_of(const Street::View& view) { return hash_of(view.colour) + hash_of(view.depth); }
 
 /// A driver's look down the street.
 inline scene::Camera driver() { return {{1.9, 1.35, 0}, {1.2, 1.75, -20}, {0, 1, 0}, 50}; }

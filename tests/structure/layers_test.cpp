@@ -171,6 +171,7 @@ TEST(Layers, TheRulesRefuse) {
   EXPECT_EQ(broken_rule("image", "rainref/puddle.h"), "upward include");
   EXPECT_EQ(broken_rule("puddle", "windshield/host.h"), "rooms of one floor keep apart");
   EXPECT_EQ(broken_rule("scene", "image_io/read.h"), "rooms of one floor keep apart");
+  EXPECT_EQ(broken_rule("rainy_glass", "night_street/night_street.h"), "upward include") << "the street is an input";
   EXPECT_EQ(broken_rule("attic", "base/hash.h"), "room without a floor");
   EXPECT_EQ(broken_rule("puddle", "image/texture.h"), "");
   EXPECT_EQ(broken_rule("cli", "vector"), "");

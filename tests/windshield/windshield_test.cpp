@@ -135,7 +135,7 @@ TEST(Show, RefusesWhatItCannotShow) {
   EXPECT_THAT(usage_error([&] { street.show(small_surroundings()); }),
               HasSubstr("scene.image: expected pictures from the start, found a street"));
   EXPECT_THAT(usage_error([&] {
-                Windshield(SceneText{"", {}}, {}, executor);
+                Windshield(SceneText{"", {"windshield.height_size=[32, 18]"}}, {}, executor);
               }),
               HasSubstr("scene.image: expected pictures of what lies before the car or a street, found neither"));
   // Who hands in pictures shows others himself.
