@@ -11,7 +11,6 @@
 #include "night_street/facade.h"
 #include "night_street/light_map.h"
 #include "night_street/sky.h"
-#include "night_street/support.h"
 #include "parallel/rows.h"
 
 namespace rainref::night_street {
