@@ -7,9 +7,8 @@
 #include "edge_splash/parameters.h"
 #include "edge_splash/shapes.h"
 #include "image/flipped.h"
-#include "night_street/memory.h"
-#include "night_street/night_street.h"
 #include "rainref/error.h"
+#include "scene/scenery_memory.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -23,7 +22,7 @@ Inputs pictures(const scene::Config& config, const Settings& s, const ScenePictu
     in.depth_is_distance = true;
     const scene::Camera eye = camera(s);
     if (source == "street") {
-      night_street::Street::View view = night_street::Street({s.seed}).view(eye, s.width, s.height, s.depth.far_plane, executor);
+      scene::Scenery::View view = effect::street_of(files, {s.seed})->view(eye, s.width, s.height, s.depth.far_plane, executor);
       in.colour = std::move(view.colour);
       in.depth = std::move(view.depth);
     } else {
@@ -48,8 +47,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   effect::RunMemory m{fmt::format("run.size {}x{}", s.width, s.height), {}, s.width, s.height, 8 + 4, 8 + 4};
   const std::size_t inputs = image_bytes(m, Format::rgba32f) + image_bytes(m, Format::r32f);
   if (config.text("scene.source") == "street") {
-    m.peak.then(night_street::view_memory(s.width, s.height));
-    m.peak.release(night_street::normal_bytes(s.width, s.height));
+    m.peak.then(scene::view_memory(s.width, s.height));
   } else {
     m.peak.hold(inputs);
   }

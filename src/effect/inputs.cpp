@@ -93,6 +93,11 @@ void add_input(const NamedFile& named, const image_io::Picture& picture, InputFi
   inputs.files.push_back(std::move(file));
 }
 
+std::shared_ptr<const scene::Scenery> street_of(const Inputs& inputs, const scene::SceneryOptions& options) {
+  if (!inputs.street) throw Error(ExitCode::usage, "scene: expected pictures of what is seen, found none, and no street in their place");
+  return inputs.street(options);
+}
+
 void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why) {
   if (config.text(key).empty()) return;
   scene::refuse(

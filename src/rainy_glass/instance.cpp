@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "effect/scene_pictures.h"
-#include "night_street/memory.h"
 #include "parallel/rows.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
@@ -11,6 +10,7 @@
 #include "rainy_glass/host.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/shown.h"
+#include "scene/scenery_memory.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -48,9 +48,10 @@ Surroundings surroundings_of(const scene::Config& config, const Settings& settin
     if (corrected) s.depth = depth_of(seen, s.colour, 0, inputs);
     if (seen.colour.is_sequence() || (seen.depth && seen.depth->is_sequence())) sequences = std::move(seen);
   } else {
-    Settings street = settings;
-    street.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
-    s = make_backdrop(street, backdrop_from(config), executor, panorama);
+    Settings seen = settings;
+    seen.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
+    s = panorama.empty() ? make_backdrop(seen, backdrop_from(config), *effect::street_of(inputs, {settings.seed}), executor)
+                         : make_backdrop(seen, backdrop_from(config), panorama, executor);
   }
   if (settings.use_probe && s.probe.empty()) {
     if (config.text("glass.probe_image").empty())
@@ -77,9 +78,8 @@ effect::RunMemory memory_of(const scene::Config& config) {
   if (effect::is_named(config, "scene.image") || effect::is_named(config, "scene.panorama")) {
     m.peak.hold(colour + depth);
   } else {
-    m.peak.then(night_street::view_memory(s.width, s.height));
-    if (s.use_probe) m.peak.then(night_street::panorama_memory(1024, 512));
-    m.peak.release(night_street::normal_bytes(s.width, s.height));
+    m.peak.then(scene::view_memory(s.width, s.height));
+    if (s.use_probe) m.peak.then(scene::panorama_memory(1024, 512));
   }
   m.peak.pass(colour);                                    // out of focus
   m.peak.pass(colour + image_bytes(m, Format::rgba16f));  // the glass, for its bars

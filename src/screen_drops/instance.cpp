@@ -6,9 +6,8 @@
 
 #include "effect/scene_pictures.h"
 #include "image/flipped.h"
-#include "night_street/memory.h"
-#include "night_street/night_street.h"
 #include "scene/panorama_view.h"
+#include "scene/scenery_memory.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/info.h"
@@ -29,8 +28,8 @@ Inputs pictures(const scene::Config& config, const Settings& settings, std::opti
   if (!panorama.empty()) {
     in.colour = scene::panorama_view(panorama, scene_camera(settings), settings.width, settings.height, executor);
   } else if (config.text("scene.image").empty()) {
-    in.colour =
-        night_street::Street({settings.seed}).view(scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
+    const auto street = effect::street_of(files, {settings.seed});
+    in.colour = street->view(scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
   } else {
     const effect::PictureSource source(config, "scene.image", files);
     in.colour = effect::linear_of(source.read(source.shown_in(0), files));
@@ -47,8 +46,8 @@ effect::RunMemory memory_of(const scene::Config& config) {
   if (effect::is_named(config, "scene.image") || effect::is_named(config, "scene.panorama")) {
     m.peak.hold(image_bytes(m, Format::rgba32f));
   } else {
-    m.peak.then(night_street::view_memory(s.width, s.height));
-    m.peak.release(night_street::normal_bytes(s.width, s.height) + image_bytes(m, Format::r32f));
+    m.peak.then(scene::view_memory(s.width, s.height));
+    m.peak.release(image_bytes(m, Format::r32f));
   }
   const std::optional<FlowSettings> flow = flow_from(config, s);
   m.peak.then(memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));

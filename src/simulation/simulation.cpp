@@ -10,6 +10,7 @@
 #include "base/floating_point.h"
 #include "base/read_file.h"
 #include "cache/kept_images.h"
+#include "night_street/night_street.h"
 #include "rainref/error.h"
 #include "scene/json.h"
 #include "scene/toml.h"
@@ -77,6 +78,11 @@ SceneText read_scene(const std::filesystem::path& file, std::vector<std::string>
     throw Error(e.code(), e.what() + simulation::did_you_mean_scene(file));
   }
   return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), found.string()};
+}
+
+std::shared_ptr<const scene::Scenery> street_at_night(std::uint64_t seed, bool clear_lane) {
+  const FloatingPointGuard guard;
+  return night_street::Street::make({seed, clear_lane});
 }
 
 Simulation::Simulation(const SceneText& scene, const parallel::Executor& executor) {

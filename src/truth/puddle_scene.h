@@ -5,6 +5,7 @@
 
 #include "compositor/picture.h"
 #include "rainref/puddle.h"
+#include "scene/scenery.h"
 #include "truth/difference.h"
 #include "truth/tracer_names.h"
 
@@ -21,8 +22,8 @@ class PuddleScene {
  public:
   struct Options {
     TracerOptions tracer;
-    bool is_street = false;  ///< the surroundings are the street itself, ray by ray, in place of a picture of it
-    int samples = 1;         ///< rays of a pixel, for the mip level of the ground
+    std::shared_ptr<const scene::Scenery> street = nullptr;  ///< the surroundings, ray by ray, in place of a picture of them
+    int samples = 1;                                         ///< rays of a pixel, for the mip level of the ground
   };
   /// Throws Error(usage) for as-published settings, which have no water in metres.
   PuddleScene(const puddle::Settings& settings, const puddle::Surroundings& surroundings, const Options& options,

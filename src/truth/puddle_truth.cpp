@@ -128,21 +128,22 @@ Comparison compare(const puddle::Puddle& puddle, const puddle::Settings& setting
 
 namespace {
 
-bool is_street(const scene::Config& config) {
-  if (config.text("compositor.surroundings") != "street") return false;
+/// Null where rays see the passes' picture.
+std::shared_ptr<const scene::Scenery> street(const scene::Config& config, const effect::Inputs& inputs) {
+  if (config.text("compositor.surroundings") != "street") return nullptr;
   if (!config.text("environment.image").empty()) {
     throw Error(ExitCode::usage,
                 "compositor.surroundings: expected \"picture\", for environment.image names one; \"street\" is the street made here");
   }
-  return true;
+  return effect::street_of(inputs, {});
 }
 
 class PuddleTracing : public Tracing {
  public:
-  PuddleTracing(const scene::Config& config, const puddle::Instance& puddle, const parallel::Executor& on)
+  PuddleTracing(const scene::Config& config, const puddle::Instance& puddle, const effect::Inputs& inputs, const parallel::Executor& on)
       : Tracing(choice_from(config), on),
         puddle_(puddle),
-        scene_(puddle.settings(), puddle.surroundings(), {choice().tracer, is_street(config), choice().picture.samples}, on) {}
+        scene_(puddle.settings(), puddle.surroundings(), {choice().tracer, street(config, inputs), choice().picture.samples}, on) {}
 
   Comparison compare() override {
     scene_.update(puddle_.running(), executor());
@@ -164,22 +165,22 @@ class PuddleTracing : public Tracing {
 }  // namespace
 
 EffectTracing puddle_tracing() {
-  return {
-      "puddle",
-      [] {
-        std::vector<scene::Parameter> all = parameters();
-        all.push_back(scene::choice("compositor.surroundings", {"picture", "street"}, "picture",
-                                    "What a traced ray sees beyond the puddle: the passes' picture of the surroundings, or the street "
-                                    "made here, ray by ray.")
-                          .only("corrected"));
-        return all;
-      },
-      [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
-        const auto& puddle = static_cast<const puddle::Instance&>(instance);
-        if (puddle.settings().variant != Variant::corrected) return nullptr;
-        return std::make_unique<PuddleTracing>(config, puddle, executor);
-      },
-      hold_traced};
+  return {"puddle",
+          [] {
+            std::vector<scene::Parameter> all = parameters();
+            all.push_back(scene::choice("compositor.surroundings", {"picture", "street"}, "picture",
+                                        "What a traced ray sees beyond the puddle: the passes' picture of the surroundings, or the street "
+                                        "made here, ray by ray.")
+                              .only("corrected"));
+            return all;
+          },
+          [](const scene::Config& config, const effect::Instance& instance, const effect::Inputs& inputs,
+             const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
+            const auto& puddle = static_cast<const puddle::Instance&>(instance);
+            if (puddle.settings().variant != Variant::corrected) return nullptr;
+            return std::make_unique<PuddleTracing>(config, puddle, inputs, executor);
+          },
+          hold_traced};
 }
 
 }  // namespace rainref::truth

@@ -69,14 +69,14 @@ class ScreenDropsTracing : public PaneTracing<ScreenDropsView, screen_drops::Ins
 }  // namespace
 
 EffectTracing screen_drops_tracing() {
-  return {
-      "screen_drops", pane_parameters,
-      [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
-        const auto& drops = static_cast<const screen_drops::Instance&>(instance);
-        if (drops.settings().variant != Variant::corrected) return nullptr;
-        return std::make_unique<ScreenDropsTracing>(config, drops, executor);
-      },
-      hold_traced};
+  return {"screen_drops", pane_parameters,
+          [](const scene::Config& config, const effect::Instance& instance, const effect::Inputs&,
+             const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
+            const auto& drops = static_cast<const screen_drops::Instance&>(instance);
+            if (drops.settings().variant != Variant::corrected) return nullptr;
+            return std::make_unique<ScreenDropsTracing>(config, drops, executor);
+          },
+          hold_traced};
 }
 
 namespace {

@@ -65,8 +65,10 @@ struct EffectTracing {
   const char* effect;
   /// What its scenes may say of it.
   std::vector<scene::Parameter> (*parameters)();
-  /// Null where this scene has no truth. Throws Error(usage) where it wants a traced picture that cannot be. All arguments must outlive it.
-  std::unique_ptr<Tracing> (*make)(const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor);
+  /// Null where this scene has no truth. Throws Error(usage) where it wants a traced picture that cannot be. Instance and executor must
+  /// outlive it. inputs: those that the instance was opened with.
+  std::unique_ptr<Tracing> (*make)(const scene::Config& config, const effect::Instance& instance, const effect::Inputs& inputs,
+                                   const parallel::Executor& executor);
   /// Adds what traced pictures take, where the scene wants them.
   void (*hold)(effect::RunMemory& memory, const scene::Config& config);
 };

@@ -8,8 +8,8 @@
 
 #include "compositor/pane_scene.h"
 #include "compositor/picture.h"
-#include "night_street/night_street.h"
 #include "rainref/windshield.h"
+#include "scene/scenery.h"
 #include "truth/difference.h"
 #include "truth/picture_relief.h"
 #include "truth/tracer_names.h"
@@ -24,9 +24,9 @@ struct WindshieldGlass {
 
 class WindshieldView {
  public:
-  /// Throws Error(usage) for a pane that cannot be.
+  /// street: null where `show` hands over pictures. Throws Error(usage) for a pane that cannot be.
   WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
-                 const parallel::Executor& executor);
+                 std::shared_ptr<const scene::Scenery> street, const parallel::Executor& executor);
 
   /// Pictures in the street's place from now on, as the windshield has them: scene_colour() and scene_depth().
   void show(const Image& colour, const Image& depth);
@@ -46,7 +46,7 @@ class WindshieldView {
   const std::vector<Pane>& panes() const { return panes_; }
   /// What lies outside in the direction of a ray, without fog: of the pictures, or of the street for a car `distance` metres on.
   /// direction: unit. An infinite distance is the sky's.
-  night_street::Street::Sight look(double distance, const Vec& origin, const Vec& direction) const;
+  scene::Scenery::Sight look(double distance, const Vec& origin, const Vec& direction) const;
   scene::Camera camera() const { return windshield::camera(settings_.picture); }
   const windshield::Settings& settings() const { return settings_; }
   int width() const { return settings_.picture.width; }
@@ -72,7 +72,7 @@ class WindshieldView {
   const parallel::Executor& executor_;
   std::vector<Pane> panes_;
   windshield::Vehicle vehicle_;
-  night_street::Street street_;
+  std::shared_ptr<const scene::Scenery> street_;
   std::optional<PictureRelief> pictures_;
 };
 

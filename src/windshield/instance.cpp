@@ -34,6 +34,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
 std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   ScenePictures named(config, inputs);
   Surroundings first = named.read(0, inputs);
+  if (!named.are_named()) first.street = street_of(settings_from(config), inputs);
   auto instance = std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
   const double fog = instance->settings().blur.fog_density;
   if (effect::is_named(config, "scene.image") && !effect::is_named(config, "scene.depth_image") && fog * street_far > 1)
@@ -43,6 +44,10 @@ std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const 
 }
 
 }  // namespace
+
+std::shared_ptr<const scene::Scenery> street_of(const Settings& settings, const effect::Inputs& inputs) {
+  return effect::street_of(inputs, {settings.seed, settings.clear_lane});
+}
 
 Instance::Instance(const scene::Config& config, Surroundings surroundings, ScenePictures named, const parallel::Executor& executor)
     : InstanceOf(config, std::move(surroundings), executor),

@@ -11,10 +11,12 @@ namespace rainref::windshield {
 
 /// What the registry holds.
 effect::Effect entry();
+/// The street that such a scene drives along where it names no pictures.
+std::shared_ptr<const scene::Scenery> street_of(const Settings& settings, const effect::Inputs& inputs);
 
 class Instance final : public effect::InstanceOf<Windshield> {
  public:
-  /// `surroundings`: the pictures of frame 0, or none: the street made here.
+  /// `surroundings`: the pictures of frame 0, or a street.
   Instance(const scene::Config& config, Surroundings surroundings, ScenePictures named, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
   bool has_street() const { return !named_.are_named(); }

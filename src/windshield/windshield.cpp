@@ -163,7 +163,7 @@ Windshield::Windshield(Windshield&&) noexcept = default;
 void Windshield::show(Surroundings scene) {
   const FloatingPointGuard guard;
   State& s = *state_;
-  if (s.own_scene) throw Error(ExitCode::usage, "scene.image: expected pictures from the start, found the street made here");
+  if (s.own_scene) throw Error(ExitCode::usage, "scene.image: expected pictures from the start, found a street");
   if (scene.colour.width() != s.looked_at().colour.width() || scene.colour.height() != s.looked_at().colour.height())
     throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} texels as before, found {}x{}", s.looked_at().colour.width(),
                                              s.looked_at().colour.height(), scene.colour.width(), scene.colour.height()));

@@ -4,6 +4,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +19,9 @@
 #include "capture/array.h"
 #include "capture/npy_write.h"
 #include "capture/capture_recorder.h"
-#include "night_street/night_street.h"
+#include "puddle/golden_scenes.h"
+#include "rainy_glass/golden_scenes.h"
+#include "screen_drops/golden_scenes.h"
 #include "rainref.h"
 #include "rainref/executor.h"
 #include "shipped_packs.h"
@@ -50,13 +53,24 @@ std::set<std::string> matches(const std::string& text, const char* pattern) {
   return found;
 }
 
+template <class Scenes>
+auto settings_of(const Scenes& scenes, const std::string& name) {
+  return std::find_if(scenes.begin(), scenes.end(), [&](const auto& s) { return s.name == name; })->settings;
+}
+
 /// The scenes beside this file with the pictures that their golden twins are handed as images.
 class CLibrary : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     const parallel::Executor executor(2);
-    write("panorama.npy", night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor));
+    write("panorama.npy", puddle::golden_surroundings(executor).environment);
+    write("window.npy",
+          screen_drops::golden_inputs(settings_of(screen_drops::golden_scenes(), "screen_drops/corrected/still"), executor).colour);
+    const auto garden =
+        rainy_glass::golden_surroundings(settings_of(rainy_glass::golden_scenes(), "rainy_glass/corrected/rgba16f"), executor);
+    write("garden.npy", garden.colour);
+    write("garden_depth.npy", garden.depth);
     const windshield::Surroundings before = windshield::small_surroundings();
     write("before.npy", before.colour);
     write("depth.npy", before.depth);

@@ -12,6 +12,7 @@
 #include "rainref/screen_drops.h"
 #include "rainref/windshield.h"
 #include "rainy_glass/parameters.h"
+#include "scene/test_card.h"
 #include "scene/toml.h"
 #include "screen_drops/parameters.h"
 
@@ -82,7 +83,8 @@ TEST_F(Defaults, ScreenDrops) {
   EXPECT_GT(flowing.height().width(), 1);
 }
 TEST_F(Defaults, Windshield) {
-  windshield::Windshield windshield(SceneText{"", {"run.size=[160, 90]", "scene.size=[160, 90]"}}, {}, executor);
+  windshield::Windshield windshield(SceneText{"", {"run.size=[160, 90]", "scene.size=[160, 90]"}}, {{}, {}, scene::TestCard::make()},
+                                    executor);
   windshield.next_frame();
   expect_lit(windshield.picture());
   EXPECT_EQ(windshield.mass_balance().residual(), 0);

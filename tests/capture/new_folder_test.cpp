@@ -9,7 +9,6 @@
 namespace rainref::capture {
 namespace {
 
-using scene::error_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
 

@@ -10,12 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error_of.h"
 #include "rainref/executor.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 #include "puddle/parameters.h"
 #include "puddle/scalar.h"
-#include "rainref/error.h"
 #include "rainref/puddle.h"
 #include "scene/toml.h"
 
@@ -42,16 +42,6 @@ inline const scene::EffectTable& effect_table() {
 inline scene::Config config_of(const std::string& variant, const std::vector<std::string>& overrides = {}) {
   return scene::parse("effect = \"puddle\"\nvariant = \"" + variant + "\"\n", "test.toml", overrides, effect_table());
 }
-/// The error that `body` throws, its exit code first; "none" when it throws nothing.
-inline std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return std::to_string(static_cast<int>(e.code())) + " " + e.what();
-  }
-  return "none";
-}
-
 /// As published, float storage, clear air, no vignette, image ground.
 inline Settings as_published(int width, int height) {
   static const Settings defaults = settings_from(config_of("as-published"));

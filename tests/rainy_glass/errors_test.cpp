@@ -5,6 +5,7 @@
 #include "rainy_glass/info.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/support.h"
+#include "scene/test_card.h"
 #include "scene/toml.h"
 
 namespace rainref::rainy_glass {
@@ -166,7 +167,7 @@ TEST(RainyGlassMaps, ProbeStandsInForTheScene) {
 // The built-in scene: bars stand before the glass, the street behind it.
 TEST(RainyGlassBackdrop, HasBarsBeforeAndAStreetBehind) {
   Settings s = settings(Variant::corrected, 96, 54);
-  const Surroundings around = make_backdrop(s, {0.02, 0.2, 0.02}, test::executor());
+  const Surroundings around = make_backdrop(s, {0.02, 0.2, 0.02}, scene::TestCard(), test::executor());
   int before = 0, behind = 0;
   for (int y = 0; y < s.height; ++y) {
     for (int x = 0; x < s.width; ++x) {

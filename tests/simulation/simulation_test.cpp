@@ -12,6 +12,7 @@
 
 #include "capture/hashing.h"
 #include "rainref/error.h"
+#include "rainref/windshield.h"
 #include "registry/registry.h"
 #include "simulation/small_scenes.h"
 #include "source_folder.h"
@@ -151,6 +152,21 @@ TEST(Simulation, ReadsSceneFilesAndWritesPictures) {
     again.write_png(folder / "again.png");
     EXPECT_TRUE(contents(folder / "again.png") == contents(folder / "a.png")) << name;
   }
+}
+
+TEST(StreetAtNight, IsTheOneThatSimulationsDriveAlong) {
+  const parallel::Executor executor(2);
+  const SceneText scene = small("windshield", "corrected", {"seed=3", "vehicle.speed=10"});
+  Simulation simulation(scene, executor);
+  windshield::Windshield alone(scene, {{}, {}, street_at_night(3)}, executor), elsewhere(scene, {{}, {}, street_at_night(4)}, executor);
+  for (int frame = 0; frame < 2; ++frame) {
+    simulation.next_frame();
+    alone.next_frame();
+    elsewhere.next_frame();
+  }
+  const auto hash = [](const Image& picture) { return capture::hash_of(picture).text(); };
+  EXPECT_EQ(hash(alone.picture()), hash(simulation.picture()));
+  EXPECT_NE(hash(elsewhere.picture()), hash(simulation.picture()));
 }
 
 }  // namespace

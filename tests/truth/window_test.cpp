@@ -8,6 +8,7 @@
 #include "truth/screen_drops_view.h"
 #include "compositor/shading_support.h"
 #include "compositor/straight_path.h"
+#include "night_street/night_street.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
@@ -117,7 +118,8 @@ TEST(TracedWindow, RefusesWhatItCannotTrace) {
 // ---- rainy_glass ----------------------------------------------------------------------------------------------------
 struct Conservatory {
   rainy_glass::Settings s = rainref::test::rainy_glass_settings();
-  rainy_glass::Surroundings around, unbarred;
+  std::shared_ptr<const scene::Scenery> street = night_street::Street::make({s.seed});
+  rainy_glass::Surroundings around;
   std::optional<rainy_glass::RainyGlass> glass;
   Conservatory() {
     s.width = 96;
@@ -132,12 +134,13 @@ struct Conservatory {
     s.camera_target = {0.6, 1.9, -20};
   }
   void render(double bars = 0) {
-    around = rainy_glass::make_backdrop(s, {0.01, bars, 0.03}, executor());
-    unbarred = rainy_glass::make_backdrop(s, {0.01, 0, 0.03}, executor());
+    around = rainy_glass::make_backdrop(s, {0.01, bars, 0.03}, *street, executor());
     glass.emplace(s, around, executor());
     for (int frame = 0; frame < 20; ++frame) glass->next_frame();
   }
-  RainyGlassView view(double thickness) const { return {s, around, &unbarred, thickness, {}}; }
+  RainyGlassView view(double thickness) const {
+    return {s, around, RainyGlassView::Street{street, rainy_glass::make_backdrop(s, {0.01, 0, 0.03}, *street, executor())}, thickness, {}};
+  }
 };
 
 TEST(TracedGlass, DryPaneShowsTheScene) {

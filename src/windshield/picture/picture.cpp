@@ -8,7 +8,7 @@
 
 #include "math/half.h"
 #include "math/real64.h"
-#include "night_street/vec.h"
+#include "math/smooth_step.h"
 #include "rainref/error.h"
 #include "windshield/motion/glass.h"
 
@@ -168,7 +168,7 @@ class Inside {
     if (dashboard_.is_there) {
       // The hood goes over into the level edge with slope 0 at both ends.
       const double across = std::abs(x - hood_at_) / hood_half;
-      const double raised = settings_.binnacle * (1 - night_street::smooth_step(0, 1, (across - hood_flat) / (1 - hood_flat)));
+      const double raised = settings_.binnacle * (1 - smooth_step((across - hood_flat) / (1 - hood_flat)));
       const double into = dashboard_.into(x, y - raised);
       hidden = covered(into, dashboard_.depth, texel);
       const double surface = 0.08 + 0.6 * fading(std::max(into, 0.0) / rim_fades);

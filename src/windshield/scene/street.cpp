@@ -10,6 +10,8 @@ namespace rainref::windshield {
 namespace {
 
 using scene::Vector3;
+using View = scene::Scenery::View;
+using Parts = scene::Scenery::Parts;
 
 constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
 
@@ -24,9 +26,9 @@ Vector3 place_in_street(double start, double distance) {
   return {lane, 0, start_z - (way - length * std::floor(way / length) + (distance - taken))};
 }
 
-std::vector<RainLamp> lamps_from(const night_street::Street& street, const Vector3& place) {
+std::vector<RainLamp> lamps_from(const scene::Scenery& street, const Vector3& place) {
   std::vector<RainLamp> lamps;
-  for (const night_street::Lamp& lamp : street.lamps()) {
+  for (const scene::Lamp& lamp : street.lamps()) {
     const Vector3 from = lamp.position - place;
     lamps.push_back({{-from.z, -from.x, from.y}, lamp.radius, {lamp.radiance[0], lamp.radiance[1], lamp.radiance[2]}});
   }
@@ -39,19 +41,20 @@ struct StreetDrive::State {
   double first;
   bool at_rest;
   int keyframes_in_spacing;
-  night_street::Street street;
+  std::shared_ptr<const scene::Scenery> street;
   const parallel::Executor& executor;
   std::map<int, Keyframe> keyframes;  ///< by number
   bool stands = false;                // the view of look() is rendered and stays
 
-  State(const scene::Camera& c, int w, int h, const StreetOptions& o, const parallel::Executor& e)
+  State(std::shared_ptr<const scene::Scenery> seen, const scene::Camera& c, int w, int h, const StreetOptions& o,
+        const parallel::Executor& e)
       : camera(c),
         width(w),
         height(h),
         first(o.start),
         at_rest(o.at_rest),
         keyframes_in_spacing(o.keyframes),
-        street({o.seed, o.clear_lane}),
+        street(std::move(seen)),
         executor(e) {}
 
   double apart() const { return spacing / keyframes_in_spacing; }
@@ -63,35 +66,35 @@ struct StreetDrive::State {
     return whole * keyframes_in_spacing + std::min(static_cast<int>((distance - whole * spacing) / apart()), keyframes_in_spacing - 1);
   }
   Vector3 place(int k) const { return place_in_street(first, way(k)); }
-  night_street::Street::View render(int k, night_street::Parts parts) const {
+  View render(int k, Parts parts) const {
     const Vector3 start = place(k);
     scene::Camera c = camera;
     c.position = start + in_street(camera.position);
     c.target = start + in_street(camera.target);
     c.up = in_street(camera.up);
-    return street.view(c, width, height, street_far, executor, parts);
+    return street->view(c, width, height, street_far, executor, parts);
   }
   const Keyframe& keyframe(int k) {
     const auto found = keyframes.find(k);
     if (found != keyframes.end()) return found->second;
     // A car at rest may look at its first view for long; those of one that moves pass, two blended.
-    night_street::Street::View v = render(k, at_rest && k == 0 ? night_street::Parts::nine : night_street::Parts::three);
+    View v = render(k, at_rest && k == 0 ? Parts::nine : Parts::three);
     return keyframes.emplace(k, Keyframe{as_half(v.colour, parallel::rows_of(executor)), std::move(v.depth)}).first->second;
   }
 };
 
-StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, const StreetOptions& options,
-                         const parallel::Executor& executor)
-    : state_(std::make_unique<State>(camera, width, height, options, executor)) {}
+StreetDrive::StreetDrive(std::shared_ptr<const scene::Scenery> street, const scene::Camera& camera, int width, int height,
+                         const StreetOptions& options, const parallel::Executor& executor)
+    : state_(std::make_unique<State>(std::move(street), camera, width, height, options, executor)) {}
 StreetDrive::~StreetDrive() = default;
 StreetDrive::StreetDrive(StreetDrive&&) noexcept = default;
-const night_street::Street& StreetDrive::street() const { return state_->street; }
+const scene::Scenery& StreetDrive::street() const { return *state_->street; }
 
 bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   State& s = *state_;
   if (!moves) {
     if (s.stands) return false;
-    night_street::Street::View v = s.render(0, night_street::Parts::nine);
+    View v = s.render(0, Parts::nine);
     view.colour = as_half(v.colour, parallel::rows_of(s.executor));
     view.depth = std::move(v.depth);
     s.stands = true;

@@ -1,15 +1,13 @@
-// What lies before the car: the street at night, as a camera that drives along it sees it. An input of the effect, not one
-// of its passes.
+// What lies before the car: a street, as a camera that drives along it sees it. An input of the effect, not one of its passes.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
 #include "image/stored_texture.h"
-#include "night_street/night_street.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
-#include "scene/camera.h"
+#include "scene/scenery.h"
 #include "windshield/picture/falling_rain.h"
 
 namespace rainref::windshield {
@@ -27,14 +25,12 @@ scene::Vector3 in_street(const scene::Vector3& car);
 scene::Vector3 place_in_street(double start, double distance);
 
 /// The street's lamps in the axes of a car that is at this place of it.
-std::vector<RainLamp> lamps_from(const night_street::Street& street, const scene::Vector3& place);
+std::vector<RainLamp> lamps_from(const scene::Scenery& street, const scene::Vector3& place);
 
 struct StreetOptions {
-  double start = 0;  ///< where on the street the car begins [m]
-  std::uint64_t seed = 1;
-  bool clear_lane = false;  ///< no car stands in its way
-  int keyframes = 1;        ///< pictures in `spacing` metres of way
-  bool at_rest = false;     ///< it begins standing, so that its first view is worth more rays
+  double start = 0;      ///< where on the street the car begins [m]
+  int keyframes = 1;     ///< pictures in `spacing` metres of way
+  bool at_rest = false;  ///< it begins standing, so that its first view is worth more rays
 };
 
 /// Views of the street for a car that goes along it, straight on; after street_length metres it starts again. The street is
@@ -46,14 +42,15 @@ class StreetDrive {
 
   /// camera: car axes (x forward, y left, z up, origin on the road under the driver's seat), with the field of view of the
   /// views, which have width x height texels. The executor must outlive this.
-  StreetDrive(const scene::Camera& camera, int width, int height, const StreetOptions& options, const parallel::Executor& executor);
+  StreetDrive(std::shared_ptr<const scene::Scenery> street, const scene::Camera& camera, int width, int height,
+              const StreetOptions& options, const parallel::Executor& executor);
   ~StreetDrive();
   StreetDrive(StreetDrive&&) noexcept;
 
   /// What is seen after `distance` metres, which never get fewer; whether the view changed. `moves` is the same in every
   /// call; where it is false, the first view stays.
   bool look(double distance, bool moves, SceneView& view);
-  const night_street::Street& street() const;
+  const scene::Scenery& street() const;
 
  private:
   struct State;

@@ -7,7 +7,7 @@
 #include "math/constants.h"
 #include "math/half.h"
 #include "math/real64.h"
-#include "night_street/vec.h"
+#include "math/smooth_step.h"
 #include "random/counter.h"
 
 namespace rainref::windshield {
@@ -98,8 +98,6 @@ constexpr double end_share = 0.08;               // of the blade's length, from 
 constexpr double least_streaks = 5, more = 40;   // of a new blade, and of a ragged one besides
 constexpr double narrowest = 0.8, widest = 2.4;  // half their width [columns]
 
-double smooth(double x) { return night_street::smooth_step(0, 1, x); }
-
 }  // namespace
 
 SmearUniforms smear_uniforms(const SmearSettings& s, const SurfaceSettings& surface) {
@@ -154,7 +152,7 @@ Image smear_profile(const SmearSettings& s, std::uint64_t seed) {
   std::vector<double> film(columns);
   for (int k = 0; k < columns; ++k) {
     const double grain = 0.5 + random::uniform(word(0, k)[0]), end = std::min(k + 0.5, columns - k - 0.5) / columns;
-    film[static_cast<std::size_t>(k)] = (0.12 + 0.16 * s.wear) * grain + (0.2 + 0.4 * s.wear) * (1 - smooth(end / end_share)) * grain;
+    film[static_cast<std::size_t>(k)] = (0.12 + 0.16 * s.wear) * grain + (0.2 + 0.4 * s.wear) * (1 - smooth_step(end / end_share)) * grain;
   }
   const int streaks = static_cast<int>(least_streaks + more * s.wear);
   for (int i = 0; i < streaks; ++i) {
@@ -163,7 +161,7 @@ Image smear_profile(const SmearSettings& s, std::uint64_t seed) {
     const double high = 0.3 + 0.7 * random::uniform(r[2]);
     for (int k = 0; k < columns; ++k) {
       double& here = film[static_cast<std::size_t>(k)];
-      here = std::max(here, high * (1 - smooth(std::abs(k + 0.5 - at) / (2 * half))));
+      here = std::max(here, high * (1 - smooth_step(std::abs(k + 0.5 - at) / (2 * half))));
     }
   }
   Image profile(Format::r16f, columns, 1);
