@@ -1,3 +1,4 @@
+// A file appears whole under its name or not at all, whatever fails while it is written.
 #include "base/atomic_file.h"
 
 #include <signal.h>

@@ -1,3 +1,4 @@
+// Errors say their place first, keep their exit codes, and suggest the nearest name.
 #include "rainref/error.h"
 
 #include <gmock/gmock.h>

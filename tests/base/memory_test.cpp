@@ -1,3 +1,4 @@
+// The memory that a run may take is the least of the machine's, the control groups' and the process's own limits.
 #include "base/memory.h"
 
 #include <sys/resource.h>

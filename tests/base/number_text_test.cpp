@@ -1,3 +1,4 @@
+// Text becomes the nearest number, or nothing, whatever the locale and the caller's rounding.
 #include "base/number_text.h"
 
 #include <gtest/gtest.h>

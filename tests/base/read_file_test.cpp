@@ -1,3 +1,4 @@
+// A file is read whole or refused, before its memory is asked for.
 #include "base/read_file.h"
 
 #include <sys/stat.h>

@@ -1,3 +1,4 @@
+// A folder appears with its name when it is complete, and replaces only what it may.
 #include "capture/new_folder.h"
 
 #include <gmock/gmock.h>

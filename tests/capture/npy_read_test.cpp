@@ -1,3 +1,4 @@
+// Arrays of NumPy are read in every version and packing; what is damaged, cut or of another type is refused.
 #include "capture/npy_read.h"
 
 #include <cstring>

@@ -1,3 +1,4 @@
+// A tabulated display gives the codes of the pass.
 #include "image/code_table.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Images have the formats, sizes, margins and alignment that are declared, and views copy without padding.
 #include "rainref/image.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Textures decode every format exactly, and mip levels are exact box means at every size.
 #include "image/texture.h"
 
 #include <gmock/gmock.h>

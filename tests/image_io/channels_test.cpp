@@ -1,3 +1,4 @@
+// Channels are chosen by their names; what two names claim is refused.
 #include "image_io/channels.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// A picture that is missing, cut or damaged is an error with its reason, and never a crash.
 #include <sys/stat.h>
 
 #include <gmock/gmock.h>

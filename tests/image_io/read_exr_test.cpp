@@ -1,3 +1,4 @@
+// EXR files keep the bits of their halves and floats, and layers are read by name.
 #include <bit>
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// HDR and JPEG files are decoded as their formats say; JPEG is marked lossy.
 #include <gmock/gmock.h>
 
 #include "image_io/read.h"

@@ -1,3 +1,4 @@
+// Written pictures keep their bits, are the same bytes each time, and leave an old file whole where writing fails.
 #include "image_io/write.h"
 
 #include <signal.h>

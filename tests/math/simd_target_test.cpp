@@ -1,3 +1,4 @@
+// SIMD targets can be listed and selected, and a refusal keeps the selection.
 #include "math/simd_target.h"
 
 #include <gmock/gmock.h>

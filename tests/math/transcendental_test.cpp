@@ -1,3 +1,4 @@
+// The transcendental functions are correctly rounded but for known exceptions, against MPFR, on every target.
 #include "math/transcendental.h"
 
 #include <gtest/gtest.h>

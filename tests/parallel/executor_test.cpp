@@ -1,3 +1,4 @@
+// The executor does each piece once, for any number of threads, in the pinned floating-point state.
 #include "rainref/executor.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// A team does each piece of a loop once before the next loop begins, whichever thread is late or throws.
 #include "parallel/team.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// A port's file is found by its name in one of the accepted kinds, or the refusal says why.
 #include "port_dump/dump_file.h"
 
 #include "port_dump/support.h"

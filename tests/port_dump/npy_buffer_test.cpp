@@ -1,3 +1,4 @@
+// A port's .npy is taken where its type and shape are the buffer's, with its bits kept.
 #include <bit>
 #include <limits>
 

@@ -1,3 +1,4 @@
+// EXR and PNG files of ports keep their codes; what would convert or claim too much is refused.
 #include <bit>
 #include <limits>
 

@@ -1,3 +1,4 @@
+// port.json is read key by key; what is not understood is refused.
 #include "port_dump/port_info.h"
 
 #include "port_dump/support.h"

@@ -1,3 +1,4 @@
+// Drop sizes and speeds are those of Marshall and Palmer and of Gunn and Kinzer's table.
 #include "rain/rain.h"
 
 #include <gtest/gtest.h>

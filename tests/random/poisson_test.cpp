@@ -1,3 +1,4 @@
+// Counts are drawn with the probabilities of Poisson's law.
 #include "random/poisson.h"
 
 #include <gtest/gtest.h>

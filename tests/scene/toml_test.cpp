@@ -1,3 +1,4 @@
+// A scene file is read with every key checked; a refusal names place, key and what was meant.
 #include "scene/toml.h"
 
 #include <cmath>

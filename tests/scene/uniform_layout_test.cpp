@@ -1,3 +1,4 @@
+// Layouts are printed in each language, and compiled they have the offsets of the block.
 #include "scene/uniform_layout.h"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// Axes of a sweep run from end to end, and their keys may be quoted.
 #include "sweep/axes.h"
 
 #include <cmath>
