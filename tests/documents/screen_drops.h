@@ -15,11 +15,7 @@ inline bool background_corrected(const Run& r, int x, int y, float* out) {
   for (int k = 0; k < r.whole("tap_count"); ++k)
     sum = sum + r.trilinear3("scene", at.x + r.of("taps", k, "x"), at.y + r.unless("taps in a row", r.of("taps", k, "y"), 0.0f), level);
   sum = r.unless("taps not averaged", r.u("weight"), 1.0f) * sum;
-  out[0] = sum.x;
-  out[1] = sum.y;
-  out[2] = sum.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, sum);
 }
 
 inline bool cells(const Run& r, int i, int j, float* out) {

@@ -8,6 +8,18 @@
 
 namespace rainref::documents {
 
+/// A pixel's centre, and where its ray meets a pane.
+struct PlaceOnPane {
+  Float3 q;
+  float u, v;
+  bool on;
+};
+inline PlaceOnPane place_on_pane(const Run& r, int x, int y) {
+  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
+  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
+  return {q, u, v, m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1};
+}
+
 struct GlassFrame {
   Float2 gravity, wind, acceleration;
   std::uint32_t id = 0, padding = 0;
@@ -90,23 +102,13 @@ inline bool falling_rain(const Run& r, int x, int y, float* out) {
     colour = mix(colour, Float3{number(i, "radiance"), number(i, "radiance", 1), number(i, "radiance", 2)},
                  number(i, "opacity") * covered * before);
   }
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline bool join_panes(const Run& r, int x, int y, float* out) {
-  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
-  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
-  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const auto [q, u, v, on] = place_on_pane(r, x, y);
   const Float3 colour = on ? constant(r, 1, 1.1f) * r.rgb("pane_colour", x, y) : r.rgb("colour", x, y);
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline bool smear(const Run& r, int x, int y, float* out) {
@@ -136,9 +138,7 @@ inline bool condense(const Run& r, int x, int y, float* out) {
 }
 
 inline bool soften(const Run& r, int x, int y, float* out) {
-  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
-  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
-  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const auto [q, u, v, on] = place_on_pane(r, x, y);
   const Float3 film = r.linear3("smear", saturate(u), saturate(v));
   const float share = on ? r.u("most") * film.z : 0;
   const Float2 G{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
@@ -151,17 +151,11 @@ inline bool soften(const Run& r, int x, int y, float* out) {
     sum = sum + r.of("deflections", i, "weight") * r.trilinear3("blurred", S.x + tangent * turned.x, S.y + tangent * turned.y, r.u("lod"));
   }
   if (share > 0) colour = mix(colour, sum, constant(r, 1, 0.9f) * share);
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline bool mist(const Run& r, int x, int y, float* out) {
-  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
-  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
-  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const auto [q, u, v, on] = place_on_pane(r, x, y);
   const float share = on ? constant(r, 1, 0.9f) * r.linear("condensation", saturate(u), saturate(v)) : 0;
   const Float2 G{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
   const Float2 S{0.5f + G.x * r.u("scene_scale", 0), 0.5f + G.y * r.u("scene_scale", 1)};
@@ -170,11 +164,7 @@ inline bool mist(const Run& r, int x, int y, float* out) {
     sum = sum + r.trilinear3("blurred", S.x + r.of("taps", i, "x"), S.y + r.of("taps", i, "y"), r.u("lod"));
   const Float3 light = mix(r.u("weight") * sum, r.trilinear3("blurred", S.x, S.y, 15), r.u("veil"));
   const Float3 colour = mix(r.rgb("colour", x, y), light, share);
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline bool interior(const Run& r, int x, int y, float* out) {
@@ -222,11 +212,7 @@ inline bool composite_corrected(const Run& r, int x, int y, float* out) {
     colour = colour + power(along, r.u("shininess")) * (r.u("glint_strength") * film) * of("radiance");
   }
   if (!on) colour = r.u3("cabin");
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline std::vector<Written> windshield_picture_passes() {

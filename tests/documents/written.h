@@ -86,6 +86,15 @@ struct Written {
   void (*give)(const Run& run, Given& out) = nullptr;
 };
 
+/// A texel of this colour and an alpha of 1.
+inline bool give_opaque(float* out, Float3 colour) {
+  out[0] = colour.x;
+  out[1] = colour.y;
+  out[2] = colour.z;
+  out[3] = 1;
+  return true;
+}
+
 /// A constant, and the wrong one of the negative control.
 inline float constant(const Run& r, float right, float wrong) { return r.is("wrong constant") ? wrong : right; }
 
