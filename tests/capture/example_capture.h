@@ -127,6 +127,4 @@ inline PackWriter::Total write_example(const std::filesystem::path& folder, bool
   return writer.finish();
 }
 
-using scene::error_of;
-
 }  // namespace rainref::capture

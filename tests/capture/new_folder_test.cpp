@@ -4,13 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
-#include "scene/example_effect.h"
 
 namespace rainref::capture {
 namespace {
 
-using scene::error_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
 

@@ -5,12 +5,11 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
-#include "rainref/error.h"
 #include "rainref/image.h"
 
 namespace rainref::image_io {
@@ -136,17 +135,6 @@ inline std::string jpeg(int columns) {
   out += segment(0xda, std::string("\1\1\0\0\x3f\0", 6));
   out += std::string(columns, '\xaa');  // a block is 10 1 0: one step up
   return out + "\xff\xd9";
-}
-
-/// The error that f throws, if it throws one.
-template <class F>
-std::optional<Error> error_of(F&& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error;
-  }
-  return std::nullopt;
 }
 
 /// The storage bytes of one texel, as numbers of type T.
