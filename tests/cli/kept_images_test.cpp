@@ -28,8 +28,7 @@ class RunKeeps : public testing::Test {
                                          << "'\nvariant = 'corrected'\nseed = 5\n[run]\nframes = 2\nsize = [64, 36]\n";
     std::vector<std::string> all{"run", "scene.toml", "-o", effect};
     all.insert(all.end(), more.begin(), more.end());
-    const Outcome o = run_rainref(folder.path(), all);
-    EXPECT_EQ(o.code, 0) << o.err;
+    expect(run_rainref(folder.path(), all), 0);
     std::ifstream in(folder / effect / (effect + ".0001.png"), std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }

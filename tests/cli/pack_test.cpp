@@ -211,9 +211,8 @@ using RunCapture = PackVerb;
 TEST_F(RunCapture, HoldsTheBuffersOfTheFramesThatAreWritten) {
   Circumstances c;
   c.is_copy = true;
-  Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--frames", "5", "--every", "2", "--capture", "all"}, c);
-  EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_THAT(o.out, EndsWith(", 3 pictures, capture/ and summary.json in o\n"));
+  expect(rainref({"run", "corrected.toml", "-o", "o", "--frames", "5", "--every", "2", "--capture", "all"}, c), 0,
+         EndsWith(", 3 pictures, capture/ and summary.json in o\n"));
   pack({"corrected.toml", "-o", "p", "--at", "0,2,4", "--set", "run.frames=5"});
   // A capture is a pack, but that nobody counts what it exercises.
   std::map<std::string, std::string> packed = files("p");
@@ -223,8 +222,7 @@ TEST_F(RunCapture, HoldsTheBuffersOfTheFramesThatAreWritten) {
   EXPECT_EQ(files("o/capture"), packed);
 
   // The older run is replaced, its capture with it.
-  o = rainref({"run", "corrected.toml", "-o", "o", "--overwrite", "--capture", "passes"}, c);
-  EXPECT_EQ(o.code, 0) << o.err;
+  expect(rainref({"run", "corrected.toml", "-o", "o", "--overwrite", "--capture", "passes"}, c), 0);
   const capture::Pack outputs = read("o/capture");
   EXPECT_FALSE(outputs.with_inputs);
   EXPECT_THAT(hash_lines(outputs), testing::IsSubsetOf(hash({"corrected.toml"})));

@@ -53,13 +53,6 @@ moves = false
     before = folder.names();
   }
 
-  std::vector<std::string> names(const std::string& in) const {
-    std::vector<std::string> out;
-    std::error_code error;
-    for (fs::directory_iterator i(folder / in, error), end; !error && i != end; i.increment(error)) out.push_back(i->path().filename());
-    std::sort(out.begin(), out.end());
-    return out;
-  }
   /// Names and bytes of the pictures, and of the summary what does not tell of times.
   std::map<std::string, std::string> results(const std::string& in) const {
     std::map<std::string, std::string> all;
@@ -230,9 +223,7 @@ TEST_F(Resumed, ANoteOfAnotherShapeIsRefused) {
     std::memcpy(&forged[forged.size() - 16], &hash.low, 8);
     std::memcpy(&forged[forged.size() - 8], &hash.high, 8);
     put(file, forged);
-    const Outcome o = rainref({"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", "1000000"});
-    EXPECT_EQ(o.code, 2) << o.err;
-    EXPECT_THAT(o.err, message);
+    expect(rainref({"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", "1000000"}), 2, testing::_, message);
   };
   const auto with_truth = [&](const std::string& truth) {
     std::string other = note;
@@ -250,9 +241,7 @@ TEST_F(Resumed, ACheckpointThatCannotBeWrittenEndsTheRun) {
   };
   Circumstances full;
   full.file_bytes = 100;
-  const Outcome o = run_with(full);
-  EXPECT_EQ(o.code, 4);
-  EXPECT_THAT(o.err, HasSubstr("checkpoint.state': File too large"));
+  expect(run_with(full), 4, testing::_, HasSubstr("checkpoint.state': File too large"));
   EXPECT_EQ(folder.names(), before);
 }
 

@@ -21,12 +21,6 @@ class RunVerb : public CommandLine {
     EXPECT_EQ(o.err, "");
     return o;
   }
-  std::vector<std::string> names(const std::string& in) const {
-    std::vector<std::string> out;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / in)) out.push_back(entry.path().filename());
-    std::sort(out.begin(), out.end());
-    return out;
-  }
   nlohmann::json summary(const std::string& in) const { return nlohmann::json::parse(contents(folder / (in + "/summary.json"))); }
 };
 

@@ -180,8 +180,7 @@ TEST_F(Sequences, APackHoldsThePicturesOfItsFrames) {
 
 TEST_F(Sequences, TheSummaryNamesThemByTheirBytes) {
   const auto input = [&] {
-    const Outcome o = rainref({"run", "edge_splash-corrected.toml", "-o", "out", "--frames", "1", "--image", "none"});
-    EXPECT_EQ(o.code, 0) << o.err;
+    expect(rainref({"run", "edge_splash-corrected.toml", "-o", "out", "--frames", "1", "--image", "none"}), 0);
     return nlohmann::json::parse(contents(folder / "out/summary.json"))["inputs"];
   };
   const auto inputs = input();

@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <source_location>
 #include <string>
 #include <vector>
 
@@ -126,6 +128,16 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// An outcome has this exit code, and its output and errors match.
+inline void expect(const Outcome& o, int code, const testing::Matcher<const std::string&>& out = testing::_,
+                   const testing::Matcher<const std::string&>& err = testing::_,
+                   const std::source_location& at = std::source_location::current()) {
+  const testing::ScopedTrace trace(at.file_name(), static_cast<int>(at.line()), "");
+  EXPECT_EQ(o.code, code) << o.out << o.err;
+  EXPECT_THAT(o.out, out);
+  EXPECT_THAT(o.err, err);
+}
+
 /// A folder with `corrected.toml` and `published.toml`, tiny and under a tiny sky: the street costs a second. The sky is an array, which
 /// a run reads by itself: OpenImageIO costs each process a sixth of a second. `sky.png` is the same sky.
 class CommandLine : public testing::Test {
@@ -176,6 +188,16 @@ class CommandLine : public testing::Test {
     put(folder / "x.toml", text);
     before = folder.names();
     expect_refusal({"run", "x.toml", "-o", "new/deep"}, 2, message);
+  }
+
+  /// The names in a folder, in order; none where there is no such folder.
+  std::vector<std::string> names(const std::string& in) const {
+    std::vector<std::string> out;
+    std::error_code error;
+    for (std::filesystem::directory_iterator i(folder / in, error), end; !error && i != end; i.increment(error))
+      out.push_back(i->path().filename());
+    std::sort(out.begin(), out.end());
+    return out;
   }
 
   /// Hash lines of a scene; fails the test when they cannot be had.

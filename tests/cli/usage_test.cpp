@@ -17,10 +17,7 @@ using Usage = CommandLine;
 
 TEST_F(Usage, HelpShowsAnExample) {
   for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest"}) {
-    const Outcome o = rainref({verb, "--help"});
-    EXPECT_EQ(o.code, 0);
-    EXPECT_EQ(o.err, "");
-    EXPECT_THAT(o.out, HasSubstr("\nExample: rainref " + verb));
+    expect(rainref({verb, "--help"}), 0, HasSubstr("\nExample: rainref " + verb), "");
   }
   const Outcome all = rainref({"--help"});
   EXPECT_EQ(all.code, 0);
@@ -33,10 +30,7 @@ TEST_F(Usage, HelpShowsAnExample) {
 TEST_F(Usage, HelpIsAVerbToo) {
   EXPECT_EQ(rainref({"help"}).out, rainref({"--help"}).out);
   for (const std::string verb : {"run", "validate"}) {
-    const Outcome o = rainref({"help", verb});
-    EXPECT_EQ(o.code, 0);
-    EXPECT_EQ(o.err, "");
-    EXPECT_EQ(o.out, rainref({verb, "--help"}).out);
+    expect(rainref({"help", verb}), 0, rainref({verb, "--help"}).out, "");
   }
   expect_refusal({"help", "rnu"}, 2, EndsWith("found 'rnu'; did you mean 'run'?"));
   expect_refusal({"help", "run", "hash"}, 2, "help: expected one verb, found 'hash' too");
@@ -58,9 +52,7 @@ TEST_F(Usage, HelpNamesTheProfilesThatJudge) {
 }
 
 TEST_F(Usage, VersionIsOneLine) {
-  const Outcome o = rainref({"--version"});
-  EXPECT_EQ(o.code, 0);
-  EXPECT_THAT(o.out, MatchesRegex("rainref [0-9]+\\.[0-9]+\\.[0-9]+, golden [0-9]+ [0-9a-f]{32}\n"));
+  expect(rainref({"--version"}), 0, MatchesRegex("rainref [0-9]+\\.[0-9]+\\.[0-9]+, golden [0-9]+ [0-9a-f]{32}\n"));
 }
 
 // The golden file's, as anybody can reckon it.

@@ -267,19 +267,4 @@ TEST(Documents, TheChecksRefuse) {
             (std::vector<std::string>{"run", "list"}));
 }
 
-// README.md's program is one that an installation's tests compile and run.
-TEST(Documents, TheReadmesProgramIsCompiled) {
-  const std::string readme = text_of(root / "README.md"), program = text_of(root / "examples/cpp/film.cpp");
-  const std::size_t begin = readme.find("```cpp\n");
-  ASSERT_NE(begin, std::string::npos);
-  std::istringstream lines(readme.substr(begin + 7, readme.find("```\n", begin + 7) - begin - 7));
-  int found = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty()) continue;
-    EXPECT_NE(program.find(line + "\n"), std::string::npos) << line;
-    ++found;
-  }
-  EXPECT_GE(found, 5);
-}
-
 }  // namespace
