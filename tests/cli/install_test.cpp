@@ -1,6 +1,5 @@
 // OpenImageIO and its 250 libraries are loaded at the first picture, and found by programs from the build tree, by an installation that
 // was moved, and by other projects' programs.
-#include <array>
 #include <cstdlib>
 
 #include "cli/picture_files.h"
@@ -43,14 +42,6 @@ class Installation : public CommandLine {
             "--image", image,
             "--set",   "environment.image=sky.npy",
             "--set",   "puddle.ground_image=sky.npy"};
-  }
-  std::string output(const std::string& command) const {
-    std::string out;
-    std::FILE* pipe = ::popen(fmt::format("cd '{}' && {} 2>&1", folder.path().string(), command).c_str(), "r");
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-    EXPECT_EQ(::pclose(pipe), 0) << command << '\n' << out;
-    return out;
   }
   /// The program of an installation into one folder that then becomes another. All tests have links to the files of one, so that they
   /// may remove and replace them, but not write into them.

@@ -1,6 +1,5 @@
 // `rainref describe --layout`, compiled in each language: the offsets that the compiler gives the members find the
 // values that the small packs' manifests name in the packs' uniform bytes.
-#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -56,12 +55,9 @@ class Layout : public testing::TestWithParam<std::string> {
     return begin == std::string::npos ? "" : text.substr(begin, text.find("\n\n", begin) - begin + 1);
   }
   std::string output(const std::string& command) const {
-    std::string out;
-    std::FILE* pipe = ::popen(fmt::format("cd {} && {} 2>&1", folder.path().string(), command).c_str(), "r");
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-    EXPECT_EQ(::pclose(pipe), 0) << command << '\n' << out;
-    return out;
+    const auto [text, status] = output_of(fmt::format("cd '{}' && {}", folder.path().string(), command));
+    EXPECT_EQ(status, 0) << command << '\n' << text;
+    return text;
   }
   /// Blocks of the passes and records of the packs, by name.
   std::map<std::string, ordered_json> layouts(bool records) const {

@@ -19,6 +19,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/shell.h"
 #include "base/temporary_folder.h"
 #include "cli/cli.h"
 #include "registry/registry.h"
@@ -198,6 +199,13 @@ class CommandLine : public testing::Test {
       out.push_back(i->path().filename());
     std::sort(out.begin(), out.end());
     return out;
+  }
+
+  /// What a command of the shell prints in the folder; it must succeed.
+  std::string output(const std::string& command) const {
+    const auto [text, status] = output_of(fmt::format("cd '{}' && {}", folder.path().string(), command));
+    EXPECT_EQ(status, 0) << command << '\n' << text;
+    return text;
   }
 
   /// Hash lines of a scene; fails the test when they cannot be had.

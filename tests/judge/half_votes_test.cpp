@@ -97,17 +97,15 @@ TEST(HalfVotes, WhatTheProfileAsksForIsSaid) {
 }
 
 // ---- whole ports ---------------------------------------------------------------------------------------------------
-PortJudgement judged(const char* stores_only) {
+PortJudgement truncating(const char* stores_only) {
   MiniPort port("windshield-corrected");
   port.stores = HalfMode::rtz;
   port.stores_only = stores_only;
-  TemporaryFolder folder;
-  port.run(folder.path());
-  return judge(port.pack, folder.path());
+  return judged(port);
 }
 
 TEST(PortRounding, TwoPassesThatDifferAreAWarning) {
-  const PortJudgement j = judged("normals");
+  const PortJudgement j = truncating("normals");
   EXPECT_EQ(j.status, Status::warn) << why(j);
   const PassJudgement& odd = pass_of(j, "normals");
   EXPECT_EQ(odd.status, Status::warn) << why(j);
@@ -119,7 +117,7 @@ TEST(PortRounding, TwoPassesThatDifferAreAWarning) {
   }
 }
 TEST(PortRounding, APortThatTruncatesThroughoutPasses) {
-  const PortJudgement j = judged("");
+  const PortJudgement j = truncating("");
   EXPECT_EQ(j.status, Status::pass) << why(j);
   for (const char* pass : {"normals", "composite"}) EXPECT_EQ(pass_of(j, pass).half_mode, HalfMode::rtz) << pass;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
 #include "capture/npy_write.h"
 #include "capture/pack_read.h"
@@ -19,7 +20,6 @@
 #include "judge/judge_pass.h"
 #include "judge/slots.h"
 #include "judge/validate.h"
-#include "rainref/error.h"
 #include "shipped_packs.h"
 
 namespace rainref::judge {
@@ -111,6 +111,18 @@ struct MiniPort {
   }
 };
 
+/// Runs a port and judges what it gave.
+inline PortJudgement judged(const MiniPort& port, ValidateOptions options = {}) {
+  const TemporaryFolder folder;
+  port.run(folder.path());
+  options.executor = &test_executor();
+  return validate(port.pack, folder.path(), options);
+}
+inline PortJudgement judged(const MiniPort& port, const std::string& profile) {
+  ValidateOptions options;
+  options.profile = profile;
+  return judged(port, options);
+}
 inline PortJudgement judge(const capture::Pack& pack, const std::filesystem::path& port, const std::string& profile = "vulkan",
                            bool diagnose = false) {
   ValidateOptions options;
@@ -130,17 +142,6 @@ inline std::string why(const PortJudgement& j) {
   for (const PassJudgement& p : j.passes) out += "\n" + p.pass + " " + name(p.status) + " " + p.reason;
   for (const std::string& note : j.notes) out += "\nnote: " + note;
   return out;
-}
-
-/// Runs what must throw an Error and gives its code and text.
-template <class Body>
-std::pair<ExitCode, std::string> error_of(const Body& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return {e.code(), e.what()};
-  }
-  return {ExitCode::pass, ""};
 }
 
 inline capture::CaseInput& input_of(capture::PassCase& c, const std::string& name) {

@@ -278,12 +278,9 @@ TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
   const auto reasons = [](const std::string& pack, const std::string& pass, auto change) {
     MiniPort port(pack);
     change(port);
-    const TemporaryFolder folder;
-    port.run(folder.path());
     ValidateOptions options;
     options.only = {pass};
-    options.executor = &test_executor();
-    const PassJudgement j = pass_of(validate(port.pack, folder.path(), options), pass);
+    const PassJudgement j = pass_of(judged(port, options), pass);
     EXPECT_EQ(j.status, Status::fail) << pass;
     std::string all = j.reason;
     for (const CaseJudgement& c : j.cases) all += c.reason;

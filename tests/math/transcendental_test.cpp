@@ -5,15 +5,14 @@
 #include <hwy/targets.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <initializer_list>
 #include <limits>
 #include <memory>
-#include <sstream>
 #include <vector>
 
+#include "base/shell.h"
+#include "base/temporary_folder.h"
 #include "math/transcendental_cases.h"
 #include "source_folder.h"
 
@@ -361,15 +360,9 @@ TEST(TranscendentalShape, Identities) {
 TEST(Coefficients, AreWhatTheScriptWrites) {
   if (std::system("/usr/bin/python3 -c 'import mpmath' > /dev/null 2>&1") != 0) GTEST_SKIP() << "needs python3-mpmath";
   const std::string root = rainref::test::source_folder();
-  std::string written;
-  FILE* pipe = popen(("/usr/bin/python3 '" + root + "/scripts/make_coefficients.py'").c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  char part[4096];
-  for (std::size_t n; (n = std::fread(part, 1, sizeof part, pipe)) > 0;) written.append(part, n);
-  ASSERT_EQ(pclose(pipe), 0);
-  std::ostringstream committed;
-  committed << std::ifstream(root + "/src/math/coefficients.h").rdbuf();
-  EXPECT_EQ(written, committed.str());
+  const auto [written, status] = output_of("/usr/bin/python3 '" + root + "/scripts/make_coefficients.py'");
+  ASSERT_EQ(status, 0);
+  EXPECT_EQ(written, contents(root + "/src/math/coefficients.h"));
 }
 
 }  // namespace
