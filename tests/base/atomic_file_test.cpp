@@ -3,11 +3,10 @@
 
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 
+#include "base/child_process.h"
 #include "base/error_of.h"
 #include "base/temporary_folder.h"
 
@@ -132,17 +131,14 @@ TEST(AtomicFile, RefusesUseAfterCommit) {
 /// io error that says so.
 template <class F>
 int status_under_size_limit(F&& f) {
-  const pid_t child = ::fork();
-  if (child == 0) {
+  ChildProcess child([&] {
     ::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{100000, 100000};
-    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(98);
+    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) return 98;
     const std::string error = error_of(f);
-    ::_exit(error.starts_with("4 ") && error.ends_with("File too large") ? 0 : 99);
-  }
-  int status = -1;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return error.starts_with("4 ") && error.ends_with("File too large") ? 0 : 99;
+  });
+  return child.wait();
 }
 
 TEST(AtomicFile, AShortWriteIsAnIoErrorAndLeavesNothing) {

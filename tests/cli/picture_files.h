@@ -13,10 +13,7 @@ namespace rainref::cli {
 inline void put_npy(const std::filesystem::path& path, int width, int height, int channels,
                     const std::function<float(int, int, int)>& value, bool is_codes = false) {
   const std::string shape = channels == 1 ? fmt::format("({}, {})", height, width) : fmt::format("({}, {}, {})", height, width, channels);
-  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", is_codes ? "|u1" : "<f4", shape);
-  header.resize(118 - 1, ' ');
-  header += '\n';
-  std::string bytes = std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header;
+  std::string bytes;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < channels; ++c) {
@@ -28,7 +25,7 @@ inline void put_npy(const std::filesystem::path& path, int width, int height, in
       }
     }
   }
-  put(path, bytes);
+  put(path, npy(is_codes ? "'|u1'" : "'<f4'", shape, bytes));
 }
 /// The same as an image of rgba32f or, of codes, rgba8; a single channel in red, green and blue.
 inline Image image_of(Format format, int width, int height, const std::function<float(int, int, int)>& value) {

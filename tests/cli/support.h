@@ -19,6 +19,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/npy.h"
 #include "base/shell.h"
 #include "base/temporary_folder.h"
 #include "cli/cli.h"
@@ -146,15 +147,12 @@ class CommandLine : public testing::Test {
   CommandLine() {
     // Put together by hand: most tests never need the library that would write it.
     std::vector<std::string> rows(4);
-    std::string codes = "{'descr': '|u1', 'fortran_order': False, 'shape': (4, 8, 3), }";
-    codes = std::string("\x93NUMPY\x01\x00\x76\x00", 10) + codes + std::string(117 - codes.size(), ' ') + '\n';
     for (int y = 0; y < 4; ++y) {
       for (int i = 0; i < 32; ++i) {
         if (i % 4 != 3) rows[y] += static_cast<char>(20 + 5 * i + 9 * y);
       }
     }
-    for (const std::string& row : rows) codes += row;
-    put(folder / "sky.npy", codes);
+    put(folder / "sky.npy", npy("'|u1'", "(4, 8, 3)", fmt::format("{}", fmt::join(rows, ""))));
     put(folder / "sky.png", image_io::png(8, 4, 8, 2, rows));
     put(folder / "corrected.toml", scene("corrected", "[puddle]\ngrid = [40, 30]\ncell_size = 0.02\nground_image = 'sky.npy'\n"));
     put(folder / "published.toml", scene("as-published"));

@@ -3,8 +3,6 @@
 
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cmath>
@@ -12,6 +10,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/child_process.h"
 #include "image_io/read.h"
 #include "image_io/tiny_files.h"
 
@@ -160,17 +159,14 @@ TEST(Write, AFullDiskLeavesTheOldFileAndNothingElse) {
   const TemporaryFolder folder;
   put(folder / "a.exr", "old");
   const Image image = halves(200, 200);
-  const pid_t child = ::fork();
-  if (child == 0) {
+  ChildProcess child([&] {
     ::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{1000, 1000};
     ::setrlimit(RLIMIT_FSIZE, &limit);
     const std::string error = error_of([&] { write_exr(folder / "a.exr", {{"", {"R", "G", "B"}, &image}}); });
-    ::_exit(error.starts_with("4 ") ? 0 : 1);
-  }
-  int status = -1;
-  ::waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    return error.starts_with("4 ") ? 0 : 1;
+  });
+  EXPECT_EQ(child.wait(), 0);
   EXPECT_EQ(contents(folder / "a.exr"), "old");
   EXPECT_THAT(folder.names(), ElementsAre("a.exr"));
 }

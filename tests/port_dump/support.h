@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/npy.h"
 #include "base/temporary_folder.h"
 #include "image_io/tiny_files.h"
 #include "port_dump/read_buffer.h"
@@ -45,14 +46,6 @@ inline capture::Array drops() {
   out.height = 1;
   out.levels.resize(1);
   return out;
-}
-
-/// A file as numpy.save writes it.
-inline std::string npy(const std::string& descr, const std::string& shape, const std::string& data) {
-  std::string text = "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + shape + ", }";
-  text.append(63 - (10 + text.size()) % 64, ' ');
-  text += '\n';
-  return "\x93NUMPY" + std::string("\1\0", 2) + little(static_cast<std::uint32_t>(text.size()), 2) + text + data;
 }
 
 /// Values of one type, one behind the other.

@@ -129,16 +129,12 @@ TEST(SavedSimulation, KnowsItsPictures) {
   const parallel::Executor executor(1);
   const TemporaryFolder folder;
   const std::string name = (folder / "sky.npy").string();
-  const auto put = [&](char texel) {
-    std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (1, 2, 3), }";
-    header.resize(117, ' ');
-    std::ofstream(name, std::ios::binary) << "\x93NUMPY" << '\1' << '\0' << '\x76' << '\0' << header << '\n' << std::string(6, texel);
-  };
+  const auto put_texel = [&](char texel) { put(name, npy("'|u1'", "(1, 2, 3)", std::string(6, texel))); };
   const SceneText scene = small("puddle", "corrected", {"environment.image=" + name});
-  put(30);
+  put_texel(30);
   const Bytes state = Simulation(scene, executor).save();
   Simulation(scene, executor).load(state);
-  put(31);
+  put_texel(31);
   EXPECT_THAT(refusal([&] { Simulation(scene, executor).load(state); }), HasSubstr("of another picture: expected 'environment.image "));
 }
 
