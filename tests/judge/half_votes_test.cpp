@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <gmock/gmock.h>
 
@@ -134,15 +133,9 @@ TEST(HalfVotes, OthersAreAskedWhereAPassFailsEitherWayAndNoneTells) {
 TEST(HalfVotes, OnePassAloneIsJudgedByTheRoundingOfTheWholePort) {
   MiniPort port("windshield-as-published");
   port.stores = HalfMode::rtz;
-  const scene::UniformBlock& block = port.pack.pass("wipe_texture").block;
-  const auto keep = std::find_if(block.members.begin(), block.members.end(), [](const scene::Member& m) { return m.name == "keep"; });
-  ASSERT_NE(keep, block.members.end());
+  const std::size_t keep = uniform_offset(port.pack, "wipe_texture", "keep");
   port.before = [&](capture::PassCase& c) {
-    if (c.pass != "wipe_texture") return;
-    float v;
-    std::memcpy(&v, c.uniforms.data() + keep->offset, 4);
-    v = std::sqrt(v);
-    std::memcpy(c.uniforms.data() + keep->offset, &v, 4);
+    if (c.pass == "wipe_texture") change_at<float>(c.uniforms.data() + keep, [](float v) { return std::sqrt(v); });
   };
   TemporaryFolder folder;
   port.run(folder.path());

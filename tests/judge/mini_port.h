@@ -1,6 +1,7 @@
 // A port in miniature: the passes of a small pack, evaluated as some device might, with or without a mistake.
 #pragma once
 
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -142,6 +143,20 @@ inline std::string why(const PortJudgement& j) {
   for (const PassJudgement& p : j.passes) out += "\n" + p.pass + " " + name(p.status) + " " + p.reason;
   for (const std::string& note : j.notes) out += "\nnote: " + note;
   return out;
+}
+
+/// Makes of the value that lies there what `change` gives.
+template <class T, class Change>
+void change_at(std::byte* at, const Change& change) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  value = change(value);
+  std::memcpy(at, &value, sizeof value);
+}
+inline std::size_t uniform_offset(const capture::Pack& pack, const std::string& pass, const std::string& name) {
+  for (const scene::Member& m : pack.pass(pass).block.members)
+    if (m.name == name) return m.offset;
+  throw std::runtime_error(name + " is no uniform of " + pass);
 }
 
 inline capture::CaseInput& input_of(capture::PassCase& c, const std::string& name) {

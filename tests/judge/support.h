@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capture/pack_read.h"
+#include "judge/alternatives.h"
 #include "judge/evaluations.h"
 #include "judge/profiles.h"
 #include "judge/slots.h"
@@ -126,6 +127,19 @@ inline bool has_second_tier(const BoundPass& pass) {
     }
     return 3 * known >= tried;
   });
+}
+
+/// Whether one alternative holds every value.
+inline bool one_holds(const Alternatives& all, const capture::PassModel& model, const std::vector<float>& got) {
+  for (int a = 0; a < all.count; ++a) {
+    bool is_held = true;
+    for (std::size_t v = 0; v < got.size(); ++v) {
+      const enclosed::Enclosure& e = all.values[static_cast<std::size_t>(a)][v];
+      is_held &= e.is_vacuous() || e.contains(got[v]) || model.is_free(static_cast<int>(v));
+    }
+    if (is_held) return true;
+  }
+  return false;
 }
 
 /// splitmix64 (Steele, Lea, Flood 2014).
