@@ -139,10 +139,8 @@ TEST_F(Films, WithoutFfmpegNothingIsSimulated) {
 
 TEST_F(Films, WhatCannotBeAFilmIsRefusedFirst) {
   use_ffmpeg(keeping);
-  const auto refused = [&](std::vector<std::string> more, int code, const std::string& message) {
-    std::vector<std::string> all{"run", "corrected.toml", "--set", "run.frames=1000000", "-o", "new/o"};
-    all.insert(all.end(), more.begin(), more.end());
-    expect_refusal(all, code, HasSubstr(message));
+  const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& message) {
+    expect_refusal(joined({"run", "corrected.toml", "--set", "run.frames=1000000", "-o", "new/o"}, more), code, HasSubstr(message));
   };
   refused({"--film", "rain.avi"}, 2, "--film 'rain.avi': expected a name that ends in .mp4, .webm or .gif");
   refused({"--film", "mp4"}, 2, "expected a name that ends in .mp4");

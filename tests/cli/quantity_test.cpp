@@ -38,9 +38,7 @@ class Quantities : public SceneFiles {
   Outcome hashed(const std::string& scene, const std::vector<std::string>& sets) const {
     std::vector<std::string> all{"hash", scene};
     for (const std::string& s : sets) all.insert(all.end(), {"--set", s});
-    Circumstances c;
-    c.is_copy = true;
-    return rainref(all, c);
+    return copied(all);
   }
 };
 

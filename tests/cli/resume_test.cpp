@@ -65,17 +65,14 @@ moves = false
     all["summary.json"] = kept.dump();
     return all;
   }
-  Outcome run(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "run");
-    const Outcome o = rainref(arguments);
+  Outcome run(const std::vector<std::string>& arguments) const {
+    const Outcome o = rainref(joined({"run"}, arguments));
     EXPECT_EQ(o.code, 0) << o.err;
     return o;
   }
   /// Kills a run once its checkpoint is there.
-  void kill_after_checkpoint(std::vector<std::string> arguments, const std::string& in) const {
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"-o", in, "--frames", "1000000"});
-    const auto running = start_rainref(folder.path(), arguments);
+  void kill_after_checkpoint(const std::vector<std::string>& arguments, const std::string& in) const {
+    const auto running = start_rainref(folder.path(), joined({"run", "-o", in, "--frames", "1000000"}, arguments));
     await([&] { return fs::exists(folder / (in + "/checkpoint.state")); });
     EXPECT_EQ(running->end(SIGKILL), -SIGKILL);
     EXPECT_FALSE(fs::exists(folder / (in + "/summary.json")));
@@ -91,12 +88,7 @@ TEST_F(Resumed, AnyKillLeavesWhatGoesOn) {
     ASSERT_LT(round, 4 * kills) << "the runs are over before they are killed";
     const std::vector<std::string> film{
         "run", round % 2 == 0 ? "windshield.toml" : "trails.toml", "--frames", "300", "--every", "9", "--first", "40", "--image", "both"};
-    const auto in = [&](const std::string& to, std::vector<std::string> more) {
-      std::vector<std::string> all = film;
-      all.insert(all.end(), {"-o", to});
-      all.insert(all.end(), more.begin(), more.end());
-      return all;
-    };
+    const auto in = [&](const std::string& to, const std::vector<std::string>& more) { return joined(joined(film, {"-o", to}), more); };
     const std::string whole = fmt::format("whole{}", round), parts = fmt::format("parts{}", round);
     ASSERT_EQ(rainref(in(whole, {})).code, 0);
     for (;;) {
@@ -178,11 +170,9 @@ TEST_F(Resumed, OnlyTheSameRunGoesOn) {
   kill_after_checkpoint({"published.toml", "--checkpoint-every", "3", "--image", "none"}, "o");
   before = folder.names();
   const std::string state = contents(folder / "o/checkpoint.state");
-  const auto refused = [&](std::vector<std::string> more, const testing::Matcher<const std::string&>& message,
+  const auto refused = [&](const std::vector<std::string>& more, const testing::Matcher<const std::string&>& message,
                            const char* frames = "1000000") {
-    std::vector<std::string> all{"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", frames};
-    all.insert(all.end(), more.begin(), more.end());
-    expect_refusal(all, 2, message);
+    expect_refusal(joined({"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", frames}, more), 2, message);
     EXPECT_EQ(contents(folder / "o/checkpoint.state"), state);
   };
   refused({"--set", "puddle.damping=0.5"},

@@ -130,6 +130,12 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// One list behind the other.
+inline std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 /// An outcome has this exit code, and its output and errors match.
 inline void expect(const Outcome& o, int code, const testing::Matcher<const std::string&>& out = testing::_,
                    const testing::Matcher<const std::string&>& err = testing::_,
@@ -168,13 +174,23 @@ class CommandLine : public testing::Test {
   Outcome rainref(const std::vector<std::string>& arguments, const Circumstances& c = {}) const {
     return run_rainref(folder.path(), arguments, c);
   }
+  /// In a copy of this process.
+  Outcome copied(const std::vector<std::string>& arguments, Circumstances c = {}) const {
+    c.is_copy = true;
+    return rainref(arguments, c);
+  }
+  /// What succeeds without a word on standard error.
+  static Outcome good(const Outcome& o) {
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    return o;
+  }
 
   /// Refused: this exit code, nothing on standard output, one line on standard error, and no new file.
   void expect_refusal(const std::vector<std::string>& arguments, int code, const testing::Matcher<const std::string&>& message,
-                      Circumstances c = {}) const {
-    c.is_copy = true;
+                      const Circumstances& c = {}) const {
     SCOPED_TRACE(fmt::format("rainref {}", fmt::join(arguments, " ")));
-    const Outcome o = rainref(arguments, c);
+    const Outcome o = copied(arguments, c);
     EXPECT_EQ(o.code, code);
     EXPECT_EQ(o.out, "");
     ASSERT_THAT(o.err, testing::StartsWith("rainref: "));
@@ -207,14 +223,8 @@ class CommandLine : public testing::Test {
   }
 
   /// Hash lines of a scene; fails the test when they cannot be had.
-  std::vector<std::string> hash(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "hash");
-    Circumstances c;
-    c.is_copy = true;
-    const Outcome o = rainref(arguments, c);
-    EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_EQ(o.err, "");
-    return lines_of(o.out);
+  std::vector<std::string> hash(const std::vector<std::string>& arguments) const {
+    return lines_of(good(copied(joined({"hash"}, arguments))).out);
   }
 
   TemporaryFolder folder;

@@ -25,11 +25,7 @@ class Sweep : public CommandLine {
         "verb = 'run'\nscene = 'published.toml'\nframes = 3\nkeep = ['picture', 'hash']\n[axes]\nseed = {from = 1, count = 8}\n");
     before = folder.names();
   }
-  Outcome sweep(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "sweep");
-    arguments.insert(arguments.end(), {"-o", "out"});
-    return rainref(arguments);
-  }
+  Outcome sweep(const std::vector<std::string>& arguments) const { return rainref(joined(joined({"sweep"}, arguments), {"-o", "out"})); }
   /// Every file of cells and tables, timings aside.
   std::map<std::string, std::string> results(const std::string& out) const {
     std::map<std::string, std::string> all;

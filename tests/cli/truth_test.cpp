@@ -31,9 +31,7 @@ class Truth : public CommandLine {
   nlohmann::json summary(const std::string& in) const { return nlohmann::json::parse(contents(folder / (in + "/summary.json"))); }
   /// Runs scene.toml into a folder of its own.
   void run(const std::string& scene, const std::string& to, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"run", scene + ".toml", "-o", to};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome o = rainref(arguments);
+    const Outcome o = rainref(joined({"run", scene + ".toml", "-o", to}, more));
     ASSERT_EQ(o.code, 0) << o.err;
   }
   /// The buffers of the traced picture with their hashes.
@@ -67,8 +65,7 @@ class Truth : public CommandLine {
                       const std::vector<std::string>& more = {}) const {
     std::vector<std::string> all{"run", scene + ".toml", "-o", "o"};
     for (const std::string& s : sets) all.insert(all.end(), {"--set", s});
-    all.insert(all.end(), more.begin(), more.end());
-    expect_refusal(all, 2, HasSubstr(message));
+    expect_refusal(joined(all, more), 2, HasSubstr(message));
   }
 };
 

@@ -27,11 +27,8 @@ class ValidateReports : public CommandLine {
     });
     before = folder.names();
   }
-  Outcome validate(const std::string& port, std::vector<std::string> options) const {
-    options.insert(options.begin(), {"validate", "pack", "--port", port});
-    Circumstances c;
-    c.is_copy = true;
-    return rainref(options, c);
+  Outcome validate(const std::string& port, const std::vector<std::string>& options) const {
+    return copied(joined({"validate", "pack", "--port", port}, options));
   }
 };
 
@@ -113,9 +110,8 @@ TEST_F(ValidateReports, BadArgumentsBeforeAnyWork) {
   std::filesystem::create_symlink("r", folder / "link");
   std::filesystem::create_directory_symlink("bad", folder / "folder");
   before = folder.names();
-  const auto refused = [&](std::vector<std::string> options, int code, const testing::Matcher<const std::string&>& message) {
-    options.insert(options.begin(), {"validate", "pack", "--port", "bad"});
-    expect_refusal(options, code, message);
+  const auto refused = [&](const std::vector<std::string>& options, int code, const testing::Matcher<const std::string&>& message) {
+    expect_refusal(joined({"validate", "pack", "--port", "bad"}, options), code, message);
   };
   refused(
       {"--baseline", "typo.toml"}, 2,
@@ -150,8 +146,7 @@ TEST_F(ValidateReports, AMissingFileIsReportedInEveryFormat) {
 TEST_F(ValidateReports, AFullDiskLeavesNothing) {
   Circumstances c;
   c.file_bytes = 20'000;
-  c.is_copy = true;
-  expect(rainref({"validate", "pack", "--port", "bad", "--html", "r.html"}, c), 4, testing::_, HasSubstr("cannot write 'r.html'"));
+  expect(copied({"validate", "pack", "--port", "bad", "--html", "r.html"}, c), 4, testing::_, HasSubstr("cannot write 'r.html'"));
   EXPECT_EQ(folder.names(), before);
 }
 

@@ -29,13 +29,9 @@ class Validate : public CommandLine {
   void copy_to(const std::string& name, const std::string& from = pack) const {
     std::filesystem::copy(from, folder / name, std::filesystem::copy_options::recursive);
   }
-  Outcome validate(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "validate");
-    return rainref(arguments);
-  }
-  Outcome exec(const std::string& command, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {pack, "--exec", command});
-    return validate(more);
+  Outcome validate(const std::vector<std::string>& arguments) const { return rainref(joined({"validate"}, arguments)); }
+  Outcome exec(const std::string& command, const std::vector<std::string>& more = {}) const {
+    return validate(joined({pack, "--exec", command}, more));
   }
 };
 
@@ -74,9 +70,7 @@ TEST_F(Validate, SomePassesAlone) {
   for (const std::vector<std::string>& only : {std::vector<std::string>{"--only", "shade,display"},
                                                {"--only", "shade", "--only", "display"},
                                                {"--only=display", "--only=shade"}}) {
-    std::vector<std::string> arguments{pack, "--port", "port"};
-    arguments.insert(arguments.end(), only.begin(), only.end());
-    expect(validate(arguments), 0, AllOf(HasSubstr("(2 PASS)"), Not(HasSubstr("raindrops"))));
+    expect(validate(joined({pack, "--port", "port"}, only)), 0, AllOf(HasSubstr("(2 PASS)"), Not(HasSubstr("raindrops"))));
   }
   EXPECT_EQ(validate({"--only", "shade", pack, "--port", "port"}).code, 0);  // it takes no PACK for a pass
   before = folder.names();
@@ -306,9 +300,8 @@ TEST_F(Validate, TheReferencesOwnRunPassesAsAShadow) {
     const std::vector<std::string> forgiving =
         scene == "published" ? std::vector<std::string>{"--allow-untested"} : std::vector<std::string>{};
     for (const bool with_scene : {false, true}) {
-      std::vector<std::string> arguments{"--shadow", dump};
+      std::vector<std::string> arguments = joined({"--shadow", dump}, forgiving);
       if (with_scene) arguments.insert(arguments.end(), {scene + ".toml", "--set", "puddle.drop_intensity=3"});
-      arguments.insert(arguments.end(), forgiving.begin(), forgiving.end());
       const Outcome o = validate(arguments);
       EXPECT_EQ(o.code, 0) << o.out << o.err;
       EXPECT_THAT(o.out, Not(HasSubstr("note:"))) << scene;  // every input and uniform is the scene's
