@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/words.h"
 #include "capture/pack_read.h"
 #include "judge/alternatives.h"
 #include "judge/evaluations.h"
@@ -19,7 +20,7 @@
 
 namespace rainref::judge::test {
 
-using rainref::test::pack_folder, rainref::test::PackPasses, rainref::test::proven_packs, rainref::test::shipped_pack,
+using rainref::test::pack_folder, rainref::test::PackPasses, rainref::test::Words, rainref::test::proven_packs, rainref::test::shipped_pack,
     rainref::test::shipped_packs, rainref::test::name_of_pack_test;
 
 /// Every profile under which results may differ.
@@ -141,22 +142,6 @@ inline bool one_holds(const Alternatives& all, const capture::PassModel& model, 
   }
   return false;
 }
-
-/// splitmix64 (Steele, Lea, Flood 2014).
-class Words {
- public:
-  explicit Words(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t operator()() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-  }
-  bool coin() { return (*this)() >> 63; }
-
- private:
-  std::uint64_t state_;
-};
 
 /// The values of one invocation on a conforming device, the seed'th: three kinds take turns, whose errors lie anywhere,
 /// or lean to one end throughout.
