@@ -5,6 +5,7 @@
 
 #include "callers/states.h"
 #include "edge_splash/host.h"
+#include "image/same.h"
 #include "puddle/parameters.h"
 #include "rainref/error.h"
 #include "rainref/puddle.h"
@@ -66,11 +67,7 @@ TEST(AnyCaller, PuddlesOfOnesOwnWater) {
   expect_the_same([&] {
     puddle::Puddle puddle(settings, around, executor);
     puddle.set_water(heights, heights);
-    std::vector<std::uint64_t> seen{std::bit_cast<std::uint64_t>(puddle.courant())};
-    for (int y = 0; y < 10; ++y) {
-      for (int x = 0; x < 12; ++x) seen.push_back(puddle.newest().row<Unorm8>(y)[x].code);
-    }
-    return seen;
+    return std::pair(puddle.courant(), bytes_of(puddle.newest()));
   });
 }
 
@@ -80,11 +77,7 @@ void expect_the_same_picture(T& effect, const Show& show) {
   expect_the_same([&] {
     show(effect);
     effect.next_frame();
-    std::vector<int> codes;
-    for (int y = 0; y < effect.picture().height(); ++y) {
-      for (int i = 0; i < 4 * effect.picture().width(); ++i) codes.push_back(effect.picture().template row<Unorm8>(y)[i].code);
-    }
-    return codes;
+    return bytes_of(effect.picture());
   });
 }
 TEST(AnyCaller, OtherPictures) {

@@ -2,6 +2,7 @@
 #include <bit>
 #include <limits>
 
+#include "image/same.h"
 #include "image_io/evidence.h"
 #include "image_io/write.h"
 #include "port_dump/support.h"
@@ -109,11 +110,9 @@ TEST(ExrDump, RowsAsInTheFile) {
 TEST(ExrDump, OurOwnWriter) {
   const Image in = image_io::make_image(Format::rgba16f, 33, 17,
                                         [](int x, int y, int c) { return Half{static_cast<std::uint16_t>(1000 * y + 10 * x + c)}; });
-  std::string bytes;
-  for (int y = 0; y < 17; ++y) bytes.append(reinterpret_cast<const char*>(in.row_bytes(y)), 33 * 8);
   Dump dump;
   image_io::write_exr(dump.path() / "out.b.exr", {{"", {"R", "G", "B", "A"}, &in}});
-  EXPECT_EQ(dump.level(image(Format::rgba16f, 33, 17)), bytes);
+  EXPECT_EQ(dump.level(image(Format::rgba16f, 33, 17)), bytes_of(in));
   EXPECT_THAT(dump.notes(), IsEmpty());
 }
 
@@ -210,11 +209,9 @@ TEST(PngDump, ColourChunksConvertNothing) {
 TEST(PngDump, OurOwnWriter) {
   const Image in = image_io::make_image(Format::rgba8_srgb, 9, 5,
                                         [](int x, int y, int c) { return Unorm8{static_cast<std::uint8_t>(50 * y + 5 * x + c)}; });
-  std::string bytes;
-  for (int y = 0; y < 5; ++y) bytes.append(reinterpret_cast<const char*>(in.row_bytes(y)), 36);
   Dump dump;
   image_io::write_png(dump.path() / "out.b.png", in, image_io::PngChannels::rgba);
-  EXPECT_EQ(dump.level(image(Format::rgba8_srgb, 9, 5)), bytes);
+  EXPECT_EQ(dump.level(image(Format::rgba8_srgb, 9, 5)), bytes_of(in));
   image_io::write_png(dump.path() / "out.b.png", in, image_io::PngChannels::rgb);
   EXPECT_THAT(dump.refusal(image(Format::rgba8_srgb, 9, 5)), HasSubstr("expected 4 channels of rgba8_srgb, found 3"));
 }

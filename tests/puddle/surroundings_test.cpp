@@ -1,8 +1,8 @@
 // Where the puddle's ground ends and the surroundings' own begins, and from where the street made here is seen.
-#include <cstring>
 
 #include <gtest/gtest.h>
 
+#include "image/same.h"
 #include "night_street/night_street.h"
 #include "puddle/instance.h"
 #include "puddle/scene_support.h"
@@ -57,12 +57,7 @@ std::unique_ptr<effect::Instance> opened(const std::string& variant, std::vector
   return entry().open(config_of(variant, overrides), executor(), inputs);
 }
 bool is_seen_from(const std::unique_ptr<effect::Instance>& puddle, const scene::Vector3& eye) {
-  const Image& image = static_cast<const Instance&>(*puddle).surroundings().environment;
-  const Image expected = night_street::Street().panorama(64, 32, eye, executor());
-  if (image.width() != 64 || image.height() != 32) return false;
-  for (int y = 0; y < 32; ++y)
-    if (std::memcmp(image.row<float>(y), expected.row<float>(y), 64 * 4 * sizeof(float)) != 0) return false;
-  return true;
+  return same(static_cast<const Instance&>(*puddle).surroundings().environment, night_street::Street().panorama(64, 32, eye, executor()));
 }
 
 TEST(PuddleSurroundings, StreetIsSeenFromTheCamera) {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
+#include "image/same.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 
@@ -55,7 +55,7 @@ TEST(PanoramaView, ShowsWhatLiesInEachPixelsDirection) {
   // Far away: the eye's place does not count.
   const Camera here{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 40}, there{{7, 8, 9}, {8, 8, 9}, {0, 1, 0}, 40};
   const Image a = panorama_view(panorama, here, 16, 9, executor), b = panorama_view(panorama, there, 16, 9, executor);
-  for (int y = 0; y < 9; ++y) EXPECT_EQ(std::memcmp(a.row_bytes(y), b.row_bytes(y), 16 * 16), 0);
+  EXPECT_TRUE(same(a, b));
 }
 
 // A pixel that covers many texels shows their mean, not one of them: of stripes a grey.
@@ -76,10 +76,8 @@ TEST(PanoramaView, ThreadsAndTargetsGiveTheSameBits) {
   const Image one = panorama_view(panorama, camera, 33, 21, parallel::Executor(1));
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
-    for (const int threads : {2, 3, 8}) {
-      const Image again = panorama_view(panorama, camera, 33, 21, parallel::Executor(threads));
-      for (int y = 0; y < 21; ++y) ASSERT_EQ(std::memcmp(one.row_bytes(y), again.row_bytes(y), 33 * 16), 0) << target << " " << threads;
-    }
+    for (const int threads : {2, 3, 8})
+      ASSERT_TRUE(same(panorama_view(panorama, camera, 33, 21, parallel::Executor(threads)), one)) << target << " " << threads;
   }
   select_simd_target("");
 }

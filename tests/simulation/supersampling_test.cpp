@@ -6,10 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
 #include "base/error_of.h"
 #include "image/colour.h"
+#include "image/same.h"
 #include "rainref/simulation.h"
 #include "simulation/small_scenes.h"
 
@@ -28,12 +27,6 @@ Image filled(int width, int height, int code) {
   return image;
 }
 int red(const Image& image, int x, int y) { return image.row<Unorm8>(y)[4 * x].code; }
-bool same(const Image& a, const Image& b) {
-  if (a.width() != b.width() || a.height() != b.height()) return false;
-  for (int y = 0; y < a.height(); ++y)
-    if (std::memcmp(a.row<Unorm8>(y), b.row<Unorm8>(y), static_cast<std::size_t>(4 * a.width())) != 0) return false;
-  return true;
-}
 int nearest_code(double light) { return static_cast<int>(255 * encode_srgb(light) + 0.5); }
 
 TEST(Supersampling, ALevelPictureStaysAsItIs) {

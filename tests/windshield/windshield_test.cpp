@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
+#include "image/same.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "golden/golden_check.h"
@@ -123,12 +123,6 @@ Surroundings other_surroundings() {
     }
   }
   return to;
-}
-bool same(const Image& a, const Image& b) {
-  const std::size_t bytes = static_cast<std::size_t>(a.width()) * static_cast<std::size_t>(info(a.format()).texel_bytes());
-  for (int y = 0; y < a.height(); ++y)
-    if (std::memcmp(a.row_bytes(y), b.row_bytes(y), bytes) != 0) return false;
-  return true;
 }
 // From the next render on it is as if it had been made with these pictures, and nothing else changes.
 TEST(Show, OtherPicturesAreSeenFromTheNextRenderOn) {

@@ -1,0 +1,22 @@
+// The bytes of an image, and whether two images are the same: what tests of equal bits compare.
+#pragma once
+
+#include <string>
+
+#include "rainref/image.h"
+
+namespace rainref {
+
+/// The bytes of all texels, row after row, without what lies between rows.
+inline std::string bytes_of(const BufferView& image) {
+  const std::size_t row = image.row_bytes();
+  std::string bytes(row * static_cast<std::size_t>(image.height()), '\0');
+  for (int y = 0; y < image.height(); ++y) image.copy_row(y, reinterpret_cast<std::byte*>(&bytes[row * static_cast<std::size_t>(y)]));
+  return bytes;
+}
+/// Whether two images have the same format, the same size and the same bits.
+inline bool same(const Image& a, const Image& b) {
+  return a.format() == b.format() && a.width() == b.width() && bytes_of(a) == bytes_of(b);
+}
+
+}  // namespace rainref
