@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cfenv>
 #include <charconv>
 #include <clocale>
 #include <limits>

@@ -1,7 +1,6 @@
 // A buffer's hash is that of its texels alone, and the recorder writes a line for each frame, pass and buffer.
 #include "capture/hashing.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -1,9 +1,6 @@
 // Arrays of NumPy are read in every version and packing; what is damaged, cut or of another type is refused.
 #include "capture/npy_read.h"
 
-#include <cstring>
-#include <optional>
-
 #include <gmock/gmock.h>
 
 #include "capture/python_literal.h"

@@ -1,5 +1,4 @@
 // What a run is said to take against what it took: the most that lay in memory, as the kernel counted it. Both are in summary.json.
-#include <cstring>
 
 #include <nlohmann/json.hpp>
 

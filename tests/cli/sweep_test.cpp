@@ -1,5 +1,4 @@
 // `rainref sweep` as a user runs it: what it prints and leaves, whoever is killed.
-#include <fstream>
 #include <map>
 
 #include <nlohmann/json.hpp>

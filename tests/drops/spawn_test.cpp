@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <set>
 
 #include "rain/rain.h"
 #include "rainref/error.h"

@@ -4,8 +4,6 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-#include <bit>
-#include <cmath>
 #include <thread>
 
 #include <gmock/gmock.h>

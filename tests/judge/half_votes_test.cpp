@@ -1,7 +1,6 @@
 // One rounding of half stores for a whole port: how it is found, and what is said of a pass that has another.
 #include "judge/half_votes.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>

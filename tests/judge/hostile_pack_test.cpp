@@ -1,6 +1,5 @@
 // Packs and ports whose shapes, formats, uniforms and records cannot be the pass's: each is refused with one line before anything
 // is evaluated. Every one of these ended the program, or gave a verdict from memory that is not its own, once.
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <set>

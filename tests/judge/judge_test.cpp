@@ -3,11 +3,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
-
-#include <fmt/format.h>
 
 #include "judge/conclude.h"
 #include "judge/invocation_judge.h"

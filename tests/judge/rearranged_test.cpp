@@ -1,7 +1,6 @@
 // Legal regroupings of formulas, written out as a compiler or an engineer writes them: none fails, and mistakes still do.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <map>

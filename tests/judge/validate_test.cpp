@@ -7,7 +7,6 @@
 #include <limits>
 #include <tuple>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace rainref::judge {

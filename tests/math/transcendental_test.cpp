@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <initializer_list>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "base/shell.h"

@@ -1,6 +1,5 @@
 // The effect against theory: alpha erosion, phases of the flow, masks by slope, refraction, tiles without an edge.
 #include <algorithm>
-#include <numeric>
 
 #include "rainy_glass/support.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/error_of.h"

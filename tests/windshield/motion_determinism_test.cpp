@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstring>
 
 #include "math/simd_target.h"
 #include "windshield/motion/wipe_drops.h"

@@ -1,7 +1,6 @@
 // Normals of known water (physics: W14).
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <functional>
 
 #include "windshield/surface_support.h"
