@@ -295,27 +295,21 @@ TEST(Definition, ACaseWithoutItsInputsIsRefused) {
 
 TEST(Definition, ARunWithoutItsImagesIsRefused) {
   Pane p(9, 5);
-  const auto refused = [&](const pass::HostIo<GrowPass>& io, bool corrected) -> std::string {
-    try {
-      pass::Run<GrowPass> run(p.grow, corrected, Rounding::rne, io);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+  const auto refused = [&](const pass::HostIo<GrowPass>& io) {
+    return error_of([&] { pass::Run<GrowPass>(p.grow, true, Rounding::rne, io); });
   };
-  EXPECT_EQ(refused(p.grow_io(true), true), "");
-  EXPECT_EQ(refused(p.grow_io(false), true), "grow: seeds is missing");
+  EXPECT_EQ(refused(p.grow_io(true)), "none");
+  EXPECT_EQ(refused(p.grow_io(false)), "5 grow: seeds is missing");
   pass::HostIo<GrowPass> io = p.grow_io(true);
   io.mask = p.heights;
-  EXPECT_EQ(refused(io, true), "grow: mask has another format");
+  EXPECT_EQ(refused(io), "5 grow: mask has another format");
   EXPECT_THROW(pass::Run<ShinePass>(p.shine, false, Rounding::rne, p.shine_io()), Error) << "as published there is none";
   p.grow.seed_count = 3;
-  EXPECT_EQ(refused(p.grow_io(true), true),
-            "grow: seeds does not fit: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
+  EXPECT_EQ(refused(p.grow_io(true)), "5 grow: seeds does not fit: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
   p.grow.seed_count = 2;
   const Image narrow(Format::r8, 8, 5);
   io.mask = narrow;
-  EXPECT_EQ(refused(io, true), "grow: mask has another size");
+  EXPECT_EQ(refused(io), "5 grow: mask has another size");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error_of.h"
 #include "rainref/executor.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
@@ -41,15 +42,6 @@ inline const scene::EffectTable& effect_table() {
 }
 inline scene::Config config_of(const std::string& variant, const std::vector<std::string>& overrides = {}) {
   return scene::parse("effect = \"puddle\"\nvariant = \"" + variant + "\"\n", "test.toml", overrides, effect_table());
-}
-/// The error that `body` throws, its exit code first; "none" when it throws nothing.
-inline std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return std::to_string(static_cast<int>(e.code())) + " " + e.what();
-  }
-  return "none";
 }
 
 /// As published, float storage, clear air, no vignette, image ground.

@@ -171,13 +171,7 @@ TEST(Show, RefusesWhatItCannotShow) {
 
 std::string refusal(const std::string& variant, const std::string& toml) {
   const parallel::Executor executor(1);
-  try {
-    Windshield windshield(config_of(variant, toml), small_surroundings(), executor);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::usage);
-    return e.what();
-  }
-  return "accepted";
+  return usage_error([&] { Windshield(config_of(variant, toml), small_surroundings(), executor); });
 }
 TEST(BadScene, IsRefusedByKey) {
   EXPECT_NE(refusal("corrected", "[windshield]\ncorner_2 = [1.9, 0.0, 1.0]\n").find("windshield.corner_"), std::string::npos);
