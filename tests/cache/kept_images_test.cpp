@@ -14,7 +14,7 @@
 #include "base/temporary_folder.h"
 #include "cache/program.h"
 #include "image/flipped.h"
-#include "image/same.h"
+#include "image/images.h"
 
 namespace rainref::cache {
 namespace {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "cli/support.h"
+#include "image/images.h"
 #include "image_io/tiny_files.h"
 
 namespace rainref::cli {
@@ -29,16 +30,8 @@ inline void put_npy(const std::filesystem::path& path, int width, int height, in
 }
 /// The same as an image of rgba32f or, of codes, rgba8; a single channel in red, green and blue.
 inline Image image_of(Format format, int width, int height, const std::function<float(int, int, int)>& value) {
-  Image image(format, width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int i = 0; i < 4 * width; ++i) {
-      if (format == Format::rgba8)
-        image.row<std::uint8_t>(y)[i] = static_cast<std::uint8_t>(value(i / 4, y, i % 4));
-      else
-        image.row<float>(y)[i] = value(i / 4, y, i % 4);
-    }
-  }
-  return image;
+  if (format != Format::rgba8) return make_image(format, width, height, value);
+  return make_image(format, width, height, [&](int x, int y, int c) { return static_cast<std::uint8_t>(value(x, y, c)); });
 }
 
 /// What is true of a scene file whose scene.image (colour.png, 24x16) and, where it has one, scene.depth_image (depth.exr) may be

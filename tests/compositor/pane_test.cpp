@@ -10,6 +10,7 @@
 #include "compositor/pane_scene.h"
 #include "compositor/shading_support.h"
 #include "compositor/straight_path.h"
+#include "image/images.h"
 #include "rainref/error.h"
 
 namespace rainref::compositor {
@@ -48,11 +49,8 @@ PaneMedia of_index(double n) {
 /// Heights in millimetres by a function of the texel's centre (u, v).
 template <class Height>
 Image heights(int width, int height, const Height& of) {
-  Image image(Format::r32f, width, height);
-  for (int j = 0; j < height; ++j) {
-    for (int i = 0; i < width; ++i) image.row<float>(j)[i] = static_cast<float>(of((i + 0.5) / width, (j + 0.5) / height));
-  }
-  return image;
+  return make_image(Format::r32f, width, height,
+                    [&](int i, int j, int) { return static_cast<float>(of((i + 0.5) / width, (j + 0.5) / height)); });
 }
 double distance_to_line(const Vec& point, const Vec& on_line, const Vec& direction) {
   const Vec c = cross(point - on_line, direction);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "drops/splat_support.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "math/simd_target.h"
 
 namespace rainref::drops {

@@ -4,7 +4,7 @@
 
 #include "base/temporary_folder.h"
 #include "cache/kept_images.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "night_street/night_street.h"
 
 namespace rainref::night_street {

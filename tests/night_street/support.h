@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/hash.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "night_street/night_street.h"
 #include "rainref/image.h"
 

@@ -9,6 +9,7 @@
 #include "capture/capture_recorder.h"
 #include "capture/check_case.h"
 #include "image/footprint.h"
+#include "image/images.h"
 #include "image/texture.h"
 #include "math/simd_target.h"
 #include "pass/frost.pass.h"
@@ -35,20 +36,16 @@ using testing::ElementsAre;
 
 template <class Storage>
 Image noise(Format format, int width, int height, unsigned seed) {
-  Image image(format, width, height);
   std::mt19937 words(seed);
-  for (int y = 0; y < height; ++y) {
-    for (int i = 0; i < width * image.channels(); ++i) {
-      const float value = static_cast<float>(words() >> 8) * 0x1p-24f;
-      if constexpr (std::is_same_v<Storage, Half>)
-        image.row<Half>(y)[i] = to_half(value);
-      else if constexpr (std::is_same_v<Storage, Unorm8>)
-        image.row<Unorm8>(y)[i] = to_unorm8(value);
-      else
-        image.row<float>(y)[i] = value;
-    }
-  }
-  return image;
+  return make_image(format, width, height, [&](int, int, int) {
+    const float value = static_cast<float>(words() >> 8) * 0x1p-24f;
+    if constexpr (std::is_same_v<Storage, Half>)
+      return to_half(value);
+    else if constexpr (std::is_same_v<Storage, Unorm8>)
+      return to_unorm8(value);
+    else
+      return value;
+  });
 }
 
 /// A pane of frost and its two passes.

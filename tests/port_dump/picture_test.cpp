@@ -2,7 +2,7 @@
 #include <bit>
 #include <limits>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "image_io/evidence.h"
 #include "image_io/write.h"
 #include "port_dump/support.h"
@@ -108,8 +108,8 @@ TEST(ExrDump, RowsAsInTheFile) {
 }
 
 TEST(ExrDump, OurOwnWriter) {
-  const Image in = image_io::make_image(Format::rgba16f, 33, 17,
-                                        [](int x, int y, int c) { return Half{static_cast<std::uint16_t>(1000 * y + 10 * x + c)}; });
+  const Image in =
+      make_image(Format::rgba16f, 33, 17, [](int x, int y, int c) { return Half{static_cast<std::uint16_t>(1000 * y + 10 * x + c)}; });
   Dump dump;
   image_io::write_exr(dump.path() / "out.b.exr", {{"", {"R", "G", "B", "A"}, &in}});
   EXPECT_EQ(dump.level(image(Format::rgba16f, 33, 17)), bytes_of(in));
@@ -207,8 +207,8 @@ TEST(PngDump, ColourChunksConvertNothing) {
 }
 
 TEST(PngDump, OurOwnWriter) {
-  const Image in = image_io::make_image(Format::rgba8_srgb, 9, 5,
-                                        [](int x, int y, int c) { return Unorm8{static_cast<std::uint8_t>(50 * y + 5 * x + c)}; });
+  const Image in =
+      make_image(Format::rgba8_srgb, 9, 5, [](int x, int y, int c) { return Unorm8{static_cast<std::uint8_t>(50 * y + 5 * x + c)}; });
   Dump dump;
   image_io::write_png(dump.path() / "out.b.png", in, image_io::PngChannels::rgba);
   EXPECT_EQ(dump.level(image(Format::rgba8_srgb, 9, 5)), bytes_of(in));

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "puddle/scene_support.h"
 
 namespace rainref::puddle::test {

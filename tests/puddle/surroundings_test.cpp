@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "night_street/night_street.h"
 #include "puddle/instance.h"
 #include "puddle/scene_support.h"

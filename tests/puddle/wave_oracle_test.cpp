@@ -1,7 +1,7 @@
 // The scalar evaluations against the reference: every other test of waves rests on them.
 #include <cstring>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "math/simd_target.h"
 #include "puddle/support.h"
 

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
 #include "drops/physics.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "screen_drops/flow.h"
 
 namespace rainref::screen_drops::test {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "image/colour.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "rainref/error.h"
 #include "rainref/simulation.h"
 #include "scene/toml.h"
@@ -25,11 +25,7 @@ const parallel::Executor& executor() {
 }
 int code(const Image& image, int x, int y, int c = 0) { return image.row<Unorm8>(y)[4 * x + c].code; }
 Image radiance(int width, int height, const std::function<float(int x, int y)>& of) {
-  Image image(Format::rgba32f, width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 4; ++c) image.row<float>(y)[4 * x + c] = of(x, y);
-  return image;
+  return make_image(Format::rgba32f, width, height, [&](int x, int y, int) { return of(x, y); });
 }
 double sum(const LightImage& image) {
   double all = 0;

@@ -9,7 +9,7 @@
 
 #include "base/error_of.h"
 #include "capture/hashing.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
 #include "simulation/small_scenes.h"

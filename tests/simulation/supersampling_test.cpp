@@ -8,7 +8,7 @@
 
 #include "base/error_of.h"
 #include "image/colour.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "rainref/simulation.h"
 #include "simulation/small_scenes.h"
 
@@ -22,9 +22,7 @@ const parallel::Executor& executor() {
   return two;
 }
 Image filled(int width, int height, int code) {
-  Image image(Format::rgba8, width, height);
-  for (int y = 0; y < height; ++y) std::memset(image.row<Unorm8>(y), code, static_cast<std::size_t>(4 * width));
-  return image;
+  return make_image(Format::rgba8, width, height, [=](int, int, int) { return static_cast<std::uint8_t>(code); });
 }
 int red(const Image& image, int x, int y) { return image.row<Unorm8>(y)[4 * x].code; }
 int nearest_code(double light) { return static_cast<int>(255 * encode_srgb(light) + 0.5); }
@@ -81,10 +79,9 @@ TEST(Supersampling, BeyondAnEdgeItsSamplesRepeat) {
 }
 
 TEST(Supersampling, SameBitsForAnyThreads) {
-  Image noise(Format::rgba8, 2 * 37, 2 * 29);
-  for (int y = 0; y < noise.height(); ++y)
-    for (int x = 0; x < 4 * noise.width(); ++x)
-      noise.row<Unorm8>(y)[x].code = static_cast<std::uint8_t>((x * 2654435761u + y * 40503u) >> 13);
+  const Image noise = make_image(Format::rgba8, 2 * 37, 2 * 29, [](int x, int y, int c) {
+    return static_cast<std::uint8_t>((static_cast<unsigned>(4 * x + c) * 2654435761u + static_cast<unsigned>(y) * 40503u) >> 13);
+  });
   const Image expected = tent_mean(noise, 2, parallel::Executor(1));
   for (const int threads : {2, 3, 8}) {
     parallel::Executor several(threads);

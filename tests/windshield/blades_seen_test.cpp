@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "image/flipped.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "rainref/windshield.h"
 #include "simulation/small_scenes.h"

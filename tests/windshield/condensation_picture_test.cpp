@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/surface/condensation.h"

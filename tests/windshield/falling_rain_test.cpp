@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "pass/run.h"
 #include "rain/rain.h"
@@ -152,11 +152,8 @@ TEST(FallingRain, TooManyAreRefused) {
 
 /// The pass on level light `before`, everything in the street `depth` metres away.
 Image drawn(const std::vector<Streak>& streaks, double depth, float before = 0.25f, int tile = 16) {
-  Image image(Format::rgba16f, 64, 48), far(Format::r32f, 64, 48);
-  for (int y = 0; y < 48; ++y) {
-    std::fill_n(far.row<float>(y), 64, static_cast<float>(depth));
-    std::fill_n(image.row<Half>(y), 4 * 64, to_half(before));
-  }
+  Image image = make_image(Format::rgba16f, 64, 48, [=](int, int, int) { return to_half(before); });
+  const Image far = make_image(Format::r32f, 64, 48, [=](int, int, int) { return static_cast<float>(depth); });
   pass::HostIo<FallingRainPass> io;
   io.blurred = image;
   io.scene_depth = far;

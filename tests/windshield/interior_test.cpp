@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "windshield/golden_scenes.h"
@@ -140,10 +140,8 @@ struct Texel {
   }
 };
 Image any_picture(int columns, int seed) {
-  Image image(Format::rgba16f, columns, 9);
-  for (int y = 0; y < 9; ++y)
-    for (int x = 0; x < 4 * columns; ++x) image.row<Half>(y)[x] = to_half(static_cast<float>((x * 37 + y * 101 + seed) % 97) / 96.0f);
-  return image;
+  return make_image(Format::rgba16f, columns, 9,
+                    [=](int x, int y, int c) { return to_half(static_cast<float>(((4 * x + c) * 37 + y * 101 + seed) % 97) / 96.0f); });
 }
 TEST(Interior, EveryTargetThreadCountAndWidthGivesThePlainBits) {
   InteriorSettings s;

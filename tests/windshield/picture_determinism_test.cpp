@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "blur_pyramid/blur_pyramid.h"
-#include "image/same.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "math/unorm.h"
@@ -26,18 +26,15 @@ using F = scalar::Scalar<float>;
 /// Values in [0, 1] with structure, as they are stored and as the scalar evaluation takes them.
 template <class Stored>
 Image pattern(Format format, int width, int height, float scale = 1) {
-  Image image(format, width, height);
   std::size_t i = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width * image.channels(); ++x, ++i) {
-      const float value = scale * static_cast<float>((i * 7919 + 31 * (i / 5)) % 257) / 256;
-      if constexpr (std::is_same_v<Stored, Half>)
-        image.row<Half>(y)[x] = to_half(value);
-      else
-        image.row<float>(y)[x] = value;
-    }
-  }
-  return image;
+  return make_image(format, width, height, [&](int, int, int) {
+    const float value = scale * static_cast<float>((i * 7919 + 31 * (i / 5)) % 257) / 256;
+    ++i;
+    if constexpr (std::is_same_v<Stored, Half>)
+      return to_half(value);
+    else
+      return value;
+  });
 }
 TextureData decoded(const Image& image) { return {image, Address::clamp, Address::clamp}; }
 

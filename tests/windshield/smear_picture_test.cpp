@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "pass/same_as_definition.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "image/same.h"
+#include "image/images.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "golden/golden_check.h"

@@ -1,4 +1,4 @@
-// The bytes of an image, and whether two images are the same: what tests of equal bits compare.
+// Images of tests: made by a function of the texel, taken as bytes, compared.
 #pragma once
 
 #include <string>
@@ -6,6 +6,19 @@
 #include "rainref/image.h"
 
 namespace rainref {
+
+/// An image filled by f(x, y, channel), which returns the storage type of one channel.
+template <class F>
+Image make_image(Format format, int width, int height, F&& f) {
+  Image image(format, width, height);
+  using T = decltype(f(0, 0, 0));
+  for (int y = 0; y < height; ++y) {
+    for (int i = 0; i < width * image.channels(); ++i) {
+      image.row<T>(y)[i] = f(i / image.channels(), y, i % image.channels());
+    }
+  }
+  return image;
+}
 
 /// The bytes of all texels, row after row, without what lies between rows.
 inline std::string bytes_of(const BufferView& image) {
