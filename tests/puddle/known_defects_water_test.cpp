@@ -166,11 +166,9 @@ TEST(PuddleKnownDefects, Defect17_PublishedWaterDependsOnTheFrameRate) {
   Settings s = corrected(1, 1);
   s.rain_rate = 100;
   s.smallest_drop = 0.5;
-  const auto slow = one_second(s, 30), normal = one_second(s, 60), fast = one_second(s, 120), odd = one_second(s, 50);
+  const auto normal = one_second(s, 60), odd = one_second(s, 50);  // other rates: WaveRate
   EXPECT_EQ(normal->steps(), 240);
   EXPECT_NE(bytes(*normal), std::string(bytes(*normal).size(), '\0')) << "it rains";
-  EXPECT_EQ(bytes(*slow), bytes(*normal));
-  EXPECT_EQ(bytes(*fast), bytes(*normal));
   EXPECT_EQ(bytes(*odd), bytes(*normal)) << "240 / 50 is not whole";
 }
 
