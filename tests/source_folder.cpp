@@ -1,3 +1,4 @@
+// Where the sources and the built packs lie, for every test program.
 #include "source_folder.h"
 
 namespace rainref::test {

@@ -4,17 +4,14 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 
+#include "base/shell.h"
 #include "base/temporary_folder.h"
 #include "capture/array.h"
 #include "capture/npy_write.h"
@@ -33,19 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a command prints, its errors with it, and how it ended.
-std::pair<std::string, int> output_of(const std::string& command) {
-  std::string out;
-  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-  return {out, ::pclose(pipe)};
-}
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 std::set<std::string> matches(const std::string& text, const char* pattern) {
   std::set<std::string> found;
   const std::regex regex(pattern);
@@ -109,10 +93,10 @@ TEST_F(CLibrary, ExportsWhatTheHeaderDeclaresAndNothingElse) {
   ASSERT_EQ(status, 0) << symbols;
   std::set<std::string> exported = matches(symbols, "(?:^|\n)([^ @\n]+)[^\n]*");
   exported.erase("RAINREF_0");  // the version
-  const std::set<std::string> declared = matches(text_of(test::source_folder() + "/include/rainref.h"), "\nRR_API [^(;]*?(rr_\\w+)\\(");
+  const std::set<std::string> declared = matches(contents(test::source_folder() + "/include/rainref.h"), "\nRR_API [^(;]*?(rr_\\w+)\\(");
   EXPECT_GT(declared.size(), 30u);
   EXPECT_EQ(exported, declared);
-  EXPECT_EQ(matches(text_of(test::source_folder() + "/tests/c_library/client.h"), "X\\((rr_\\w+)\\)"), declared);
+  EXPECT_EQ(matches(contents(test::source_folder() + "/tests/c_library/client.h"), "X\\((rr_\\w+)\\)"), declared);
 }
 TEST_F(CLibrary, HasAVersionedName) {
   const auto [dynamic, status] = output_of("readelf -d " RAINREF_C_LIBRARY);
@@ -126,7 +110,7 @@ TEST_F(CLibrary, TheDocumentsCSharpShowsTheWave) {
   GTEST_SKIP() << "Mono is not built with a sanitizer";
 #endif
   if (output_of("mcs --version && mono --version").second != 0) GTEST_SKIP() << "no Mono here (Debian: mono-mcs)";
-  const std::string document = text_of(fs::path(test::source_folder()) / "docs/notes/other_languages.md"), fence = "```csharp\n";
+  const std::string document = contents(fs::path(test::source_folder()) / "docs/notes/other_languages.md"), fence = "```csharp\n";
   const auto block = [&](std::size_t at) {
     return document.substr(at + fence.size(), document.find("```", at + fence.size()) - at - fence.size());
   };
@@ -152,7 +136,7 @@ TEST_F(CLibrary, EveryFunctionThatMayFailGoesThroughOneDoor) {
   int checked = 0;
   const std::regex definition("\n(?:int|void) (rr_\\w+)\\([^{]*\\{\\s*([^\n]*)"), door("^(return )?call\\(.*|^return (open|report)\\(.*");
   for (const auto& entry : fs::directory_iterator(test::source_folder() + "/src/c_library")) {
-    const std::string text = text_of(entry.path());
+    const std::string text = contents(entry.path());
     for (std::sregex_iterator i(text.begin(), text.end(), definition), end; i != end; ++i, ++checked)
       EXPECT_TRUE(std::regex_match((*i)[2].str(), door)) << (*i)[1] << ": " << (*i)[2];
   }
@@ -273,7 +257,7 @@ TEST_F(CLibrary, JudgesAFolderAsTheCommandLineDoes) {
                             port.string(), cli(".json"), cli(".html"), cli(".xml"), cli(".txt")));
   ASSERT_EQ(WEXITSTATUS(status), 1) << text;
   for (const char* ending : {".txt", ".json", ".html", ".xml"}) {
-    std::string expected = text_of(cli(ending)), found = text_of((folder / "c").string() + ending);
+    std::string expected = contents(cli(ending)), found = contents((folder / "c").string() + ending);
     // The command line says how it was called.
     expected = std::regex_replace(expected, std::regex("\"command\": *\"[^\"]*\""), "\"command\": \"\"");
     found = std::regex_replace(found, std::regex("\"command\": *\"[^\"]*\""), "\"command\": \"\"");

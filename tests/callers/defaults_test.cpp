@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "edge_splash/parameters.h"
+#include "image/images.h"
 #include "puddle/parameters.h"
 #include "rainref/edge_splash.h"
 #include "rainref/error.h"
@@ -21,9 +22,7 @@ namespace {
 
 /// An image of one value.
 Image filled(Format format, int width, int height, float value) {
-  Image image(format, width, height);
-  for (int y = 0; y < height; ++y) std::fill_n(image.row<float>(y), width * image.channels(), value);
-  return image;
+  return make_image(format, width, height, [=](int, int, int) { return value; });
 }
 /// Somewhere in the picture something is lit: code 0 all over would be a camera that sees nothing.
 void expect_lit(const Image& picture) {

@@ -1,6 +1,5 @@
 // OpenImageIO and its 250 libraries are loaded at the first picture, and found by programs from the build tree, by an installation that
 // was moved, and by other projects' programs.
-#include <array>
 #include <cstdlib>
 
 #include "cli/picture_files.h"
@@ -43,14 +42,6 @@ class Installation : public CommandLine {
             "--image", image,
             "--set",   "environment.image=sky.npy",
             "--set",   "puddle.ground_image=sky.npy"};
-  }
-  std::string output(const std::string& command) const {
-    std::string out;
-    std::FILE* pipe = ::popen(fmt::format("cd '{}' && {} 2>&1", folder.path().string(), command).c_str(), "r");
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-    EXPECT_EQ(::pclose(pipe), 0) << command << '\n' << out;
-    return out;
   }
   /// The program of an installation into one folder that then becomes another. All tests have links to the files of one, so that they
   /// may remove and replace them, but not write into them.
@@ -197,9 +188,14 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   };
   EXPECT_EQ(path_of("prefix"), folder / "moved");
   EXPECT_EQ(path_of("includedir"), folder / "moved/include");
-  output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR
-                     "/examples/cpp/film.cpp -o by_pkg_config $({} --cflags --libs rainref)",
-                     RAINREF_CXX_COMPILER, config));
+  // README.md's program, as it stands there.
+  const std::string readme = contents(RAINREF_SOURCE_DIR "/README.md"), include = "#include \"rainref/simulation.h\"\n";
+  const std::size_t program = readme.find("```cpp\n" + include);
+  ASSERT_NE(program, std::string::npos);
+  const std::size_t body = program + 7 + include.size();
+  put(folder / "readme.cpp", include + "int main() {\n" + readme.substr(body, readme.find("```", body) - body) + "}\n");
+  output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " readme.cpp -o by_pkg_config $({} --cflags --libs rainref)", RAINREF_CXX_COMPILER,
+                     config));
   put(folder / "named.cpp",
       "#include <cstdio>\n#include \"rainref/simulation.h\"\nint main() { std::puts(rainref::read_scene(\"puddle/default\").file.c_str()); "
       "}\n");
@@ -264,8 +260,7 @@ TEST_F(Installation, HasPlansThatFindTheirScenes) {
   put(folder / "puddle/analytic.toml", other);
   const auto made = [&] {
     std::filesystem::remove_all(folder / "out");
-    const Outcome o = rainref({"sweep", "run", "plans/a.toml"}, c);
-    EXPECT_EQ(o.code, 0) << o.err;
+    expect(rainref({"sweep", "run", "plans/a.toml"}, c), 0);
     std::string effects;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "out"))
       if (entry.path().filename() == "cell.json") effects += contents(entry.path());

@@ -1,6 +1,5 @@
 // `rainref describe --layout`, compiled in each language: the offsets that the compiler gives the members find the
 // values that the small packs' manifests name in the packs' uniform bytes.
-#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -24,7 +23,7 @@ struct Offsets {
 
 bool is_there(const char* tool) { return std::system(fmt::format("command -v {} > /dev/null 2>&1", tool).c_str()) == 0; }
 
-class Layout : public testing::TestWithParam<std::string> {
+class Layout : public CommandLine, public testing::WithParamInterface<std::string> {
  protected:
   Layout() {
     for (const rainref::test::PackPasses& p : rainref::test::packs_of(GetParam(), rainref::test::proven_packs())) {
@@ -41,27 +40,13 @@ class Layout : public testing::TestWithParam<std::string> {
   }
 
   std::string described(const std::string& language, const std::vector<std::string>& more = {}) const {
-    Circumstances c;
-    c.is_copy = true;
-    std::vector<std::string> words{"describe", GetParam(), "--layout", language};
-    words.insert(words.end(), more.begin(), more.end());
-    const Outcome o = run_rainref(folder.path(), words, c);
-    EXPECT_EQ(o.code, 0) << o.err;
-    return o.out;
+    return good(copied(joined({"describe", GetParam(), "--layout", language}, more))).out;
   }
   /// The text of one block or record: from its own comment to the next empty line.
   static std::string section(const std::string& text, const std::string& name) {
     const std::size_t begin = text.find(fmt::format("// {}: ", name));
     EXPECT_NE(begin, std::string::npos) << name;
     return begin == std::string::npos ? "" : text.substr(begin, text.find("\n\n", begin) - begin + 1);
-  }
-  std::string output(const std::string& command) const {
-    std::string out;
-    std::FILE* pipe = ::popen(fmt::format("cd {} && {} 2>&1", folder.path().string(), command).c_str(), "r");
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-    EXPECT_EQ(::pclose(pipe), 0) << command << '\n' << out;
-    return out;
   }
   /// Blocks of the passes and records of the packs, by name.
   std::map<std::string, ordered_json> layouts(bool records) const {
@@ -163,7 +148,6 @@ class Layout : public testing::TestWithParam<std::string> {
     return out;
   }
 
-  TemporaryFolder folder;
   std::vector<std::pair<std::filesystem::path, ordered_json>> packs;  ///< manifests of the passes that the proofs take of each
 };
 

@@ -20,15 +20,7 @@ using testing::StartsWith;
 
 class PackVerb : public CommandLine {
  protected:
-  Outcome pack(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "pack");
-    Circumstances c;
-    c.is_copy = true;
-    const Outcome o = rainref(arguments, c);
-    EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_EQ(o.err, "");
-    return o;
-  }
+  Outcome pack(const std::vector<std::string>& arguments) const { return good(copied(joined({"pack"}, arguments))); }
   capture::Pack read(const std::string& name) const { return capture::Pack(folder / name); }
   std::vector<std::string> ids(const std::string& name) const {
     std::vector<std::string> out;
@@ -208,11 +200,8 @@ TEST_F(PackVerb, AFullDiskLeavesNothing) {
 using RunCapture = PackVerb;
 
 TEST_F(RunCapture, HoldsTheBuffersOfTheFramesThatAreWritten) {
-  Circumstances c;
-  c.is_copy = true;
-  Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--frames", "5", "--every", "2", "--capture", "all"}, c);
-  EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_THAT(o.out, EndsWith(", 3 pictures, capture/ and summary.json in o\n"));
+  expect(copied({"run", "corrected.toml", "-o", "o", "--frames", "5", "--every", "2", "--capture", "all"}), 0,
+         EndsWith(", 3 pictures, capture/ and summary.json in o\n"));
   pack({"corrected.toml", "-o", "p", "--at", "0,2,4", "--set", "run.frames=5"});
   // A capture is a pack, but that nobody counts what it exercises.
   std::map<std::string, std::string> packed = files("p");
@@ -222,8 +211,7 @@ TEST_F(RunCapture, HoldsTheBuffersOfTheFramesThatAreWritten) {
   EXPECT_EQ(files("o/capture"), packed);
 
   // The older run is replaced, its capture with it.
-  o = rainref({"run", "corrected.toml", "-o", "o", "--overwrite", "--capture", "passes"}, c);
-  EXPECT_EQ(o.code, 0) << o.err;
+  expect(copied({"run", "corrected.toml", "-o", "o", "--overwrite", "--capture", "passes"}), 0);
   const capture::Pack outputs = read("o/capture");
   EXPECT_FALSE(outputs.with_inputs);
   EXPECT_THAT(hash_lines(outputs), testing::IsSubsetOf(hash({"corrected.toml"})));

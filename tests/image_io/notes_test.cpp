@@ -13,6 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 std::string text_of(const std::vector<std::byte>& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
@@ -48,16 +49,10 @@ TEST(PngText, IsFoundByItsWholeKeyword) {
 TEST(PngText, DamagedIsSaidAndNotTaken) {
   std::string file = text_of(with_png_text(bytes_of(plain), {{"scene", "rate = 4"}}));
   file[file.find("rate = 4") + 7] = '5';
-  const auto error = error_of([&] { find_note("'a.png'", bytes_of(file), "scene"); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::usage);
-  EXPECT_STREQ(error->what(), "'a.png': damaged: the checksum of its text 'scene' is wrong");
-  for (std::size_t size = 0; size < file.size(); ++size) {  // cut anywhere: nothing, or that error
-    const auto cut = error_of([&] { find_note("f", bytes_of(file).first(size), "scene"); });
-    if (cut) {
-      EXPECT_EQ(cut->code(), ExitCode::usage) << size;
-    }
-  }
+  EXPECT_EQ(error_of([&] { find_note("'a.png'", bytes_of(file), "scene"); }),
+            "2 'a.png': damaged: the checksum of its text 'scene' is wrong");
+  for (std::size_t size = 0; size < file.size(); ++size)  // cut anywhere: nothing, or that error
+    EXPECT_THAT(error_of([&] { find_note("f", bytes_of(file).first(size), "scene"); }), testing::AnyOf("none", StartsWith("2 "))) << size;
 }
 
 // RFC 1952, 8: the CRC of "123456789" in this polynomial.
@@ -97,9 +92,7 @@ TEST(Notes, OtherBytesHaveNone) {
     EXPECT_FALSE(may_have_notes(bytes_of(bytes)));
   }
   const std::string cut = "\x76\x2f\x31\x01" + little(2) + "name";
-  const auto error = error_of([&] { find_note("'a.exr'", bytes_of(cut), "k"); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::usage);
+  EXPECT_THAT(error_of([&] { find_note("'a.exr'", bytes_of(cut), "k"); }), StartsWith("2 "));
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 // One rounding of half stores for a whole port: how it is found, and what is said of a pass that has another.
 #include "judge/half_votes.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <gmock/gmock.h>
 
@@ -97,17 +95,15 @@ TEST(HalfVotes, WhatTheProfileAsksForIsSaid) {
 }
 
 // ---- whole ports ---------------------------------------------------------------------------------------------------
-PortJudgement judged(const char* stores_only) {
+PortJudgement truncating(const char* stores_only) {
   MiniPort port("windshield-corrected");
   port.stores = HalfMode::rtz;
   port.stores_only = stores_only;
-  TemporaryFolder folder;
-  port.run(folder.path());
-  return judge(port.pack, folder.path());
+  return judged(port);
 }
 
 TEST(PortRounding, TwoPassesThatDifferAreAWarning) {
-  const PortJudgement j = judged("normals");
+  const PortJudgement j = truncating("normals");
   EXPECT_EQ(j.status, Status::warn) << why(j);
   const PassJudgement& odd = pass_of(j, "normals");
   EXPECT_EQ(odd.status, Status::warn) << why(j);
@@ -119,7 +115,7 @@ TEST(PortRounding, TwoPassesThatDifferAreAWarning) {
   }
 }
 TEST(PortRounding, APortThatTruncatesThroughoutPasses) {
-  const PortJudgement j = judged("");
+  const PortJudgement j = truncating("");
   EXPECT_EQ(j.status, Status::pass) << why(j);
   for (const char* pass : {"normals", "composite"}) EXPECT_EQ(pass_of(j, pass).half_mode, HalfMode::rtz) << pass;
 }
@@ -136,15 +132,9 @@ TEST(HalfVotes, OthersAreAskedWhereAPassFailsEitherWayAndNoneTells) {
 TEST(HalfVotes, OnePassAloneIsJudgedByTheRoundingOfTheWholePort) {
   MiniPort port("windshield-as-published");
   port.stores = HalfMode::rtz;
-  const scene::UniformBlock& block = port.pack.pass("wipe_texture").block;
-  const auto keep = std::find_if(block.members.begin(), block.members.end(), [](const scene::Member& m) { return m.name == "keep"; });
-  ASSERT_NE(keep, block.members.end());
+  const std::size_t keep = uniform_offset(port.pack, "wipe_texture", "keep");
   port.before = [&](capture::PassCase& c) {
-    if (c.pass != "wipe_texture") return;
-    float v;
-    std::memcpy(&v, c.uniforms.data() + keep->offset, 4);
-    v = std::sqrt(v);
-    std::memcpy(c.uniforms.data() + keep->offset, &v, 4);
+    if (c.pass == "wipe_texture") change_at<float>(c.uniforms.data() + keep, [](float v) { return std::sqrt(v); });
   };
   TemporaryFolder folder;
   port.run(folder.path());

@@ -22,14 +22,11 @@ class PlacedList : public testing::Test {
   MiniPort port{"puddle-as-published"};
 
   PassJudgement judged(const std::string& profile = "vulkan") {
-    const TemporaryFolder folder;
-    port.run(folder.path());
     ValidateOptions options;
     options.profile = profile;
     options.only = {"raindrops"};
-    options.executor = &test_executor();
     options.explain = faults::diagnose;
-    return pass_of(validate(port.pack, folder.path(), options), "raindrops");
+    return pass_of(judge::judged(port, options), "raindrops");
   }
   /// A change of the port's drops in every case.
   void change(const std::function<void(Array&)>& how) {
@@ -97,18 +94,8 @@ TEST_F(PlacedList, AnotherNumberOfRecordsIsRefused) {
       a.width += by;
       a.levels[0].resize(16 * static_cast<std::size_t>(a.width));
     });
-    const TemporaryFolder folder;
-    port.run(folder.path());
-    ValidateOptions options;
-    options.only = {"raindrops"};
-    options.executor = &test_executor();
-    try {
-      validate(port.pack, folder.path(), options);
-      ADD_FAILURE() << "accepted";
-    } catch (const Error& e) {
-      EXPECT_EQ(e.code(), ExitCode::port_files);
-      EXPECT_THAT(e.what(), AllOf(HasSubstr("out.drops"), HasSubstr("expected 10 records"), HasSubstr(by < 0 ? "found 9" : "found 11")));
-    }
+    EXPECT_THAT(error_of([&] { judged(); }), AllOf(testing::StartsWith("3 "), HasSubstr("out.drops"), HasSubstr("expected 10 records"),
+                                                   HasSubstr(by < 0 ? "found 9" : "found 11")));
   }
 }
 

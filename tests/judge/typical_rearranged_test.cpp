@@ -58,9 +58,7 @@ PassJudgement judged(const std::string& profile) {
       }
     }
   };
-  TemporaryFolder folder;
-  port.run(folder.path());
-  return pass_of(judge(port.pack, folder.path(), profile), "wipe_texture");
+  return pass_of(judge::judged(port, profile), "wipe_texture");
 }
 
 std::int64_t atypical(const PassJudgement& pass) {

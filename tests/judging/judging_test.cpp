@@ -28,10 +28,6 @@ struct Judging : testing::Test {
   void take(const std::vector<std::string>& passes, int frames = 2) {
     for (int f = 0; f < frames; ++f) cases.add_next_frame(sim, passes);
   }
-  std::size_t index_of(const std::string& pass, std::size_t from = 0) const {
-    while (cases.info(from).pass != pass) ++from;
-    return from;
-  }
   void give_all(const std::function<void(const CaseInfo&, const std::string&, std::vector<std::byte>&)>& alter) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const CaseInfo about = cases.info(i);

@@ -1,8 +1,8 @@
 // Where the puddle's ground ends and the surroundings' own begins, and from where the street is seen.
-#include <cstring>
 
 #include <gtest/gtest.h>
 
+#include "image/images.h"
 #include "puddle/instance.h"
 #include "puddle/scene_support.h"
 #include "scene/test_card.h"
@@ -58,12 +58,7 @@ std::unique_ptr<effect::Instance> opened(const std::string& variant, std::vector
   return entry().open(config_of(variant, overrides), executor(), inputs);
 }
 bool is_seen_from(const std::unique_ptr<effect::Instance>& puddle, const scene::Vector3& eye) {
-  const Image& image = static_cast<const Instance&>(*puddle).surroundings().environment;
-  const Image expected = scene::TestCard().panorama(64, 32, eye, executor());
-  if (image.width() != 64 || image.height() != 32) return false;
-  for (int y = 0; y < 32; ++y)
-    if (std::memcmp(image.row<float>(y), expected.row<float>(y), 64 * 4 * sizeof(float)) != 0) return false;
-  return true;
+  return same(static_cast<const Instance&>(*puddle).surroundings().environment, scene::TestCard().panorama(64, 32, eye, executor()));
 }
 
 TEST(PuddleSurroundings, StreetIsSeenFromTheCamera) {

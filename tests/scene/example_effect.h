@@ -1,7 +1,6 @@
 // An effect with a parameter of each type, for the tests of this room.
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>

@@ -1,3 +1,4 @@
+// A uniform block takes offsets from its struct; what some language would lay out otherwise is refused.
 #include "scene/uniform_block.h"
 
 #include <array>

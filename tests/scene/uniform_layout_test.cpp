@@ -1,15 +1,13 @@
+// Layouts are printed in each language, and compiled they have the offsets of the block.
 #include "scene/uniform_layout.h"
 
-#include <unistd.h>
-
 #include <array>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "base/shell.h"
+#include "base/temporary_folder.h"
 #include "scene/example_effect.h"
 
 namespace rainref::scene {
@@ -74,23 +72,13 @@ UniformBlock drop() {
 
 class LayoutFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / ("rainref_layout_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void write(const std::string& name, const std::string& text) const { put(folder_ / name, text); }
   // The output of a shell command, which must succeed.
-  std::string output(const std::string& command) const {
-    std::string out;
-    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) return "cannot start " + command;
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-    EXPECT_EQ(pclose(pipe), 0) << command << "\n" << out;
-    return out;
+  static std::string output(const std::string& command) {
+    const auto [text, status] = output_of(command);
+    EXPECT_EQ(status, 0) << command << "\n" << text;
+    return text;
   }
   // "name offset" lines and "size N", as this C or C++ compiler lays the structs out.
   std::string offsets(const std::string& compiler, const std::string& file, const std::string& source) const {
@@ -114,7 +102,7 @@ class LayoutFile : public testing::Test {
     return out;
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(LayoutFile, CompiledCHasTheOffsetsOfTheBlock) {

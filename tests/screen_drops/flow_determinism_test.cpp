@@ -14,7 +14,7 @@ std::string run(const FlowSettings& settings, const parallel::Executor& executor
   std::string all;
   for (int n = 0; n < 12; ++n) {
     flow.simulate();
-    all += bytes_of(flow.height(), 2) + bytes_of(flow.film(), 4) + bytes_of(flow.drops());
+    all += bytes_of(flow.height()) + bytes_of(flow.film()) + bytes_of(flow.drops());
   }
   const drops::MassBalance& balance = flow.mass_balance();
   return all + std::string(reinterpret_cast<const char*>(&balance), sizeof balance);

@@ -1,7 +1,6 @@
 // The executor without threads: this program is linked with src/parallel/pool_serial.cpp in place of oneTBB's.
 #include <gtest/gtest.h>
 
-#include <string>
 #include <thread>
 #include <vector>
 

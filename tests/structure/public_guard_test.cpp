@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -10,16 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "base/temporary_folder.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 const fs::path root = RAINREF_SOURCE_DIR;
 
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return std::regex_replace(text.str(), std::regex("//[^\n]*"), "");
-}
+std::string text_of(const fs::path& file) { return std::regex_replace(rainref::contents(file), std::regex("//[^\n]*"), ""); }
 
 /// Functions that need no guard: they move, compare and print integers, texts and bytes only.
 const std::set<std::string> computes_nothing{"version",

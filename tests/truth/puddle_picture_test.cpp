@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compositor/embree_isas.h"
+#include "image/images.h"
 #include "truth/golden_scenes.h"
 #include "truth/puddle_scene.h"
 #include "golden/recorded.h"
@@ -43,9 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Compositor, Golden, ::testing::ValuesIn(golden_scenes()
                          [](const auto& scene) { return std::regex_replace(scene.param.name, std::regex("[^a-z]"), "_"); });
 
 Image uniform(int width, int height, float value) {
-  Image image(Format::rgba32f, width, height);
-  for (int y = 0; y < height; ++y) std::fill_n(image.row<float>(y), 4 * width, value);
-  return image;
+  return make_image(Format::rgba32f, width, height, [=](int, int, int) { return value; });
 }
 
 /// Level water of constant depth, clear, over white ground, in white surroundings.

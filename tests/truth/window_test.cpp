@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "image/images.h"
 #include "truth/rainy_glass_view.h"
 #include "truth/screen_drops_view.h"
 #include "compositor/shading_support.h"
@@ -42,10 +43,8 @@ struct Window {
     s.defocus = 0;
   }
   void fill() {
-    in.colour = Image(Format::rgba32f, s.width, s.height);
-    for (int y = 0; y < s.height; ++y) {
-      for (int i = 0; i < 4 * s.width; ++i) in.colour.row<float>(y)[i] = static_cast<float>(0.05 + 0.01 * ((i * 7 + y * 13) % 97));
-    }
+    in.colour = make_image(Format::rgba32f, s.width, s.height,
+                           [](int x, int y, int c) { return static_cast<float>(0.05 + 0.01 * (((4 * x + c) * 7 + y * 13) % 97)); });
   }
   Comparison truth(double thickness) {
     fill();

@@ -1,8 +1,6 @@
 // Rain, wipers and wind over time.
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
 #include "drops/uniforms.h"
 #include "rain/rain.h"
 #include "windshield/golden_scenes.h"

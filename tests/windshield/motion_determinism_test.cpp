@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstring>
 
+#include "image/images.h"
 #include "math/simd_target.h"
 #include "windshield/motion/kernels.h"
 #include "windshield/scalar.h"
@@ -43,11 +43,7 @@ Step step(bool corrected, int columns, int rows, double t = 0.3, double dt = 0.5
   return out;
 }
 Image film_of(int columns, int rows) {
-  Image film(Format::r32f, columns, rows);
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) film.row<float>(y)[x] = static_cast<float>((31 * x + 17 * y) % 1000);
-  }
-  return film;
+  return make_image(Format::r32f, columns, rows, [](int x, int y, int) { return static_cast<float>((31 * x + 17 * y) % 1000); });
 }
 
 void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows, const parallel::Executor& executor) {

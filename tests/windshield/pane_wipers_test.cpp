@@ -5,8 +5,6 @@
 #include <set>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "windshield/golden_scenes.h"
 #include "windshield/parameters.h"
 #include "windshield/sweep_geometry.h"

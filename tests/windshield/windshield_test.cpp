@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
+#include "image/images.h"
 #include "rainref/error.h"
 #include "scene/test_card.h"
 #include "windshield/golden_scenes.h"
@@ -90,12 +90,6 @@ Surroundings other_surroundings() {
   }
   return to;
 }
-bool same(const Image& a, const Image& b) {
-  const std::size_t bytes = static_cast<std::size_t>(a.width()) * static_cast<std::size_t>(info(a.format()).texel_bytes());
-  for (int y = 0; y < a.height(); ++y)
-    if (std::memcmp(a.row_bytes(y), b.row_bytes(y), bytes) != 0) return false;
-  return true;
-}
 // From the next render on it is as if it had been made with these pictures, and nothing else changes.
 TEST(Show, OtherPicturesAreSeenFromTheNextRenderOn) {
   const parallel::Executor executor(1);
@@ -147,13 +141,7 @@ TEST(Show, RefusesWhatItCannotShow) {
 
 std::string refusal(const std::string& variant, const std::string& toml) {
   const parallel::Executor executor(1);
-  try {
-    Windshield windshield(config_of(variant, toml), small_surroundings(), executor);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::usage);
-    return e.what();
-  }
-  return "accepted";
+  return usage_error([&] { Windshield(config_of(variant, toml), small_surroundings(), executor); });
 }
 TEST(BadScene, IsRefusedByKey) {
   EXPECT_NE(refusal("corrected", "[windshield]\ncorner_2 = [1.9, 0.0, 1.0]\n").find("windshield.corner_"), std::string::npos);
