@@ -3,7 +3,7 @@
 namespace rainref::effect {
 
 void add_pictures(RunMemory& m, bool png, bool exr) {
-  if (png) m.peak.pass(m.pixels() / m.samples * (4 + 3 + 4));
+  if (png) m.peak.pass(m.pixels() / m.samples * (4 + 3));
   if (exr) m.peak.pass(m.pixels() * (m.exr_images + m.exr_texel + m.exr_texel * 3 / 2));
 }
 
