@@ -69,14 +69,14 @@ int rr_judge_folder(const char* pack, const char* port, const rr_folder_options*
         options ? sized(options, "rr_folder_options") : rr_folder_options{sizeof o, nullptr, nullptr, 0, 0, 0, nullptr, nullptr, 0};
     judging::FolderOptions how;
     if (o.profile) how.profile = o.profile;
-    how.passes = c_library::texts(o.passes, o.pass_count, "rr_folder_options.passes");
+    how.only = c_library::texts(o.passes, o.pass_count, "rr_folder_options.passes");
     how.partial = o.partial != 0;
     how.strict = o.strict != 0;
     if (o.progress) how.progress = [&o](int done, int of) { go_on(o, done, of); };
     const parallel::Executor executor(o.threads);
-    *judgement =
-        std::make_unique<rr_judgement>(rr_judgement{judging::judge_folder(&required(pack, "pack"), &required(port, "port"), how, executor)})
-            .release();
+    how.executor = &executor;
+    const auto opened = std::make_shared<const capture::Pack>(&required(pack, "pack"));
+    *judgement = std::make_unique<rr_judgement>(rr_judgement{judging::judge_folder(opened, {&required(port, "port")}, how)}).release();
   });
 }
 void rr_free_judgement(rr_judgement* judgement) {

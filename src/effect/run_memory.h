@@ -27,7 +27,7 @@ inline bool is_named(const scene::Config& config, const char* key) { return !con
 
 /// Adds what writing of pictures takes after a frame. Files are taken to be compressed to half.
 inline void add_pictures(RunMemory& m, bool png, bool exr) {
-  if (png) m.peak.pass(m.pixels() / m.samples * (4 + 3 + 4));
+  if (png) m.peak.pass(m.pixels() / m.samples * (4 + 3));
   if (exr) m.peak.pass(m.pixels() * (m.exr_images + m.exr_texel + m.exr_texel * 3 / 2));
 }
 /// Adds the copies that a pack or a capture makes of what passes take and give.

@@ -41,7 +41,9 @@ struct Run {
 class Shadow {
  public:
   Shadow(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options)
-      : plan_(plan), files_(folder, plan.effect, plan.variant), options_(options) {
+      : plan_(plan),
+        files_(folder, plan.effect, plan.variant, options.buffers ? options.buffers : std::make_shared<ReadBuffers>()),
+        options_(options) {
     for (const PlannedRun& r : plan.runs) runs_.push_back({r.c.folder(), r.c.pass, r.c.frame, r.c.step, r.c.level, &r, &r, false});
     for (const DumpedRun& d : dumped) {
       const auto known = std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == d.id; });

@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"puddle_street", "puddle/default.toml", {"run.size=[640, 360]"}},
         Case{"puddle_as_published", "puddle/as_published.toml", {sky, ground, "run.size=[1280, 1280]"}},
         Case{"edge_splash", "edge_splash/default.toml", {"run.size=[704, 704]"}, "none", 0.2},
-        Case{"edge_splash_png", "edge_splash/default.toml", {"run.size=[512, 512]"}, "png", 0.1},
+        Case{"edge_splash_png", "edge_splash/default.toml", {"run.size=[704, 704]"}, "png", 0.2},
         Case{"edge_splash_as_published", "edge_splash/as_published.toml", {"run.size=[640, 640]"}, "none", 0.1},
         Case{"edge_splash_street", "edge_splash/street.toml", {"run.size=[512, 512]"}},
         Case{"screen_drops", "screen_drops/default.toml", {"run.size=[512, 512]"}},

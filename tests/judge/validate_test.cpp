@@ -2,6 +2,7 @@
 #include "judge/mini_port.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
+#include "reports/source.h"
 
 #include <cstring>
 #include <limits>
@@ -342,6 +343,25 @@ TEST_F(Files, OfAPartialPortPassesWithoutFilesAreNotJudged) {
   for (const char* pass : {"raindrops", "wave_step", "shade", "display"}) std::filesystem::remove_all(file(std::string("puddle.") + pass));
   EXPECT_THAT(error_of([&] { judged({}, true); }),
               AllOf(StartsWith("3 "), HasSubstr("expected folders such as puddle.raindrops/0011.0 with the port's outputs, found none")));
+}
+
+// Whoever looks again, for a port that does nothing or for the page's pictures, finds what was read.
+TEST_F(Files, EachIsReadOnce) {
+  ValidateOptions options;
+  options.executor = &test_executor();
+  options.buffers = std::make_shared<ReadBuffers>();
+  options.progress = [&](int done, int of) {
+    if (done < of) return;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+      if (entry.path().extension() == ".npy") put(entry.path(), "read again");
+  };
+  const PortJudgement j = validate(port.pack, folder.path(), options);
+  EXPECT_TRUE(j.files.empty()) << why(j);
+  EXPECT_EQ(pass_of(j, "display").status, Status::pass) << why(j);
+  const auto page = reports::page_source(std::make_shared<const capture::Pack>(port.pack.folder()), folder.path(), options.buffers);
+  const auto shown = page.read("puddle.display/0011.0", "picture");
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->port.levels.at(0).size(), std::size_t{35} * 21 * 4);
 }
 
 // A folder in the place of a file is the port's, as a missing file is.

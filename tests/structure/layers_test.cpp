@@ -45,7 +45,7 @@ struct Library {
 };
 const std::vector<Library> libraries{{"^(oneapi/)?tbb/", "parallel"},
                                      {"^hwy/", "math"},
-                                     {"^OpenImageIO/|^Imath/|^OpenEXR/|^png\\.h", "image_io"},
+                                     {"^OpenImageIO/|^Imath/|^OpenEXR/|^png\\.h|^zlib\\.h", "image_io"},
                                      {"^embree", "compositor"},
                                      {"^toml", "scene"},
                                      {"^CLI/", "cli"},
