@@ -2,7 +2,6 @@
 // of one plain float after another; and how far those are from doubles.
 #include <bit>
 
-#include "capture/hash_of_frames.h"
 #include "determinism.h"
 #include "edge_splash/info.h"
 #include "edge_splash/shapes.h"

@@ -35,7 +35,7 @@ TEST(MassBalance, IsZeroToTheUnit) {
 // As published counts drops.
 TEST(MassBalance, AsPublishedCountsDrops) {
   const parallel::Executor executor(1);
-  Windshield windshield(config_of("as-published", std::string(wet_drive) + "lifetime = 0.5\n"), small_surroundings(), executor);
+  Windshield windshield(config_of("as-published", fmt::format("{}lifetime = 0.5\n", wet_drive)), small_surroundings(), executor);
   for (int frame = 0; frame < 90; ++frame) {
     windshield.simulate();
     ASSERT_EQ(windshield.mass_balance().residual(), 0) << frame;
