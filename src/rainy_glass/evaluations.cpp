@@ -10,7 +10,7 @@
 #include "pass/model.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/scalar.h"
+#include "rainy_glass/rain_on_glass_text.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -19,17 +19,6 @@ using capture::BoundTexture;
 using capture::PassCase;
 using capture::PassModel;
 
-/// For every number but lanes: the inputs as the text takes them.
-struct RainOnGlassText {
-  template <class N, bool corrected, class Io>
-  static void run(const RainOnGlassUniforms& u, const Io& io, int x, int y) {
-    const Texture& scene = *io.scene.texture;
-    const float* c = scene.texels + 4 * (static_cast<std::ptrdiff_t>(y) * scene.width[0] + x);
-    const scalar::GlassMaps<Texture, Texture, Texture> maps{io.raindrops.texture, io.rivulets.texture, io.scene.texture,
-                                                            io.near_depth.texture, io.probe.texture};
-    scalar::give_glass<N, corrected>(u, io, scalar::Vec3<N>(N::load(c), N::load(c + 1), N::load(c + 2)), maps, x, y);
-  }
-};
 std::unique_ptr<PassModel> bind_rain_on_glass(const PassCase& c) {
   auto m = pass::bound<RainOnGlassPass, RainOnGlassText>(c);
   if (m.uniforms.use_probe != 0) capture::image_input(c, "probe");  // needed then
