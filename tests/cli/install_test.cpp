@@ -38,7 +38,7 @@ class Installation : public CommandLine {
   }
   static std::vector<std::string> run_of_arrays(const std::string& image) {
     return {"run",     "corrected.toml",
-            "-o",      "out",
+            "-o",      "out_" + image,
             "--image", image,
             "--set",   "environment.image=sky.npy",
             "--set",   "puddle.ground_image=sky.npy"};

@@ -39,7 +39,8 @@ class Truth : public CommandLine {
     more.insert(more.end(), {"--image", "none", "--set", "compositor.picture=traced"});
     run(scene, to, more);
     std::map<std::string, std::string> out;
-    for (const auto& line : summary(to)["last_frame"])
+    const nlohmann::json written = summary(to);  // a loop over a part of it would not keep it alive
+    for (const auto& line : written["last_frame"])
       if (line["pass"] == "compositor") out[line["buffer"]] = line["xxh3"];
     return out;
   }
