@@ -1,6 +1,7 @@
 // Judging every run of each pass that a port made, one run in memory at a time.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -49,6 +50,7 @@ using Explain = std::function<Explanation(const FailedRun&)>;
 
 struct PassRuns {
   std::size_t count = 0;
+  std::int64_t invocations = 0;  ///< of all runs together, which share a sample; 0: each has its own
   LoadRun load;
   SettleRun settle;
   std::function<void()> done_one;  ///< after each run; may be null
