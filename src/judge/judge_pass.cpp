@@ -142,14 +142,14 @@ std::vector<Cause> causes_of_warning(const PassTask& task, const PassJudgement& 
   return causes;
 }
 
-/// A port that does nothing and passes all of these runs; "": none.
+/// A port that does nothing and passes all of these runs, which were settled before; "": none.
 std::string null_port_of(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
   NullPorts ports;
   for (std::size_t k = 0; k < task.runs.count; ++k) {
     PortRun run = task.runs.load(k);
     if (!run.untested.empty()) continue;
-    const std::unique_ptr<PassModel> model = prepare(*task.pass, task.bind, task.runs, run);
-    ports.judge(run.c, model.get(), *options.profile, options.typical, judged.half_mode);
+    const std::unique_ptr<PassModel> model = bound(task.pass->name, task.bind, run.c);
+    ports.judge(run.c, model.get(), *options.profile, options.typical, judged.half_mode, *options.executor);
   }
   return ports.passing();
 }
@@ -174,7 +174,7 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
     } else {
       const JudgeOptions of_run = options_of_run(model.get(), runs, options);
       cases.push_back(judge_case(run.c, model.get(), run.stored, of_run));
-      if (coverage && runs.counts_coverage) coverage->add(coverage_of(run.c, model.get(), *options.executor));
+      if (coverage && runs.counts_coverage) coverage->add(coverage_of(run.c, model.get(), *options.executor, of_run.sample));
       for (CaseJudgement& j : cases.back().judgements) {
         if (run.broken.empty()) continue;
         j.status = Status::fail;

@@ -152,6 +152,7 @@ struct PassCoverage {
   /// Those not taken for which no reason is known: "shade.pass.h, shade_corrected: clamp 2, below".
   std::vector<std::string> never;
   std::map<std::string, std::string> reasons{};  ///< of the others not taken
+  bool is_sampled = false;                       ///< by a sample of the invocations: another one may take more
 };
 
 struct PassJudgement {

@@ -223,7 +223,7 @@ std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
 
 std::string coverage_text(const judge::PassCoverage& c, std::size_t shown) {
   if (c.alternatives == 0) return "";
-  std::string out = fmt::format("exercises {} of {} alternatives", c.taken, c.alternatives);
+  std::string out = fmt::format("exercises {} of {} alternatives{}", c.taken, c.alternatives, c.is_sampled ? " by a sample" : "");
   if (!c.reasons.empty()) out += fmt::format(", {} with a reason not", c.reasons.size());
   if (shown == 0) return c.never.empty() ? out : fmt::format("{}, {} without one", out, c.never.size());
   for (std::size_t k = 0; k < std::min(shown, c.never.size()); ++k) out += (k == 0 ? "; never: " : "; ") + c.never[k];

@@ -208,6 +208,7 @@ Json pass_json(const PassJudgement& p, const PageSource& source) {
              {"alternatives", p.coverage.alternatives},
              {"never", p.coverage.never},
              {"reasons", reasons_of(p.coverage)},
+             {"sampled", p.coverage.is_sampled},
              {"text", coverage_text(p.coverage, 0)}}},
            {"figures", figures_json(figures_of(p))},
            {"quantities", quantities_json(p)},
