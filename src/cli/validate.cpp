@@ -55,6 +55,7 @@ judging::FolderOptions folder_options(const ValidateRequest& request, const para
   options.foreign_host = request.foreign_host;
   options.executor = &executor;
   options.strict = request.strict;
+  if (request.exhaustive) options.sample = 0;
   options.seeks_causes = !request.no_causes;
   return options;
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "judge/sample.h"
 #include "math/perturbed.h"
 #include "registry/registry.h"
 
@@ -49,6 +50,7 @@ void Exercise::add(const Exercise& other) {
   decisions.add(other.decisions);
   for (const auto& [alternative, is_taken] : other.values) values[alternative] |= is_taken;
   guards.insert(other.guards.begin(), other.guards.end());
+  is_sampled |= other.is_sampled;
 }
 
 bool is_read_by(const scene::Member& member, std::string_view variant) {
@@ -56,7 +58,7 @@ bool is_read_by(const scene::Member& member, std::string_view variant) {
   return !member.sentence.starts_with(other) || member.sentence.find(fmt::format("{}:", variant)) != std::string::npos;
 }
 
-Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor) {
+Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor, std::int64_t sample) {
   Exercise out;
   if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) return out;
   add_values(c, out);
@@ -75,11 +77,14 @@ Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model
     const std::lock_guard lock(mutex);
     all.add(own);
   };
+  const Sample counted_ones(c, *model, sample);
+  out.is_sampled = !counted_ones.is_whole();
   executor.for_range(model->height(), 8, [&](std::int64_t begin, std::int64_t end) {
     counted([&] {
       std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model->values()));
       for (std::int64_t y = begin; y < end; ++y)
-        for (int x = 0; x < model->width(); ++x) model->evaluate(x, static_cast<int>(y), unused.data());
+        for (int x = 0; x < model->width(); ++x)
+          if (counted_ones.has(x, static_cast<int>(y))) model->evaluate(x, static_cast<int>(y), unused.data());
     });
   });
   for (const capture::CaseOutput& o : c.outputs)
@@ -116,6 +121,7 @@ std::vector<Alternative> Exercise::alternatives() const {
 
 PassCoverage summary(const Exercise& exercise, const std::map<std::string, std::string>& unexercised) {
   PassCoverage out;
+  out.is_sampled = exercise.is_sampled;
   for (const Alternative& a : exercise.alternatives()) {
     ++out.alternatives;
     out.taken += a.is_taken;

@@ -1,6 +1,7 @@
 // What the runs of a pass exercise: each side of each decision of its text, and values of what it takes that are not special.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -31,14 +32,17 @@ struct Exercise {
   /// either hides that it is one.
   std::map<std::string, bool> values;
   std::map<std::string, std::string> guards;  ///< of values that no scene has: why
+  bool is_sampled = false;                    ///< decisions are those of a sample of the invocations
   void add(const Exercise& other);
   /// Decisions in the order of the text, then values.
   std::vector<Alternative> alternatives() const;
 };
 
 /// Decisions are counted over all invocations of the case; none where no output is judged by a model (null). Nothing at all is counted
-/// of a pass whose outputs are only given. Throws Error(internal) where the effect has no such pass.
-Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor);
+/// of a pass whose outputs are only given. Throws Error(internal) where the effect has no such pass. `sample`: at least so many invocations
+/// are counted, drawn as a judgement draws them (judge/sample.h); 0: all.
+Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor,
+                     std::int64_t sample = 0);
 /// How many alternatives were taken, and the names of the others. `unexercised`: those that the scene says are not, and why.
 PassCoverage summary(const Exercise& exercise, const std::map<std::string, std::string>& unexercised = {});
 /// Whether a variant reads a uniform: a sentence that begins with "corrected:" or "as-published:" speaks of that one alone, unless it

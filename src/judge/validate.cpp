@@ -145,7 +145,8 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   result.port = folder.string();
   describe_port(port.info(), result);
 
-  const JudgeOptions how{&chosen, chosen.reference ? nullptr : &profile("typical"), options.executor, declared_mode(port.info())};
+  const JudgeOptions how{&chosen, chosen.reference ? nullptr : &profile("typical"), options.executor, declared_mode(port.info()),
+                         options.sample};
   int done = 0;
   const auto wanted = static_cast<int>(std::count_if(pack.cases.begin(), pack.cases.end(),
                                                      [&](const PackCase& c) { return options.wants(c.pass) && !absent.contains(c.pass); }));
@@ -160,6 +161,9 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     if (!is_wanted && (cases.empty() || !stores_halves(*cases.front()))) continue;
     PassRuns runs;
     runs.count = cases.size();
+    for (const PackCase* c : cases)
+      runs.invocations += invocations_of(
+          c->outputs, [](const auto& o) -> const auto& { return o.shape; });
     runs.load = [&, cases, is_wanted](std::size_t k) {
       FileFaults own;
       PortRun run = read_run(pack, *cases[k], is_wanted ? port : other_files, own);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "capture/pack_read.h"
 #include "judge/judge_pass.h"
 #include "judge/port_files.h"
+#include "judge/sample.h"
 #include "judge/verdict.h"
 #include "port_dump/port_info.h"
 #include "rainref/executor.h"
@@ -20,9 +22,10 @@ namespace rainref::judge {
 
 struct ValidateOptions {
   std::string profile = "vulkan";
-  std::vector<std::string> only;  ///< judge these passes alone; empty: all
-  bool foreign_host = false;      ///< shadow: what the host chose otherwise than the scene is a note
-  bool partial = false;           ///< a pass without any file of the port is not judged, and its files are not missing
+  std::vector<std::string> only;       ///< judge these passes alone; empty: all
+  bool foreign_host = false;           ///< shadow: what the host chose otherwise than the scene is a note
+  bool partial = false;                ///< a pass without any file of the port is not judged, and its files are not missing
+  std::int64_t sample = least_sample;  ///< as JudgeOptions::sample, of each pass; 0: every envelope is asked
   const parallel::Executor* executor = nullptr;
   std::function<void(int done, int of)> progress;  ///< after each case; may be null
   Explain explain;                                 ///< asked about each pass that fails; may be null

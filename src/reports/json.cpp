@@ -51,19 +51,13 @@ Json failure_json(const OutputJudgement& o, const Failure& f) {
 
 /// The library writes null for a distance without end.
 Json quantity_json(const QuantityJudgement& q) {
-  return {{"name", q.name},
-          {"unit", q.unit},
-          {"extent", q.extent},
-          {"elements", q.elements},
-          {"failing", q.failing},
-          {"vacuous", q.vacuous},
-          {"loose", q.loose},
-          {"free", q.free},
-          {"median_codes", q.median_codes},
-          {"p99_codes", q.p99_codes},
-          {"median_width", q.median_width},
-          {"p99_width", q.p99_width},
-          {"farthest", q.farthest}};
+  return {{"name", q.name},           {"unit", q.unit},
+          {"extent", q.extent},       {"elements", q.elements},
+          {"failing", q.failing},     {"vacuous", q.vacuous},
+          {"loose", q.loose},         {"free", q.free},
+          {"sampled", q.sampled()},   {"median_codes", q.median_codes},
+          {"p99_codes", q.p99_codes}, {"median_width", q.median_width},
+          {"p99_width", q.p99_width}, {"farthest", q.farthest}};
 }
 
 /// Pairs of a verdict (0 equal, 1 inside, 2 warned of, 3 outside) and how many texels in a row have it, row 0 first.
@@ -99,6 +93,7 @@ Json output_json(const OutputJudgement& o) {
   out["unbounded"] = o.unbounded;
   out["rearranged"] = o.rearranged;
   out["free"] = o.free;
+  out["sampled"] = o.sampled();
   out["median_width"] = o.median_width;
   out["p99_width"] = o.p99_width;
   out["median_text"] = width_text(median_width(o));
@@ -126,6 +121,7 @@ Json case_json(const CaseJudgement& c) {
            {"ambiguous", c.ambiguous},
            {"other_branch", c.other_branch},
            {"gave_up", c.gave_up},
+           {"stride", c.stride},
            {"rearranged", c.rearranged},
            {"rearranged_distance", c.rearranged_distance},
            {"expanded", c.expanded},
@@ -155,6 +151,7 @@ Json figures_json(const Figures& f) {
           {"vacuous", f.vacuous},
           {"loose", f.loose},
           {"free", f.free},
+          {"sampled", f.sampled()},
           {"median_text", width_text(f.median_width)},
           {"p99_text", width_text(f.p99_width)}};
 }
@@ -202,13 +199,16 @@ Json pass_json(const PassJudgement& p, const PageSource& source) {
            {"half_mode", name(p.half_mode)},
            {"half_mode_voted", p.half_mode_voted},
            {"half_text", half_text(p)},
+           {"sample_text", sample_text(p)},
            {"half_votes", {{"rne", p.half_votes[0]}, {"rtz", p.half_votes[1]}, {"either", p.half_votes[2]}}},
+           {"half_is_least", {{"rne", p.half_is_least[0]}, {"rtz", p.half_is_least[1]}, {"either", p.half_is_least[2]}}},
            {"where", p.where},
            {"coverage",
             {{"exercised", p.coverage.taken},
              {"alternatives", p.coverage.alternatives},
              {"never", p.coverage.never},
              {"reasons", reasons_of(p.coverage)},
+             {"sampled", p.coverage.is_sampled},
              {"text", coverage_text(p.coverage, 0)}}},
            {"figures", figures_json(figures_of(p))},
            {"quantities", quantities_json(p)},

@@ -112,7 +112,7 @@ size = [32, 18]
   EXPECT_THAT(cases, testing::Not(testing::Contains(HasSubstr("wipe_drops"))));
   std::filesystem::copy(folder / "all", folder / "port", std::filesystem::copy_options::recursive);
   std::filesystem::remove(folder / "port/manifest.json");
-  EXPECT_EQ(rainref({"validate", "all", "--port", "port", "--profile", "cuda", "--no-causes"}).code, 0);
+  EXPECT_EQ(rainref({"validate", "all", "--port", "port", "--profile", "cuda", "--no-causes", "--exhaustive"}).code, 0);
 
   EXPECT_THAT(pack({"dry.toml", "--passes", "wipe_drops", "-o", "asked"}).out, HasSubstr("warning: this pack says nothing of wipe_drops"));
 }

@@ -12,6 +12,7 @@
 
 #include "base/temporary_folder.h"
 #include "judge/support.h"
+#include "reports/figures.h"
 #include "scene/toml.h"
 #include "scene/unexercised.h"
 
@@ -54,6 +55,25 @@ TEST_P(PackCoverage, IsTheManifestsForEveryNumberOfThreads) {
         if (!a.is_taken && !a.guard.empty()) reasons.insert({a.name, a.guard});
       EXPECT_EQ(reasons, c.reasons) << pass["name"];
     }
+  }
+}
+
+// A sample takes nothing that all do not take, knows the same alternatives, and says that it is one.
+TEST(Coverage, OfASampleSaysSo) {
+  for (const test::BoundPass& pass : test::enveloped_passes({test::shipped_pack("puddle-corrected", {"wave_step"})})) {
+    const test::BoundCase& b = pass.cases.back();
+    const parallel::Executor executor(2);
+    const Exercise all = coverage_of(*b.c, b.model.get(), executor), some = coverage_of(*b.c, b.model.get(), executor, 50);
+    EXPECT_FALSE(all.is_sampled);
+    EXPECT_TRUE(some.is_sampled);
+    const std::vector<Alternative> every = all.alternatives(), sampled = some.alternatives();
+    ASSERT_EQ(sampled.size(), every.size()) << pass.name();
+    for (std::size_t k = 0; k < every.size(); ++k) {
+      EXPECT_EQ(sampled[k].name, every[k].name);
+      EXPECT_LE(sampled[k].is_taken, every[k].is_taken) << every[k].name;
+    }
+    EXPECT_EQ(reports::coverage_text(summary(all), 0).find("by a sample"), std::string::npos);
+    EXPECT_NE(reports::coverage_text(summary(some), 0).find(" alternatives by a sample"), std::string::npos);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/words.h"
 #include "judge/mini_port.h"
 
 namespace rainref::judge {
@@ -92,6 +93,73 @@ TEST(HalfVotes, WhatTheProfileAsksForIsSaid) {
   EXPECT_EQ(found(all, 1, HalfMode::rtz).doubt, "");
   EXPECT_EQ(found(all, 2, HalfMode::rtz).doubt,
             "stores to binary16 round toward zero in this pass and to nearest in a, b: a port has one rounding");
+}
+
+// ---- what was not asked ----------------------------------------------------------------------------------------------
+HalfVotes least(const char* pass, std::vector<std::int64_t> failing, std::vector<std::int64_t> undecided,
+                const std::vector<HalfMode>& modes = open) {
+  HalfVotes v = votes(pass, std::move(failing), modes);
+  v.undecided = std::move(undecided);
+  return v;
+}
+
+TEST(UndecidedVotes, APortThatFitsTheFirstRoundingThroughoutNeedsNoMore) {
+  EXPECT_FALSE(first_undecided({least("a", {0, 0, 0}, {0, 900, 0}), least("b", {0, 3, 0}, {0, 900, 0})}, HalfMode::either, true));
+}
+TEST(UndecidedVotes, OneThatFitsTheSecondNeedsAPassThatTells) {
+  const HalfVotes unknown = least("a", {0, 0, 0}, {900, 0, 0}), tells = least("b", {3, 0, 0}, {900, 0, 0});
+  EXPECT_EQ(first_undecided({unknown, unknown}, HalfMode::either, false), 0u);
+  EXPECT_FALSE(first_undecided({unknown, tells}, HalfMode::either, false));
+  // A profile that asks for the first has a doubt to tell of each pass that fails by it.
+  EXPECT_EQ(first_undecided({least("b", {3, 0}, {900, 0}, asked_rtz), least("a", {0, 0}, {900, 0}, asked_rtz)}, HalfMode::rtz, false), 1u);
+}
+TEST(UndecidedVotes, AWrongPassBesideOthersNeedsNoMoreWhereOneTells) {
+  const HalfVotes wrong = least("wrong", {40, 38, 38}, {0, 900, 0}), other = least("a", {0, 0, 0}, {0, 900, 0});
+  EXPECT_FALSE(first_undecided({wrong, other, least("b", {0, 7, 0}, {0, 900, 0})}, HalfMode::either, true));
+  EXPECT_EQ(first_undecided({wrong, other}, HalfMode::either, true), 1u) << "files of other passes could have to tell";
+  EXPECT_FALSE(first_undecided({wrong, other}, HalfMode::either, false));
+}
+
+// Where nothing is to be asked, whatever the rest holds changes nothing that is found.
+TEST(UndecidedVotes, WhatIsFoundHoldsForEveryRest) {
+  rainref::test::Words words(7);
+  const auto below = [&](std::uint64_t end) { return static_cast<std::int64_t>(words() % end); };
+  int settled = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const bool is_asked = words.coin();
+    const std::vector<HalfMode>& modes = is_asked ? asked_rtz : open;
+    const HalfMode asked = is_asked ? HalfMode::rtz : HalfMode::either;
+    std::vector<HalfVotes> all;
+    for (std::int64_t k = 1 + below(3); k > 0; --k) {
+      HalfVotes v = votes(k == 1 ? "one" : k == 2 ? "two" : "three", {}, modes);
+      v.rounds_inside = below(4) == 0;
+      const std::size_t leading = words() % 2;
+      for (std::size_t m = 0; m < modes.size(); ++m) {
+        v.failing.push_back(words.coin() ? 0 : below(20));
+        v.undecided.push_back(m == leading || words.coin() ? 0 : below(12));
+      }
+      all.push_back(std::move(v));
+    }
+    if (const auto k = first_undecided(all, asked, true)) {
+      ASSERT_FALSE(all.at(*k).is_whole()) << "nothing more can be asked of it";
+      continue;
+    }
+    ++settled;
+    for (int rest = 0; rest < 20; ++rest) {
+      std::vector<HalfVotes> known = all;
+      for (HalfVotes& v : known)
+        for (std::size_t m = 0; m < modes.size(); ++m) v.failing[m] += below(static_cast<std::uint64_t>(v.undecided[m]) + 1);
+      EXPECT_EQ(port_rounding(known), port_rounding(all));
+      EXPECT_EQ(is_rounding_open(known), is_rounding_open(all));
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const FoundRounding a = found(all, k, asked), b = found(known, k, asked);
+        EXPECT_EQ(a.mode, b.mode);
+        EXPECT_EQ(a.doubt, b.doubt);
+        EXPECT_EQ(all[k].undecided[a.mode], 0) << "the failures that are reported are counted";
+      }
+    }
+  }
+  EXPECT_GT(settled, 2000);
 }
 
 // ---- whole ports ---------------------------------------------------------------------------------------------------

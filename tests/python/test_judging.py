@@ -55,6 +55,8 @@ def test_files_of_a_port(tmp_path):
     pack, port = PACKS / "puddle-corrected", tmp_path / "port"
     shutil.copytree(pack, port)
     assert rr.judge_folder(pack, port).status == "PASS"
+    every = rr.judge_folder(pack, port, passes=["shade"], exhaustive=True)["shade"]
+    assert every.status == "PASS" and every.sampled == every.elements
     # rainref rounds halves to nearest, and Direct3D asks for truncation.
     assert rr.judge_folder(pack, port, "d3d", passes=["wave_step"]).status == "WARN"
     strict = rr.judge_folder(pack, port, "d3d", passes=["wave_step"], strict=True)

@@ -213,6 +213,7 @@ TEST(ReportJson, QuantitiesAndWhatWasNotJudged) {
                                                                              {"vacuous", 5},
                                                                              {"loose", 6},
                                                                              {"free", 1},
+                                                                             {"sampled", 39},
                                                                              {"median_codes", 11.0},
                                                                              {"p99_codes", 12.0},
                                                                              {"median_width", 0.25},

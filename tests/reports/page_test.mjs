@@ -42,10 +42,10 @@ function strict(value, where = "") {
 }
 
 const outputOf = (name, more = {}) => ({name, format: "rgba16f", shape: "rgba16f 4x2", elements: 32, counted: "values", failing: 0, differing: 0, bounded: 32, vacuous: 0, loose: 0, atypical: 0,
-  free: 0, median_text: "7 codes", p99_text: "vacuous", worst_quantity: null, known: null, worst: [], ...more});
+  free: 0, sampled: 32, median_text: "7 codes", p99_text: "vacuous", worst_quantity: null, known: null, worst: [], ...more});
 const caseOf = (id, outputs, more = {}) => ({id, status: "PASS", reason: "", broken: false, failing: 0, ambiguous: 0, outputs, ...more});
-const figures = {invocations: 8, failing: 0, ambiguous: 0, other_branch: 0, gave_up: 0, elements: 32, outside: 0, differing: 0, bounded: 32, vacuous: 0, loose: 0, free: 0, median_text: "7 codes", p99_text: "11 codes"};
-const passOf = (pass, status, more = {}) => ({pass, formula: `rain.${pass}/1`, sentence: "", takes: [], status, reason: "", inputs_are_good: true, half_text: "", where: "",
+const figures = {invocations: 8, failing: 0, ambiguous: 0, other_branch: 0, gave_up: 0, elements: 32, outside: 0, differing: 0, bounded: 32, vacuous: 0, loose: 0, free: 0, sampled: 32, median_text: "7 codes", p99_text: "11 codes"};
+const passOf = (pass, status, more = {}) => ({pass, formula: `rain.${pass}/1`, sentence: "", takes: [], status, reason: "", inputs_are_good: true, half_text: "", sample_text: "", where: "",
   coverage: {alternatives: 0, text: ""}, quantities: [], worst: null, cause_is_unknown: false, causes: [], cases: [caseOf(`rain.${pass}/0`, [outputOf("out")], {status})], ...more, figures: {...figures, ...more.figures}});
 const failure = (x, y, channel, more = {}) => ({x, y, channel, distance: 3, not_a_number: false, text: {place: `(${x}, ${y}).${"xyzw"[channel]}`, got: "2 (0x40)", accepted: "1 (0x3c)", expected: "1 (0x3c)", off: "1 m"}, ...more});
 const failing = outputOf("colour", {failing: 6, differing: 6, worst_quantity: "w", worst: [failure(2, 0, 1, {not_a_number: true, distance: null}), failure(0, 1, 3)]});
@@ -102,6 +102,12 @@ test("what was not judged", () => {
   assert.equal(main.all(".broken")[0].textContent, "NOT JUDGED rain.shade/1: out.colour: missing");
   assert.match(main.all("table")[0].textContent, /displaynothing judged-------$/);
 });
+test("shares of a sample say so", () => {
+  const sampled = passOf("wave", "PASS", {sample_text: "widths and shares are those of a sample of 8 of 32 elements", figures: {sampled: 8, bounded: 6, vacuous: 2}});
+  const own = made(reportOf("PASS", [sampled])), cells = own.all("table")[0].all("tbody")[0].children[0].children.map(cell => cell.textContent);
+  assert.match(own.textContent, /Widths and shares are those of a sample of 8 of 32 elements\./);
+  assert.deepEqual([cells[4], cells[8]], ["75.00 %", "25.00 %"]);
+});
 test("the first bad pass stands first", () => {
   const report = bad({takes: [{input: "hit", from: "wave", previous: false}, {input: "old", from: "shade", previous: true}, {input: "bed", from: "host", previous: false}, {input: "x", from: "gone", previous: false}]});
   const main = made(report), own = main.children.find(child => child.attributes.id === "pass-shade");
@@ -129,8 +135,8 @@ test("the graph", () => {
 });
 test("tables say what they leave out", () => {
   const many = (count, status) => Array.from({length: count}, (_, k) => caseOf(`rain.wave/${status}${k}`, [outputOf("out")], {status}));
-  const quantity = {output: "drops", counted: "fields", name: "y", unit: "m", elements: 8, failing: 2, free: 0, vacuous: 4, loose: 8, farthest: 0.00123456, extent: 0, median_text: "0.1", p99_text: "vacuous"};
-  const main = made(reportOf("PASS", [passOf("wave", "PASS", {cases: [...many(30, "PASS"), ...many(3, "WARN")], quantities: [quantity, {...quantity, farthest: null, free: 8, extent: 4}]})]));
+  const quantity = {output: "drops", counted: "fields", name: "y", unit: "m", elements: 8, failing: 2, free: 0, sampled: 8, vacuous: 4, loose: 8, farthest: 0.00123456, extent: 0, median_text: "0.1", p99_text: "vacuous"};
+  const main = made(reportOf("PASS", [passOf("wave", "PASS", {cases: [...many(30, "PASS"), ...many(3, "WARN")], quantities: [quantity, {...quantity, farthest: null, free: 8, sampled: 0, extent: 4}]})]));
   const own = main.children.at(-1), rows = own.all("table").map(table => table.all("tbody")[0].children.map(row => row.children.map(cell => cell.textContent)));
   assert.equal(rows[0].length, 24 + 3);
   assert.equal(own.all(".remark")[0].textContent, "6 more outputs are not shown; --json lists all.");

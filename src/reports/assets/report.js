@@ -32,8 +32,8 @@ function facts({effect, variant, scene, profile, device, pack, port, rainref}) {
 }
 
 /// The columns that a pass and an output have: f has their numbers.
-const figureCells = (f, ambiguous) => [share(f.differing, f.elements), share(f.bounded, f.elements - f.free), f.median_text, f.p99_text, String(ambiguous),
-                                       share(f.vacuous, f.elements - f.free), share(f.loose, f.elements - f.free)];
+const figureCells = (f, ambiguous) => [share(f.differing, f.elements), share(f.bounded, f.sampled), f.median_text, f.p99_text, String(ambiguous),
+                                       share(f.vacuous, f.sampled), share(f.loose, f.sampled)];
 const figureHead = ["differ", "bounded", "median width", "99 %", "ambiguous", "vacuous", "loose"];
 
 const overview = passes => table("figures", ["verdict", "pass", "invocations outside", ...figureHead], passes.map(({pass, status, figures: f}) =>
@@ -50,6 +50,7 @@ function passSection(p, report, buffers, shown) {
       p.inputs_are_good ? " Its inputs are good, so no pass before it is to blame." : " Its inputs are not good either."),
     p.reason && !isBroken(p) && element("p", {class: "reason"}, p.reason),
     broken(p), known(p), takes(p, report.passes), causes(p),
+    dim(p.sample_text && `${p.sample_text[0].toUpperCase()}${p.sample_text.slice(1)}.`),
     dim(p.half_text && `${p.half_text[0].toUpperCase()}${p.half_text.slice(1)}.`),
     dim(alternatives > 0 && `The pack ${text}.`),
     dim(f.other_branch > 0 && `${f.other_branch} of ${f.ambiguous} ambiguous invocations took another branch than the reference.`),
@@ -106,7 +107,7 @@ function quantities(p) {
   const rows = p.quantities.map(q => {
     const judged = q.elements - q.free, ofList = q.counted === "fields" || q.counted === "records";
     return [q.output, q.name, q.unit, ofList ? "field" : "channel", `${q.failing} of ${q.elements}`, q.failing === 0 ? "" : q.farthest === null ? "no number" : number(q.farthest),
-      judged === 0 ? "-" : q.median_text, judged === 0 ? "-" : q.p99_text, q.extent > 0 ? number(q.extent) : "-", share(q.vacuous, judged), share(q.loose, judged)];
+      judged === 0 ? "-" : q.median_text, judged === 0 ? "-" : q.p99_text, q.extent > 0 ? number(q.extent) : "-", share(q.vacuous, q.sampled), share(q.loose, q.sampled)];
   });
   return rows.length > 0 && element("details", {open: p.quantities.some(q => q.counted === "fields") && ""}, element("summary", {}, "Each channel and field in its own unit"),
     table("figures", ["output", "name", "unit", "", "outside", "farthest off", "median width", "99 %", "declared range", "vacuous", "loose"], rows, 4));

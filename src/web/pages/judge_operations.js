@@ -2,7 +2,7 @@
 import {structs} from "./c_library.js";
 
 structs.rr_folder_options = [["profile", "text"], ["passes", "pointer"], ["pass_count", "size"], ["partial", "i32"], ["threads", "i32"],
-                             ["progress", "pointer"], ["user", "pointer"], ["strict", "i32"]];
+                             ["progress", "pointer"], ["user", "pointer"], ["strict", "i32"], ["exhaustive", "i32"]];
 
 /// The names of the profiles.
 export function profiles(library) {
