@@ -248,7 +248,7 @@ typedef struct rr_judge_options {
   const char* half;     ///< how the port rounds stores to binary16: "rne", "rtz"; NULL: found out where the profile leaves it open
   int32_t threads;      ///< 0: one for each processor
   int32_t strict;       ///< 1: each WARN is a FAIL
-  int32_t exhaustive;   ///< 1: every envelope is asked, where widths and shares are otherwise a sample's
+  int32_t exhaustive;   ///< 1: every envelope is computed, where widths and shares are otherwise a sample's
 } rr_judge_options;
 /// Judges every pass that anything was given for, and says why one fails. A run with an output that was not given is NOT JUDGED. `options`
 /// may be NULL. Free it; it may outlive the cases.

@@ -142,7 +142,7 @@ struct JudgeOptions {
   std::string port = "outputs in memory";  ///< what reports call the port
   std::optional<Rounding> half{};          ///< how the port rounds stores to binary16; none: found out where the profile leaves it open
   bool strict = false;                     ///< each WARN is a FAIL
-  bool exhaustive = false;                 ///< every envelope is asked, where widths and shares are otherwise a sample's
+  bool exhaustive = false;                 ///< every envelope is computed, where widths and shares are otherwise a sample's
 };
 
 /// Runs of passes with what they took and gave, in the order of execution: what a port is run on. Every function throws Error, naming what

@@ -252,7 +252,7 @@ std::string sample_text(const PassJudgement& p) {
   const Figures f = figures_of(p);
   return f.unsampled == 0
              ? ""
-             : fmt::format("widths and shares are those of a sample of {} of {} elements (--exhaustive asks all)", f.sampled(), f.judged());
+             : fmt::format("widths and shares are those of a sample of {} of {} elements (--exhaustive computes all)", f.sampled(), f.judged());
 }
 
 std::string half_text(const PassJudgement& p) {
@@ -262,7 +262,7 @@ std::string half_text(const PassJudgement& p) {
                       : p.half_mode == HalfMode::rtz ? "toward zero"
                                                      : "sometimes to nearest, sometimes toward zero";
   if (rne == rtz && p.half_mode != HalfMode::either)
-    return p.half_is_least[0] || p.half_is_least[1] ? "stores to half: nothing that had to be asked tells how they round"
+    return p.half_is_least[0] || p.half_is_least[1] ? "stores to half: nothing that had to be computed tells how they round"
                                                     : "stores to half: nothing tells how they round";
   const auto text = [&](std::int64_t count, std::size_t k) { return fmt::format("{}{}", p.half_is_least[k] ? "at least " : "", count); };
   return fmt::format("stores to half round {} (invocations outside if to nearest: {}, toward zero: {}, either way: {})", found,

@@ -109,7 +109,7 @@ bool is_broken(const judge::PassJudgement& pass);
 /// Whether it fails and nothing says why.
 bool has_unknown_cause(const judge::PassJudgement& pass);
 
-/// "widths and shares are those of a sample of 65536 of 8294400 elements (--exhaustive asks all)"; "" where all were asked.
+/// "widths and shares are those of a sample of 65536 of 8294400 elements (--exhaustive computes all)"; "" where all were computed.
 std::string sample_text(const judge::PassJudgement& pass);
 /// How stores to half were found to round, as a sentence; "" where the pass stores no half or the profile settles it.
 std::string half_text(const judge::PassJudgement& pass);

@@ -197,7 +197,7 @@ std::string report_text(const PortJudgement& j, bool is_verbose) {
   for (const judge::FileFault& f : j.files) out += wrapped("  " + f.text, 4);
   for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
   if (const std::vector<std::string> some = sampled_passes(j); !some.empty())
-    out += wrapped(fmt::format("note: widths and shares of {} are those of samples; --exhaustive asks all", fmt::join(some, ", ")), 2);
+    out += wrapped(fmt::format("note: widths and shares of {} are those of samples; --exhaustive computes all", fmt::join(some, ", ")), 2);
   out += fmt::format("\n{}: {} against {}, profile {}", name(j.status), j.port, j.pack, j.profile);
   if (!j.device.empty()) out += fmt::format(", {} {}", j.api, j.device);
   if (const std::string counts = count_text(j); !counts.empty()) out += fmt::format(" ({})", counts);

@@ -171,7 +171,7 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
     """Runs ports on the cases of a simulation or of a pack's folder, and judges what they give.
 
     A simulation runs on to the last of `frames`; none of them may lie behind it. `half` says how the ports round stores to binary16 ("rne",
-    "rtz"); None: it is found out where the profile leaves it open. With `strict` each WARN is a FAIL, with `exhaustive` every envelope is asked,
+    "rtz"); None: it is found out where the profile leaves it open. With `strict` each WARN is a FAIL, with `exhaustive` every envelope is computed,
     where widths and shares are otherwise a sample's. Raises Error for what cannot be judged.
     """
     ports = [ports] if callable(ports) else list(ports)
@@ -209,7 +209,7 @@ def judge_folder(pack: str | os.PathLike[str], port: str | os.PathLike[str], pro
     """Judges the files that a port wrote for the cases of a pack, as `rainref validate PACK --port PORT` does.
 
     `passes` are judged alone; none named: every one. With `partial` a pass without any file is NOT JUDGED, with `strict` each WARN is a FAIL,
-    with `exhaustive` every envelope is asked. Files that are missing or cannot be used stand in the verdict's `json()["files"]`. `html` reads
+    with `exhaustive` every envelope is computed. Files that are missing or cannot be used stand in the verdict's `json()["files"]`. `html` reads
     both folders again. Raises Error for what cannot be judged.
     """
     many, count = texts(passes)
