@@ -250,9 +250,9 @@ bool has_unknown_cause(const PassJudgement& p) { return p.causes_sought && p.cau
 
 std::string sample_text(const PassJudgement& p) {
   const Figures f = figures_of(p);
-  return f.unsampled == 0
-             ? ""
-             : fmt::format("widths and shares are those of a sample of {} of {} elements (--exhaustive computes all)", f.sampled(), f.judged());
+  return f.unsampled == 0 ? ""
+                          : fmt::format("widths and shares are those of a sample of {} of {} elements (--exhaustive computes all)",
+                                        f.sampled(), f.judged());
 }
 
 std::string half_text(const PassJudgement& p) {
