@@ -110,7 +110,7 @@ TEST_F(Installation, OpenImageIoIsLoadedAtTheFirstExrAndNotBefore) {
 TEST_F(Installation, WorksWhereItWasMovedTo) {
   const Circumstances c = installed();
   EXPECT_THAT(libraries_of(run_of_arrays("both"), c), HasSubstr((folder / "moved").string()));
-  EXPECT_TRUE(std::filesystem::exists(folder / "out_exr/puddle.0001.exr"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out_both/puddle.0001.exr"));
   EXPECT_EQ(contents(c.program).find(RAINREF_BUILD "/lib"), std::string::npos);  // or it would also work by accident
 }
 
