@@ -7,6 +7,7 @@
 
 #include "capture/hashing.h"
 #include "goes.h"
+#include "night_street/night_street.h"
 #include "truth/windshield_view.h"
 #include "scene/toml.h"
 #include "stream.h"
@@ -27,14 +28,15 @@ void picture(benchmark::State& state, double radius, const std::string& embree_c
                    table);
   const parallel::Executor executor(threads);
   const windshield::Settings settings = windshield::settings_from(config);
+  static const std::shared_ptr<const scene::Scenery> seen = night_street::Street::make({settings.seed, settings.clear_lane});
   static const auto rendered = [&] {
     static const parallel::Executor own;
-    auto w = std::make_unique<windshield::Windshield>(config, windshield::Surroundings{}, own);
+    auto w = std::make_unique<windshield::Windshield>(config, windshield::Surroundings{{}, {}, seen}, own);
     for (int frame = 0; frame < 100; ++frame) w->simulate();
     w->render();
     return w;
   }();
-  const WindshieldView view(settings, {5e-3, radius}, {embree_config}, executor);
+  const WindshieldView view(settings, {5e-3, radius}, {embree_config}, seen, executor);
   const int width = settings.picture.width, height = settings.picture.height;
   bench::Goes goes(state);
   double best_update = 1e9, best_street = 1e9;

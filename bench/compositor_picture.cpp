@@ -38,7 +38,7 @@ void picture(benchmark::State& state, int samples, const std::string& embree_con
   const parallel::Executor executor(threads);
   puddle::Puddle puddle(s, street.around, executor);
   for (int frame = 0; frame < 30; ++frame) puddle.simulate();
-  PuddleScene traced(s, street.around, {{embree_config}, false, samples}, executor);
+  PuddleScene traced(s, street.around, {{embree_config}, nullptr, samples}, executor);
   bench::Goes goes(state);
   double best_update = 1e9;
   std::string hash;

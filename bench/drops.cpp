@@ -11,7 +11,7 @@
 
 #include "base/hash.h"
 #include "drops/host.h"
-#include "drops/passes.h"
+#include "drops/motion/passes.h"
 #include "goes.h"
 #include "random/counter.h"
 #include "stream.h"

@@ -13,7 +13,6 @@
 #include "puddle/kernels.h"
 #include "puddle/parameters.h"
 #include "puddle/rainfall.h"
-#include "puddle/wave_blocks.h"
 #include "rainref/puddle.h"
 #include "scene/toml.h"
 #include "stream.h"

@@ -9,14 +9,14 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/hashing.h"
-#include "drops/splat.h"
-#include "drops/splat_scalar.h"
+#include "drops/splat/scalar.h"
+#include "drops/splat/splat.h"
 #include "goes.h"
 #include "math/half.h"
 #include "pass/run.h"
 #include "stream.h"
 #include "thread_counts.h"
-#include "windshield/surface.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref {
 namespace {

@@ -6,8 +6,8 @@
 #include "rainref/windshield.h"
 #include "scene/toml.h"
 #include "thread_counts.h"
-#include "windshield/scene_images.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
+#include "windshield/scene/pictures.h"
 
 namespace rainref::windshield {
 namespace {

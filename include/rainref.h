@@ -248,6 +248,7 @@ typedef struct rr_judge_options {
   const char* half;     ///< how the port rounds stores to binary16: "rne", "rtz"; NULL: found out where the profile leaves it open
   int32_t threads;      ///< 0: one for each processor
   int32_t strict;       ///< 1: each WARN is a FAIL
+  int32_t exhaustive;   ///< 1: every envelope is computed, where widths and shares are otherwise a sample's
 } rr_judge_options;
 /// Judges every pass that anything was given for, and says why one fails. A run with an output that was not given is NOT JUDGED. `options`
 /// may be NULL. Free it; it may outlive the cases.
@@ -264,7 +265,8 @@ typedef struct rr_folder_options {
   int32_t threads;       ///< 0: one for each processor
   rr_progress progress;  ///< called by the thread that judges; may be NULL
   void* user;
-  int32_t strict;  ///< 1: each WARN is a FAIL
+  int32_t strict;      ///< 1: each WARN is a FAIL
+  int32_t exhaustive;  ///< as in rr_judge_options
 } rr_folder_options;
 /// Judges the files that a port wrote (docs/dumps.md) for the cases of a pack, as `rainref validate PACK --port PORT` does; one case is in
 /// memory at a time. Files that are missing or cannot be used stand in the reports, and what does not need them is judged: RR_OK. RR_FILES
@@ -296,8 +298,9 @@ typedef struct rr_pass_verdict {
   int64_t elements;   ///< judged: channels of texels, fields of records
   int64_t outside;    ///< of these not what the profile allows
   int64_t differing;  ///< not the reference's bits
-  int64_t vacuous;    ///< without a bound that says anything
+  int64_t vacuous;    ///< of the sampled: without a bound that says anything
   size_t causes, worst;
+  int64_t sampled;  ///< whose bounds were asked: all, or a sample of a large picture
 } rr_pass_verdict;
 RR_API int rr_get_pass_verdict(const rr_judgement* judgement, size_t pass, rr_pass_verdict* verdict);
 

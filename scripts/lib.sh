@@ -3,12 +3,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(cmake ninja-build g++ ccache pkg-config git
-  libhwy-dev libtbb-dev libglm-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libxxhash-dev
+  libhwy-dev libtbb-dev libglm-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libxxhash-dev zlib1g-dev
   libembree-dev libopenimageio-dev libpng-dev libsqlite3-dev libgtest-dev libgmock-dev libbenchmark-dev libmpfr-dev
   libvulkan-dev mesa-vulkan-drivers glslang-tools)
-# Without these some tests would be skipped: the page in a browser, JUnit against its schema, the format of the sources, the Python package and its types, the reference,
+# Without these some tests would be skipped: the page in a browser and its script without one, JUnit against its schema, the format of the sources, the Python package and its types, the reference,
 # films, what other programs read in pictures, and C#.
-test_packages=(chromium libxml2-utils clang-format python3-numpy python3-pytest python3-pip python3-venv python3-setuptools python3-wheel
+test_packages=(chromium nodejs libxml2-utils clang-format python3-numpy python3-pytest python3-pip python3-venv python3-setuptools python3-wheel
   mypy doxygen ffmpeg openimageio-tools mono-mcs)
 
 say() { printf '%s\n' "$*" >&2; }
@@ -40,15 +40,17 @@ need() {
   rm -f "$log"
 }
 
-# build PRESET [TARGET...]: configures when needed and builds with a progress line.
+# build PRESET [TARGET...]: configures when needed and builds with a progress line. With simd=machine a new folder gets kernels for this
+# machine and the oldest one alone, which is half of the time; everything else wants all of them, and adds those that a folder lacks.
+simd=all
 build() {
   [ -z "${RAINREF_NO_BUILD-}" ] || return 0
   local preset=$1
   shift
   local folder="build/$preset"
-  if [ ! -f "$folder/build.ninja" ]; then
+  if [ ! -f "$folder/build.ninja" ] || { [ "$simd" = all ] && grep -q '^RAINREF_SIMD:STRING=machine' "$folder/CMakeCache.txt"; }; then
     say "Configuring $folder"
-    cmake --preset "$preset" "${configure_options[@]}" >"$folder.log" 2>&1 || { mkdir -p build; cmake --preset "$preset" "${configure_options[@]}" >&2 || die "Configuration of $folder failed"; }
+    cmake --preset "$preset" -DRAINREF_SIMD="$simd" "${configure_options[@]}" >"$folder.log" 2>&1 || { cat "$folder.log" >&2; die "Configuration of $folder failed"; }
   fi
   say "Building $folder"
   NINJA_STATUS="[%f/%t] " cmake --build "$folder" ${1:+--target "$@"} >&2 || die "Build of $folder failed"

@@ -1,4 +1,4 @@
-// The packs in tests/packs and their passes, found by their files: a new pack is in every proof without an edit.
+// The packs of the scenes in tests/packs and their passes, found by their files: a new pack is in every proof without an edit.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +16,11 @@
 
 namespace rainref::test {
 
-inline std::filesystem::path packs_folder() { return source_folder() + "/tests/packs"; }
-inline std::filesystem::path pack_folder(const std::string& name) { return packs_folder() / name; }
+/// Scenes that packs are made of, and their pictures.
+inline std::filesystem::path pack_sources() { return source_folder() + "/tests/packs"; }
 /// The scene that a pack is made of.
-inline std::filesystem::path pack_scene(const std::string& name) { return packs_folder() / (name + ".toml"); }
+inline std::filesystem::path pack_scene(const std::string& name) { return pack_sources() / (name + ".toml"); }
+inline std::filesystem::path pack_folder(const std::string& name) { return std::filesystem::path(packs_folder()) / name; }
 
 /// Some passes of a pack.
 struct PackPasses {
@@ -32,12 +33,12 @@ struct PackPasses {
   friend void PrintTo(const PackPasses& p, std::ostream* out) { *out << p.name; }
 };
 
-/// Every pack of tests/packs with all its passes; each is a scene, NAME.toml, and a folder, NAME. Packs of an effect and a variant alone
-/// come first, those of richer scenes after them, each in ascending order. Throws where there is none.
+/// The pack of every scene of tests/packs with all its passes. Packs of an effect and a variant alone come first, those of richer scenes
+/// after them, each in ascending order. Throws where there is no scene, or a pack was not made.
 inline const std::vector<PackPasses>& shipped_packs() {
   static const std::vector<PackPasses> all = [] {
     std::vector<PackPasses> found;
-    for (const auto& file : std::filesystem::directory_iterator(packs_folder())) {
+    for (const auto& file : std::filesystem::directory_iterator(pack_sources())) {
       if (file.path().extension() != ".toml") continue;
       PackPasses p;
       p.name = file.path().stem().string();
@@ -47,13 +48,14 @@ inline const std::vector<PackPasses>& shipped_packs() {
           if (const std::string begin = key + " = \""; line.starts_with(begin))
             *value = line.substr(begin.size(), line.find('"', begin.size()) - begin.size());
       // Every output has a file of its own, in a folder of its pass.
-      std::error_code none;
-      for (const auto& folder : std::filesystem::directory_iterator(pack_folder(p.name), none))
+      if (!std::filesystem::exists(pack_folder(p.name)))
+        throw std::runtime_error(pack_folder(p.name).string() + ": was not made: build the target packs");
+      for (const auto& folder : std::filesystem::directory_iterator(pack_folder(p.name)))
         if (folder.is_directory()) p.passes.push_back(folder.path().filename().string().substr(p.effect.size() + 1));
       std::sort(p.passes.begin(), p.passes.end());
       found.push_back(std::move(p));
     }
-    if (found.empty()) throw std::runtime_error(packs_folder().string() + ": no packs");
+    if (found.empty()) throw std::runtime_error(pack_sources().string() + ": no scenes");
     const auto order = [](const PackPasses& p) { return std::pair(p.name != p.effect_and_variant(), p.name); };
     std::sort(found.begin(), found.end(), [&](const PackPasses& a, const PackPasses& b) { return order(a) < order(b); });
     return found;

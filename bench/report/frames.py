@@ -78,7 +78,7 @@ def markdown(result):
     lines = [[f"`{row['scene']}`", f"{row['kept_s']:.2f}" if row["kept_s"] <= GOAL_START else f"**{row['kept_s']:.2f}**",
               *(f"{row[key]:.2f}" if key in row else "" for key in ("frame_s", "png_s", "first_s"))] for row in result.get("starts", [])]
     if lines:
-        parts.append("Seconds from the command, on all threads, until the first frame begins, is computed, and is written, OpenImageIO loaded; then without what is "
+        parts.append("Seconds from the command, on all threads, until the first frame begins, is computed, and is written; then without what is "
                      f"the same in every run and was kept; goal of the first: {GOAL_START}:\n\n" +
                      rows.table(["scene", "begins", "computed", "a PNG", "nothing kept, computed"], lines))
     return "\n".join(parts)

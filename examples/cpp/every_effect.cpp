@@ -32,6 +32,15 @@ Image ramp(Format format, float low) {
   }
   return image;
 }
+/// One from 1/2 to 1 in halves, its alpha 1, as light; and 9 m away.
+windshield::Surroundings before_the_car() {
+  windshield::Surroundings out{Image(Format::rgba16f, width, height), Image(Format::r32f, width, height)};
+  for (int y = 0; y < height; ++y) {
+    for (int i = 0; i < 4 * width; ++i) out.colour.row<Half>(y)[i].bits = static_cast<std::uint16_t>(i % 4 == 3 ? 0x3c00 : 0x3800 + 8 * i);
+    std::fill_n(out.depth.row<float>(y), width, 9.0f);
+  }
+  return out;
+}
 void tell(const char* effect, const Image& picture) {
   std::uint32_t sum = 2166136261u;  // FNV-1a
   for (int y = 0; y < picture.height(); ++y) {
@@ -52,9 +61,9 @@ int main() try {
     tell("puddle", effect.picture());
   }
   {
-    const SceneText scene{"[run]\nsize = [32, 18]\n[scene]\nsize = [32, 18]\n",
+    const SceneText scene{"[run]\nsize = [32, 18]\n",
                           {"windshield.height_size=[64, 36]", "vehicle.speed=20", "falling_rain.on=true", "rain.rate=50"}};
-    windshield::Windshield effect(scene, {}, executor);
+    windshield::Windshield effect(scene, before_the_car(), executor);
     effect.next_frame();
     tell("windshield", effect.picture());
     if (effect.falling().empty()) return 1;

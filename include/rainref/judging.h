@@ -99,9 +99,10 @@ struct PassVerdict {
   std::int64_t elements = 0;   ///< judged
   std::int64_t outside = 0;    ///< of these not what the profile allows
   std::int64_t differing = 0;  ///< not the reference's bits
-  std::int64_t vacuous = 0;    ///< without a bound that says anything
+  std::int64_t vacuous = 0;    ///< of the sampled: without a bound that says anything
   std::vector<Cause> causes;   ///< the best first
   std::vector<Failure> worst;  ///< the worst first
+  std::int64_t sampled = 0;    ///< whose bounds were asked: all, or a sample of a large picture
 };
 
 /// What is said of a port.
@@ -141,6 +142,7 @@ struct JudgeOptions {
   std::string port = "outputs in memory";  ///< what reports call the port
   std::optional<Rounding> half{};          ///< how the port rounds stores to binary16; none: found out where the profile leaves it open
   bool strict = false;                     ///< each WARN is a FAIL
+  bool exhaustive = false;                 ///< every envelope is computed, where widths and shares are otherwise a sample's
 };
 
 /// Runs of passes with what they took and gave, in the order of execution: what a port is run on. Every function throws Error, naming what

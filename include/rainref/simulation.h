@@ -1,6 +1,7 @@
 // Any effect, as a scene says it: one interface over all of them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -17,6 +18,10 @@
 
 namespace rainref {
 
+namespace scene {
+class Scenery;  // src/scene/scenery.h
+}
+
 /// What an effect holds under a name: an image, or records.
 using Buffer = std::variant<BufferView, RecordView>;
 
@@ -29,6 +34,10 @@ SceneText read_scene(const std::filesystem::path& file, std::vector<std::string>
 /// process; an empty path: nowhere. Without this call as `rainref run` keeps them: in $XDG_CACHE_HOME/rainref, or ~/.cache/rainref. No bit
 /// hangs on it. Throws Error(usage) once a simulation was opened.
 void keep_images(const std::filesystem::path& folder);
+
+/// The street at night that scenes without pictures show, for windshield::Surroundings. clear_lane: no car stands in the lane that one
+/// drives along.
+std::shared_ptr<const scene::Scenery> street_at_night(std::uint64_t seed = 1, bool clear_lane = false);
 
 /// A scene that runs. Every buffer has the same bits whatever the executor's threads, the SIMD target and the caller's floating-point
 /// state, and the bits of `rainref hash` of the same scene.

@@ -5,6 +5,8 @@
 #define RAINREF_VERSION_MINOR 1
 #define RAINREF_VERSION_PATCH 0
 
+#include <string_view>
+
 namespace rainref {
 
 /// "major.minor.patch" of this build.
@@ -17,5 +19,7 @@ inline constexpr unsigned golden_generation = 2;
 /// Which bits this build gives: the first 32 hexadecimal digits of the SHA-256 of tests/golden/hashes.txt, where each golden change
 /// shows, also one that leaves the generation as it is.
 const char* golden_hash();
+/// The same of the lines that begin with this effect's name and "/", which no other effect changes; "" for one that has none.
+const char* golden_hash(std::string_view effect);
 
 }  // namespace rainref

@@ -15,17 +15,19 @@
 namespace rainref {
 namespace scene {
 class Config;
-}
+class Scenery;  // src/scene/scenery.h
+}  // namespace scene
 namespace state {
 class Items;  // src/state/items.h
 }
 
 namespace windshield {
 
-/// What lies before the car, where it is not the street at night made here.
+/// What lies before the car: pictures, or a street.
 struct Surroundings {
-  Image colour;  ///< rgba16f, linear radiance, in the camera's view widened by scene.margin; row 0 = bottom. Empty: the street
+  Image colour;  ///< rgba16f, linear radiance, in the camera's view widened by scene.margin; row 0 = bottom
   Image depth;   ///< r32f along the view axis [m], finite, the sky far away; of the same size
+  std::shared_ptr<const scene::Scenery> street = nullptr;  ///< where there are no pictures: street_at_night() of rainref/simulation.h
 };
 
 /// A drop as passes exchange it; see src/drops/records.h.
@@ -53,9 +55,10 @@ struct MassBalance {
 /// whatever the executor's threads and the SIMD target.
 class Windshield {
  public:
-  /// A scene of this effect, `Windshield({}, {}, executor)` the default one. Throws Error(usage), naming place and key, for what no scene
-  /// may say and for one that cannot run: corners on a line, a blade longer than the glass, a drive cycle that is none, pictures named in
-  /// the scene rather than given here, keys of traced pictures. The executor must outlive the windshield.
+  /// A scene of this effect, `Windshield({}, {{}, {}, street_at_night()}, executor)` the default one. Throws Error(usage), naming place and
+  /// key, for what no scene may say and for one that cannot run: corners on a line, a blade longer than the glass, a drive cycle that is
+  /// none, pictures named in the scene rather than given here, neither pictures nor a street, keys of traced pictures. The executor must
+  /// outlive the windshield.
   Windshield(const SceneText& scene, Surroundings surroundings, const parallel::Executor& executor);
   /// The same of a scene that rainref's own programs have read and checked.
   Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor);

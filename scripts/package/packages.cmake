@@ -52,7 +52,7 @@ rainref_package(library librainref0 "This is the library for C, and what reads a
 rainref_package(dev librainref-dev "These are the headers for C and C++, and the libraries for C++."
   SECTION libdevel
   DEPENDS "librainref0 (= ${full_version})" libhwy-dev libtbb-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libglm-dev libembree-dev
-          libxxhash-dev pkg-config)
+          libxxhash-dev zlib1g-dev pkg-config)
 rainref_package(data rainref-data
   "These are scenes, small packs, profiles, documents and examples." ARCHITECTURE all)
 rainref_package(python3 python3-rainref "This is the package for Python 3." SECTION python ARCHITECTURE all

@@ -1,6 +1,5 @@
 #include "blur_pyramid/blur_pyramid.h"
 
-#include <algorithm>
 #include <span>
 
 #include "blur_pyramid/scalar.h"
@@ -10,27 +9,6 @@
 #include "rainref/error.h"
 
 namespace rainref::blur_pyramid {
-
-std::vector<scene::Parameter> blur_parameters(const std::string& prefix) {
-  const BlurSettings standard;
-  const auto key = [&](const char* name) { return prefix + "." + name; };
-  return {
-      scene::integer(key("blur_levels"), "1", 1, Texture::max_levels, standard.levels,
-                     "Levels of the blurred scene, the sharp one included."),
-      scene::real(key("fog_density"), "1/m", 0, 10, standard.fog_density, "Extinction of light in the air in front of the scene."),
-      scene::real3(key("fog_colour"), "1", 0, 1000, standard.fog_colour, "Linear radiance of the fog."),
-  };
-}
-BlurSettings blur_settings(const scene::Config& config, const std::string& prefix, Rounding rounding) {
-  const auto key = [&](const char* name) { return prefix + "." + name; };
-  BlurSettings s;
-  s.corrected = config.variant() == "corrected";
-  s.rounding = rounding;
-  s.levels = static_cast<int>(config.integer(key("blur_levels")));
-  s.fog_density = config.real(key("fog_density"));
-  s.fog_colour = config.real3(key("fog_colour"));
-  return s;
-}
 
 std::array<int, 2> level_size(int width, int height, int level) { return {std::max(1, width >> level), std::max(1, height >> level)}; }
 int level_count(int width, int height) {
@@ -123,9 +101,14 @@ capture::PassInfo blur_info(const std::string& colour_from, const std::string& d
   return info;
 }
 std::vector<capture::BufferInfo> blur_buffers() {
-  return {{"scene_colour", "rgba16f", "Opaque scene without fog: linear radiance.", "1", {0, 1}, "none", "linear Rec. 709", "unused"},
-          {"scene_depth", "r32f", "Distance of the scene along the view axis.", "m", {0, 1000}},
-          pass::buffers_of<HalvePass>().front()};
+  return {
+      {.name = "scene_colour",
+       .format = "rgba16f",
+       .sentence = "Opaque scene without fog: linear radiance.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused"},
+      {.name = "scene_depth", .format = "r32f", .sentence = "Distance of the scene along the view axis.", .unit = "m", .range = {0, 1000}},
+      pass::buffers_of<HalvePass>().front()};
 }
 std::unique_ptr<capture::PassModel> bind_blur(const capture::PassCase& c) {
   return c.level == 0 ? pass::bind<FogPass, scalar::FogPassText>(c) : pass::bind<HalvePass, scalar::HalvePassText>(c);

@@ -13,8 +13,6 @@
 #include "image/texture.h"
 #include "pass/run.h"
 #include "rainref/image.h"
-#include "scene/config.h"
-#include "scene/parameter.h"
 
 namespace rainref::blur_pyramid {
 
@@ -25,9 +23,6 @@ struct BlurSettings {
   double fog_density = 0.01;                            ///< extinction [1/m]
   std::array<double, 3> fog_colour{0.02, 0.025, 0.03};  ///< linear radiance
 };
-/// The scene keys of BlurSettings but for the rounding, behind "prefix.".
-std::vector<scene::Parameter> blur_parameters(const std::string& prefix);
-BlurSettings blur_settings(const scene::Config& config, const std::string& prefix, Rounding rounding);
 
 /// Columns and rows of a level: halves, rounded down, at least 1.
 std::array<int, 2> level_size(int width, int height, int level);

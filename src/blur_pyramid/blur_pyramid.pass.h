@@ -11,20 +11,15 @@
 namespace rainref::blur_pyramid {
 
 /// A run for level 0. From which passes the scene comes, blur_info says.
-struct FogPass {
+struct FogPass : pass::Takes<BlurUniforms> {
   static constexpr pass::About about{"blur_pyramid", "The scene in fog, and blurred levels of it; one run a level.", {1}, {2}};
-  using Uniforms = BlurUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "BlurUniforms",
-        {member<&U::fog_colour>("fog_colour", "1", scene::radiance, "Linear radiance of the fog."),
-         member<&U::fog_density>("fog_density", "1/m", {0, 10}, "Extinction of light in the fog."),
-         member<&U::middle>("middle", "1", scene::share, "corrected: weight of the middle one of three texels, for columns and rows."),
-         member<&U::last>("last", "1", scene::share, "corrected: weight of the last one, over output index + 1."),
-         member<&U::source_size>("source_size", "texel", {1, 65536}, "Columns and rows of the level above."),
-         member<&U::level>("level", "1", {0, Texture::max_levels}, "0 fogs the scene, further ones halve the level above.")});
+    return block({member<&U::fog_colour>("1", scene::radiance, "Linear radiance of the fog."),
+                  member<&U::fog_density>("1/m", {0, 10}, "Extinction of light in the fog."),
+                  member<&U::middle>("1", scene::share, "corrected: weight of the middle one of three texels, for columns and rows."),
+                  member<&U::last>("1", scene::share, "corrected: weight of the last one, over output index + 1."),
+                  member<&U::source_size>("texel", {1, 65536}, "Columns and rows of the level above."),
+                  member<&U::level>("1", {0, Texture::max_levels}, "0 fogs the scene, further ones halve the level above.")});
   }
   template <class B>
   struct Io {
@@ -61,7 +56,7 @@ inline int mirrored(int i, int n) {
 /// Level 0: fog (1 - T) + colour T, T = exp(-density depth).
 template <class N>
 RAINREF_FN Vec3<N> fogged(const BlurUniforms& u, const Vec3<N>& colour, N depth) {
-  return mix(Vec3<N>(u.fog_colour), colour, transmittance(N(u.fog_density), max(depth, N(0.0f))));
+  return mix(Vec3<N>(u.fog_colour), colour, transmittance(N(u.fog_density), guard<N>(max(depth, N(0.0f)), "depth is nowhere negative")));
 }
 
 /// as-published: a box of 2 x 2 texels. With an odd size the last column or row of the level above is dropped.

@@ -4,10 +4,7 @@
 
 #include "blur_pyramid/blur_pyramid.pass.h"
 #include "image/texture.h"
-#include "math/perturbed.h"
-#include "math/enclosure.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
+#include "math/numbers.h"
 
 namespace rainref::blur_pyramid::scalar {
 using namespace rainref::scalar;

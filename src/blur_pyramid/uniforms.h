@@ -8,15 +8,11 @@ namespace rainref::blur_pyramid {
 
 /// Of a run for one level: 0 fogs the scene, the others halve the level above.
 struct BlurUniforms {
-  float fog_colour[3];  ///< linear radiance
-  float fog_density;    ///< extinction [1/m]
+  float fog_colour[3], fog_density;
   // corrected: an output texel (x, y) is t0 + w1 (t1 - t0) + w2 (t2 - t0) of three input texels a side, from 2 x on, with
   // w1 = middle and w2 = last (x + 1).
-  float middle[2];  ///< for columns, rows
-  float last[2];
-  std::int32_t source_size[2];  ///< of the level above [texel]
-  std::int32_t level;
-  std::int32_t padding0;
+  float middle[2], last[2];
+  std::int32_t source_size[2], level, padding0;
 };
 
 static_assert(sizeof(BlurUniforms) == 48);

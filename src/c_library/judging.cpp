@@ -53,12 +53,14 @@ int rr_judge(const rr_cases* cases, const rr_judge_options* options, rr_judgemen
   return call([&] {
     const rr_cases& c = required(cases, "cases");
     required(judgement, "judgement") = nullptr;
-    const rr_judge_options o = options ? sized(options, "rr_judge_options") : rr_judge_options{sizeof o, nullptr, nullptr, nullptr, 0, 0};
+    const rr_judge_options o =
+        options ? sized(options, "rr_judge_options") : rr_judge_options{sizeof o, nullptr, nullptr, nullptr, 0, 0, 0};
     JudgeOptions how;
     if (o.profile) how.profile = o.profile;
     if (o.port) how.port = o.port;
     how.half = rounding(o.half);
     how.strict = o.strict != 0;
+    how.exhaustive = o.exhaustive != 0;
     *judgement = std::make_unique<rr_judgement>(rr_judgement{judging::judge_cases(c.list, how, parallel::Executor(o.threads))}).release();
   });
 }
@@ -66,17 +68,18 @@ int rr_judge_folder(const char* pack, const char* port, const rr_folder_options*
   return call([&] {
     required(judgement, "judgement") = nullptr;
     const rr_folder_options o =
-        options ? sized(options, "rr_folder_options") : rr_folder_options{sizeof o, nullptr, nullptr, 0, 0, 0, nullptr, nullptr, 0};
+        options ? sized(options, "rr_folder_options") : rr_folder_options{sizeof o, nullptr, nullptr, 0, 0, 0, nullptr, nullptr, 0, 0};
     judging::FolderOptions how;
     if (o.profile) how.profile = o.profile;
-    how.passes = c_library::texts(o.passes, o.pass_count, "rr_folder_options.passes");
+    how.only = c_library::texts(o.passes, o.pass_count, "rr_folder_options.passes");
     how.partial = o.partial != 0;
     how.strict = o.strict != 0;
+    if (o.exhaustive != 0) how.sample = 0;
     if (o.progress) how.progress = [&o](int done, int of) { go_on(o, done, of); };
     const parallel::Executor executor(o.threads);
-    *judgement =
-        std::make_unique<rr_judgement>(rr_judgement{judging::judge_folder(&required(pack, "pack"), &required(port, "port"), how, executor)})
-            .release();
+    how.executor = &executor;
+    const auto opened = std::make_shared<const capture::Pack>(&required(pack, "pack"));
+    *judgement = std::make_unique<rr_judgement>(rr_judgement{judging::judge_folder(opened, {&required(port, "port")}, how)}).release();
   });
 }
 void rr_free_judgement(rr_judgement* judgement) {
@@ -105,7 +108,8 @@ int rr_get_pass_verdict(const rr_judgement* judgement, size_t pass, rr_pass_verd
                                          p.differing,
                                          p.vacuous,
                                          p.causes.size(),
-                                         p.worst.size()};
+                                         p.worst.size(),
+                                         p.sampled};
   });
 }
 int rr_get_cause(const rr_judgement* judgement, size_t pass, size_t index, rr_cause* cause) {

@@ -142,7 +142,7 @@ Json manifest_head(const EffectInfo& effect, const scene::Config& config, const 
   const std::string& variant = config.variant();
   Json out{{"format", pack_format},
            {"version", pack_version},
-           {"rainref", {{"version", version()}, {"golden_generation", golden_generation}, {"golden_hash", golden_hash()}}},
+           {"rainref", {{"version", version()}, {"golden_generation", golden_generation}, {"golden_hash", golden_hash(effect.name)}}},
            {"contents", with_inputs ? "all" : "outputs"},
            {"effect", effect.name},
            {"scene", scene_name},

@@ -83,10 +83,12 @@ void PackWriter::add(const PassCase& c) {
 }
 
 void PackWriter::add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never,
-                              const std::map<std::string, std::string>& reasons) {
-  for (nlohmann::ordered_json& p : state_->manifest["passes"])
-    if (p["name"] == pass)
-      p["coverage"] = {{"exercised", exercised}, {"alternatives", alternatives}, {"never", never}, {"reasons", reasons}};
+                              const std::map<std::string, std::string>& reasons, bool is_sampled) {
+  for (nlohmann::ordered_json& p : state_->manifest["passes"]) {
+    if (p["name"] != pass) continue;
+    p["coverage"] = {{"exercised", exercised}, {"alternatives", alternatives}, {"never", never}, {"reasons", reasons}};
+    if (is_sampled) p["coverage"]["sampled"] = true;
+  }
 }
 
 PackWriter::Total PackWriter::finish() {

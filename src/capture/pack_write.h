@@ -26,9 +26,10 @@ class PackWriter {
              bool with_inputs, const std::vector<std::string>& passes);
   ~PackWriter();
   void add(const PassCase& c);
-  /// What the cases exercise of a pass text: how many of its alternatives, and which they do not. For people; a judge counts again.
+  /// What the cases exercise of a pass text: how many of its alternatives, and which they do not, `is_sampled` as far as a
+  /// sample of the invocations tells. For people; a judge counts again.
   void add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never,
-                    const std::map<std::string, std::string>& reasons);
+                    const std::map<std::string, std::string>& reasons, bool is_sampled);
 
   struct Total {
     int cases = 0, files = 0;

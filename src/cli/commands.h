@@ -56,6 +56,7 @@ struct ValidateRequest {
   int repeat = 1;                 ///< runs of it
   bool allow_untested = false;
   bool strict = false;        ///< each WARN fails
+  bool exhaustive = false;    ///< every envelope is computed
   bool foreign_host = false;  ///< with `shadow`: what the host chose otherwise than the scene is a note
   bool verbose = false;       ///< all that is known of each pass
   int threads = 0;

@@ -72,6 +72,8 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
   verb.add_flag("--no-causes", f.request.no_causes, "Do not look for what went wrong, which may take longer than judging");
   verb.add_flag("--allow-untested", f.request.allow_untested, "Forgive UNTESTED and NOT JUDGED, beside at least one PASS");
   verb.add_flag("--strict", f.request.strict, "Each WARN fails");
+  verb.add_flag("--exhaustive", f.request.exhaustive,
+                "Compute every envelope: widths and shares of a large picture are otherwise those of a sample");
   verb.add_flag("--foreign-host", f.request.foreign_host,
                 "With --shadow: uniforms, inputs and a first state that are not the scene's are notes, not failures");
   verb.add_flag("--verbose", f.request.verbose, "All that is known of each pass, and what of its text no run takes");

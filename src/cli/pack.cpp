@@ -109,15 +109,15 @@ class Frames : public Recorder {
 };
 
 /// Binds a case, and whether a port that does nothing passes it too.
-void try_null_ports(const std::string& effect, const capture::PassCase& c, judge::NullPorts& ports) {
+void try_null_ports(const std::string& effect, const capture::PassCase& c, const parallel::Executor& executor, judge::NullPorts& ports) {
   const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, judge::binder(effect, c.pass), c);
-  ports.judge(c, model.get(), judge::profile("vulkan"), &judge::profile("typical"), judge::HalfMode::either);
+  ports.judge(c, model.get(), judge::profile("vulkan"), &judge::profile("typical"), judge::HalfMode::either, executor);
 }
 /// The passes of a pack that a port passes which does nothing, and which.
-std::map<std::string, judge::NullPorts> idle_passes(const std::filesystem::path& folder) {
+std::map<std::string, judge::NullPorts> idle_passes(const std::filesystem::path& folder, const parallel::Executor& executor) {
   const capture::Pack pack(folder);
   std::map<std::string, judge::NullPorts> idle;
-  for (const capture::PackCase& entry : pack.cases) try_null_ports(pack.effect, pack.read(entry), idle[entry.pass]);
+  for (const capture::PackCase& entry : pack.cases) try_null_ports(pack.effect, pack.read(entry), executor, idle[entry.pass]);
   std::erase_if(idle, [](const auto& pass) { return pass.second.passing().empty(); });
   return idle;
 }
@@ -149,7 +149,7 @@ class Packing {
     capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) {
       writer.add(c);
       const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, judge::binder(config_.effect(), c.pass), c);
-      exercised[c.pass].add(judge::coverage_of(c, model.get(), executor_));
+      exercised[c.pass].add(judge::coverage_of(c, model.get(), executor_, judge::least_sample));
     });
     const int count = frames_.last(passes_) + 1;
     simulation::Opened opened(config_, executor_);
@@ -166,7 +166,7 @@ class Packing {
         if (!c.reasons.contains(alternative))
           not_exercised_ += fmt::format("warning: unexercised.{}: '{}' is exercised, or there is none\n", pass, alternative);
       if (c.alternatives == 0) continue;
-      writer.add_coverage(pass, c.taken, c.alternatives, c.never, reasons);
+      writer.add_coverage(pass, c.taken, c.alternatives, c.never, reasons, c.is_sampled);
       if (options_.shows_coverage && !c.never.empty())
         not_exercised_ += fmt::format("{} {}\n", pass, reports::coverage_text(c, c.never.size()));
     }
@@ -189,7 +189,7 @@ class Packing {
     capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) {
       ++tried[c.pass];
       judge::NullPorts with_this_frame = idle.at(c.pass);
-      try_null_ports(config_.effect(), c, with_this_frame);
+      try_null_ports(config_.effect(), c, executor_, with_this_frame);
       if (with_this_frame.passing().empty()) found.emplace(c.pass, c.frame);
     });
     simulation::Opened opened(config_, executor_);
@@ -230,7 +230,7 @@ int pack(const PackOptions& options) {
   if (passes.empty()) throw Error(ExitCode::usage, "--passes: expected one that runs in this scene, found none");
   Packing packing(config, options, executor, passes, frames);
   capture::PackWriter::Total total = packing.write();
-  std::map<std::string, judge::NullPorts> idle = idle_passes(options.output);
+  std::map<std::string, judge::NullPorts> idle = idle_passes(options.output, executor);
   if (!idle.empty() && options.may_add_frames) {
     bool has_changed = packing.add_frames(idle);
     // Wipers that a scene has none of move no drop in any frame: every port of that pass would be UNTESTED, the right one too.

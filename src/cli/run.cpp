@@ -146,12 +146,11 @@ int run(const RunOptions& options) {
   if (options.capture != RunOptions::none) add_captures(memory);
   if (left) memory.peak.pass(*left);
   require_memory(memory);
-  const bool takes_codec = options.png || options.exr || options.compare_truth;
   // Pages of the program and of stacks that every run touches from here on, at the least.
   constexpr std::size_t own_pages = 1u << 20;
-  const std::size_t stated = memory.peak.peak() + resident_memory() + own_pages + (takes_codec ? image_io::codec_bytes() : 0);
+  const std::size_t stated = memory.peak.peak() + resident_memory() + own_pages + (options.exr ? image_io::codec_bytes() : 0);
   // A broken installation should not cost a run either. Beside the scene, for the codec's libraries take a quarter of a second to load.
-  const std::function<void()> codec = takes_codec ? image_io::codec_ahead() : [] {};
+  const std::function<void()> codec = options.exr ? image_io::codec_ahead() : [] {};
   if (options.keep_images) cache::keep_in(cache::folder_of_user());
   simulation::Opened opened = open_scene(config, executor);
   codec();

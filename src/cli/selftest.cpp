@@ -14,11 +14,9 @@
 #include "math/half.h"
 #include "math/half_array.h"
 #include "math/simd_target.h"
-#include "night_street/night_street.h"
-#include "puddle/parameters.h"
 #include "rainref/error.h"
-#include "rainref/puddle.h"
 #include "registry/registry.h"
+#include "scene/test_card.h"
 #include "scene/toml.h"
 #include "simulation/opened.h"
 
@@ -72,8 +70,8 @@ bool half_conversion() {
 
 /// Few texels and many drops, so that the whole test takes seconds.
 std::vector<std::string> overrides_of(const std::string& effect, bool corrected) {
-  if (effect == "puddle")
-    return corrected ? std::vector<std::string>{"puddle.grid=[61, 45]", "puddle.shape=basin", "rain.rate=80"} : std::vector<std::string>{};
+  if (effect == "puddle" && corrected) return {"environment.width=64", "puddle.grid=[61, 45]", "puddle.shape=basin", "rain.rate=80"};
+  if (effect == "puddle") return {"environment.width=64"};
   if (effect == "windshield")
     return {"windshield.height_size=[128, 72]", "scene.size=[64, 36]", "windshield.capacity=5000",
             corrected ? "rain.rate=100" : "windshield.spawn_rate=20000"};
@@ -87,22 +85,13 @@ Hash128 scene_hash(const std::string& name, const std::string& variant, int thre
                    overrides_of(name, variant == "corrected"), simulation::effect_table());
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
+  simulation::Opened opened(config, executor, scene::TestCard::make);
   capture::HashRecorder recorder;
-  const auto frames = [&recorder](const auto& frame) {
-    for (int i = 0; i < 3; ++i) {
-      frame();
-      recorder.take_lines();
-    }
-    return recorder.scene_hash();
-  };
-  if (name == "puddle") {
-    puddle::Surroundings around;
-    around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);  // the default's size costs a second
-    puddle::Puddle puddle(puddle::settings_from(config), around, executor);
-    return frames([&] { puddle.next_frame(&recorder); });
+  for (int i = 0; i < 3; ++i) {
+    opened.next_frame(&recorder);
+    recorder.take_lines();
   }
-  simulation::Opened opened(config, executor);
-  return frames([&] { opened.next_frame(&recorder); });
+  return recorder.scene_hash();
 }
 
 std::string golden_of(const std::string& effect, const std::string& variant) {

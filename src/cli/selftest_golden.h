@@ -9,11 +9,11 @@ struct SelftestGolden {
   const char* hash;
 };
 inline constexpr SelftestGolden selftest_goldens[] = {
-    {"puddle", "as-published", "cc73ada3956fba55e3d0c36575f5695f"},       {"puddle", "corrected", "56801830ce3410f803ae29f54849cc83"},
-    {"windshield", "as-published", "13ef0585709029ea4eaee19740f38bc7"},   {"windshield", "corrected", "518d9815e773f0afc584c1f14223cb1b"},
+    {"puddle", "as-published", "85cc26fed5d8e7a819785fe29c319907"},       {"puddle", "corrected", "cfa8d07ec5b6d44a426320d29fa0f30b"},
+    {"windshield", "as-published", "d1924a5089b2118fa29b96c7a132f61c"},   {"windshield", "corrected", "df4ec1ba6b52cddffee59bb6c7328ad0"},
     {"edge_splash", "as-published", "489e98dff58b34e3b5e364ac3a427365"},  {"edge_splash", "corrected", "4212a5e8125bedacb031a03b8b669312"},
-    {"screen_drops", "as-published", "8bf946ed90ef4d28674e656848220fd7"}, {"screen_drops", "corrected", "1932f33a0ba8572435933eead5589dc0"},
-    {"rainy_glass", "as-published", "345bc80e3dff694c232366aba00d032c"},  {"rainy_glass", "corrected", "652988213dae0f73430591ed94b1afaf"},
+    {"screen_drops", "as-published", "1cf00eb568d5b0cb4574fd4b94857ef6"}, {"screen_drops", "corrected", "e3060c5e4716a4c7db8615a13ffa0cb0"},
+    {"rainy_glass", "as-published", "068de46c50d014ba9d3f3d37985169b0"},  {"rainy_glass", "corrected", "c7916a60982b9d835a41994fee204980"},
 };
 
 }  // namespace rainref::cli

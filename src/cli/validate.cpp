@@ -17,14 +17,11 @@
 #include "registry/registry.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
-#include "faults/diagnose.h"
 #include "faults/mutate.h"
-#include "judge/conclude.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
-#include "judge/races.h"
-#include "judge/shadow.h"
-#include "judge/validate.h"
+#include "judge/shadow_plan.h"
+#include "judging/judge_folder.h"
 #include "rainref/error.h"
 #include "reports/text.h"
 
@@ -50,19 +47,33 @@ void make_empty(const fs::path& wanted) {
   }
 }
 
-/// The diagnosis, which may take minutes; the terminal says so.
-judge::Explain seeking(Progress& progress) {
-  return [&](const judge::FailedRun& failed) {
-    progress.meanwhile("seeking the cause in " + failed.pass.name);
-    return faults::diagnose(failed);
-  };
+judging::FolderOptions folder_options(const ValidateRequest& request, const parallel::Executor& executor) {
+  judging::FolderOptions options;
+  options.profile = request.profile;
+  options.only = request.only;
+  options.partial = request.partial;
+  options.foreign_host = request.foreign_host;
+  options.executor = &executor;
+  options.strict = request.strict;
+  if (request.exhaustive) options.sample = 0;
+  options.seeks_causes = !request.no_causes;
+  return options;
+}
+/// A diagnosis may take minutes; the terminal says so.
+void show(Progress& progress, judging::FolderOptions& options) {
+  options.progress = [&progress](int, int) { progress.advance(); };
+  options.at_cause = [&progress](const std::string& pass) { progress.meanwhile("seeking the cause in " + pass); };
 }
 
-/// Runs the port's command and gives the folders of its runs; a failure goes into the judgement. `last_line` is what the
-/// last run printed last.
-std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, judge::PortJudgement& judgement,
-                               std::string& last_line) {
-  std::vector<fs::path> runs;
+/// What came of the port's command.
+struct PortRuns {
+  std::vector<fs::path> folders;  ///< of its runs; none where one failed
+  std::string failure = "";
+  std::vector<std::string> printed{};  ///< by the run that failed
+  std::string last_line = "";          ///< that the last run printed
+};
+PortRuns run_port(const ValidateRequest& request, const fs::path& folder) {
+  PortRuns runs;
   Progress progress("running the port", request.repeat);
   for (int k = 1; k <= request.repeat; ++k) {
     const fs::path out = request.repeat == 1 ? folder : folder / fmt::format("run.{}", k);
@@ -70,84 +81,54 @@ std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& f
     const PortFolders folders(request.pack, out);
     const CommandEnd end =
         run_command(folders.filled_in(request.exec), std::chrono::duration<double>(request.timeout_s), folders.environment());
-    if (!end.failure.empty()) {
-      judgement.status = judge::Status::fail;
-      judgement.reason = request.repeat == 1 ? end.failure : fmt::format("run {}: {}", k, end.failure);
-      for (const std::string& line : end.last_lines) judgement.notes.push_back("the port printed: " + line);
-      return {};
-    }
+    if (!end.failure.empty()) return {{}, request.repeat == 1 ? end.failure : fmt::format("run {}: {}", k, end.failure), end.last_lines};
     folders.check();
-    last_line = end.last_lines.empty() ? "" : end.last_lines.back();
-    runs.push_back(out);
+    runs.last_line = end.last_lines.empty() ? "" : end.last_lines.back();
+    runs.folders.push_back(out);
     progress.advance();
   }
   return runs;
 }
 
-/// A judgement, and what a page shows of it. The folders and the executor that it reads from live as long.
-struct Judged {
-  judge::PortJudgement judgement;
-  reports::PageSource source;
-};
-
-Judged judge_pack(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
-  const auto opened = std::make_shared<const capture::Pack>(request.pack);
-  const capture::Pack& pack = *opened;
-  judge::ValidateOptions options;
-  options.profile = request.profile;
-  options.only = request.only;
-  options.partial = request.partial;
+/// `temporary` is where the port runs if the request names no folder; it must live until the page is written.
+judging::Judged judge_pack(const ValidateRequest& request, const Reports& reports, std::optional<TemporaryRun>& temporary,
+                           const parallel::Executor& executor) {
+  const auto pack = std::make_shared<const capture::Pack>(request.pack);
+  judging::FolderOptions options = folder_options(request, executor);
   // What is wrong with the request shows before the port is run.
-  static_cast<void>(judge::judging_profile(options.profile));
-  for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
+  judging::check_request(*pack, options);
   std::vector<std::string> ids;
-  for (const capture::PackCase& c : pack.cases) ids.push_back(c.id);
-  reports.check(pack.passes, ids);
+  for (const capture::PackCase& c : pack->cases) ids.push_back(c.id);
+  reports.check(pack->passes, ids);
 
-  judge::PortJudgement judgement;
-  judgement.pack = request.pack.string();
-  judgement.profile = request.profile;
-  judgement.effect = pack.effect;
-  judgement.variant = pack.variant;
-  judgement.scene = pack.scene;
-  std::shared_ptr<TemporaryRun> temporary;
-  std::string last_line;
-  std::vector<fs::path> runs{request.port};
+  PortRuns runs{{request.port}};
   if (!request.exec.empty()) {
-    if (request.port.empty()) temporary = std::make_shared<TemporaryRun>();
-    const fs::path folder = temporary ? temporary->path() : request.port;
-    judgement.port = request.port.empty() ? "the outputs of --exec" : request.port.string();
-    runs = run_port(request, folder, judgement, last_line);
-    if (runs.empty()) return {judgement, {}};
+    if (request.port.empty()) temporary.emplace();
+    runs = run_port(request, temporary ? temporary->path() : request.port);
   }
-  options.executor = &executor;
-  try {
-    Progress progress("judging", static_cast<int>(std::count_if(pack.cases.begin(), pack.cases.end(),
-                                                                [&](const capture::PackCase& c) { return options.wants(c.pass); })));
-    options.progress = [&](int, int) { progress.advance(); };
-    if (!request.no_causes) options.explain = seeking(progress);
-    const std::string shown = judgement.port;
-    judgement = judge::validate(pack, runs.front(), options);
-    if (!shown.empty()) judgement.port = shown;
-    if (runs.size() > 1) {
-      std::vector<std::string> judged;
-      for (const judge::PassJudgement& pass : judgement.passes)
-        if (!pass.cases.empty()) judged.push_back(pass.pass);
-      const judge::Races races = judge::find_races(pack, runs, judged);
-      judge::add_races(races.found, judgement);
-      judgement.files.insert(judgement.files.end(), races.files.begin(), races.files.end());
-      judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
+  judging::Judged judged;
+  judge::PortJudgement& judgement = judged.judged;
+  if (runs.folders.empty()) {
+    judgement = judge::unjudged(*pack, request.profile);
+    judgement.status = judge::Status::fail;
+    judgement.reason = runs.failure;
+    for (const std::string& line : runs.printed) judgement.notes.push_back("the port printed: " + line);
+  } else {
+    try {
+      Progress progress("judging", static_cast<int>(std::count_if(pack->cases.begin(), pack->cases.end(),
+                                                                  [&](const capture::PackCase& c) { return options.wants(c.pass); })));
+      show(progress, options);
+      judged = judging::judge_folder(pack, runs.folders, options);
+    } catch (const Error& e) {
+      // A port that exits with 0 and has written nothing may have said why.
+      if (e.code() != ExitCode::port_files || runs.last_line.empty()) throw;
+      throw Error(e.code(), fmt::format("{}; the port's command ended with exit code 0 and printed last: {}", e.what(), runs.last_line));
     }
-  } catch (const Error& e) {
-    // A port that exits with 0 and has written nothing may have said why.
-    if (e.code() != ExitCode::port_files || last_line.empty()) throw;
-    throw Error(e.code(), fmt::format("{}; the port's command ended with exit code 0 and printed last: {}", e.what(), last_line));
   }
-  if (!judgement.files.empty() && !last_line.empty())
-    judgement.notes.push_back("the port's command ended with exit code 0 and printed last: " + last_line);
-  reports::PageSource source = reports::page_source(opened, runs.front());
-  source.read = [temporary, read = source.read](const std::string& id, const std::string& output) { return read(id, output); };
-  return {std::move(judgement), std::move(source)};
+  judgement.port = temporary ? "the outputs of --exec" : request.port.string();
+  if (!judgement.files.empty() && !runs.last_line.empty())
+    judgement.notes.push_back("the port's command ended with exit code 0 and printed last: " + runs.last_line);
+  return judged;
 }
 
 /// The plan of a dump: what the scene does in the frames that are there, or what the manifest beside them says.
@@ -194,7 +175,7 @@ judge::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Ex
   return plan;
 }
 
-Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
+judging::Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
   static_cast<void>(judge::judging_profile(request.profile));
   if (!fs::is_directory(request.shadow))
     throw Error(ExitCode::port_files,
@@ -216,35 +197,29 @@ Judged judge_shadow(const ValidateRequest& request, const Reports& reports, cons
   std::vector<std::string> ids;
   for (const judge::DumpedRun& run : dumped) ids.push_back(run.id);
   reports.check(plan.passes, ids);
-  judge::ValidateOptions options;
-  options.profile = request.profile;
-  options.only = request.only;
-  options.foreign_host = request.foreign_host;
-  options.executor = &executor;
+  judging::FolderOptions options = folder_options(request, executor);
   Progress progress("judging", static_cast<int>(dumped.size()));
-  options.progress = [&](int, int) { progress.advance(); };
-  if (!request.no_causes) options.explain = seeking(progress);
-  judge::PortJudgement judgement = judge::shadow(plan, request.shadow, dumped, options);
-  options.progress = nullptr;
-  options.explain = nullptr;
-  return {std::move(judgement), reports::page_source(planned, request.shadow, dumped, options)};
+  show(progress, options);
+  return judging::judge_dumps(planned, request.shadow, dumped, options);
 }
 
 /// Judges, prints and writes the reports; the judgement, whose files may still be an error.
 judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) {
   const parallel::Executor executor(request.threads);
-  Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
-  judged.judgement.command = request.command;
-  if (request.no_causes) judged.judgement.notes.push_back("causes of failures were not looked for (--no-causes)");
-  if (request.strict) judge::fail_warnings(judged.judgement);
-  reports.apply_baseline(judged.judgement);
-  const std::string text = reports::report_text(judged.judgement, request.verbose);
+  std::optional<TemporaryRun> temporary;
+  judging::Judged judged =
+      request.shadow.empty() ? judge_pack(request, reports, temporary, executor) : judge_shadow(request, reports, executor);
+  judge::PortJudgement& judgement = judged.judged;
+  judgement.command = request.command;
+  if (request.no_causes) judgement.notes.push_back("causes of failures were not looked for (--no-causes)");
+  reports.apply_baseline(judgement);
+  const std::string text = reports::report_text(judgement, request.verbose);
   if (reports.has_standard_output())
     print_aside(text);
   else
     print_text(text);
-  reports.write(judged.judgement, judged.source);
-  return std::move(judged.judgement);
+  reports.write(judgement, judged.source);
+  return std::move(judgement);
 }
 
 }  // namespace

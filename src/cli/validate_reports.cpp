@@ -101,9 +101,10 @@ void Reports::apply_baseline(judge::PortJudgement& judgement) const {
 }
 
 void Reports::write(const judge::PortJudgement& j, const reports::PageSource& source) {
-  if (is_asked(html_)) finish(html_, reports::report_html(j, source));
+  const int code = reports::exit_code(j, allow_untested_);
+  if (is_asked(html_)) finish(html_, reports::report_html(j, code, source));
   if (is_asked(junit_)) finish(junit_, reports::report_junit(j, allow_untested_));
-  if (is_asked(json_)) finish(json_, reports::report_json(j, reports::exit_code(j, allow_untested_)));
+  if (is_asked(json_)) finish(json_, reports::report_json(j, code, source));
 }
 
 void Reports::write_error(const Error& error, const ValidateRequest& request) {
@@ -113,9 +114,10 @@ void Reports::write_error(const Error& error, const ValidateRequest& request) {
   j.profile = request.profile;
   j.command = request.command;
   j.reason = error.what();
-  if (is_asked(html_)) finish(html_, reports::report_html(j, {}));
+  const int code = static_cast<int>(error.code());
+  if (is_asked(html_)) finish(html_, reports::report_html(j, code, {}));
   if (is_asked(junit_)) finish(junit_, reports::report_junit(j, false));
-  if (is_asked(json_)) finish(json_, reports::report_json(j, static_cast<int>(error.code())));
+  if (is_asked(json_)) finish(json_, reports::report_json(j, code, {}));
 }
 
 }  // namespace rainref::cli

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compositor/face_patch.h"
 #include "compositor/packet.h"
 #include "compositor/reals.h"
 #include "math/constants.h"

@@ -25,58 +25,37 @@ struct Query {
   Query() { rtcInitIntersectContext(&context); }
 };
 inline Query& query_of(RTCIntersectContext* context) { return *reinterpret_cast<Query*>(context); }
-#define RAINREF_EMBREE_ASK(verb, width, ...)                 \
-  if constexpr (width == 1)                                  \
-    rtc##verb##1(scene, &query.context, __VA_ARGS__);        \
-  else if constexpr (width == 4)                             \
-    rtc##verb##4(valid, scene, &query.context, __VA_ARGS__); \
-  else if constexpr (width == 8)                             \
-    rtc##verb##8(valid, scene, &query.context, __VA_ARGS__); \
-  else                                                       \
-    rtc##verb##16(valid, scene, &query.context, __VA_ARGS__);
+#define RAINREF_EMBREE_INTERSECT(width, ...) rtcIntersect##width(__VA_ARGS__ scene, &query.context, &rays)
 
 #else
 
 struct Query {
   RTCRayQueryContext context;
   RTCIntersectArguments intersect;
-  RTCOccludedArguments occluded;
   Query() {
     rtcInitRayQueryContext(&context);
     rtcInitIntersectArguments(&intersect);
-    rtcInitOccludedArguments(&occluded);
-    intersect.context = occluded.context = &context;
+    intersect.context = &context;
   }
   Query(const Query&) = delete;
 };
 inline Query& query_of(RTCRayQueryContext* context) { return *reinterpret_cast<Query*>(context); }
-#define RAINREF_EMBREE_ASK(verb, width, ...)             \
-  if constexpr (width == 1)                              \
-    rtc##verb##1(scene, __VA_ARGS__, &arguments);        \
-  else if constexpr (width == 4)                         \
-    rtc##verb##4(valid, scene, __VA_ARGS__, &arguments); \
-  else if constexpr (width == 8)                         \
-    rtc##verb##8(valid, scene, __VA_ARGS__, &arguments); \
-  else                                                   \
-    rtc##verb##16(valid, scene, __VA_ARGS__, &arguments);
+#define RAINREF_EMBREE_INTERSECT(width, ...) rtcIntersect##width(__VA_ARGS__ scene, &rays, &query.intersect)
 
 #endif
 
 /// Lanes with valid[i] == -1 are traced; with one ray there is no such array.
 template <int width>
 void intersect([[maybe_unused]] const int* valid, RTCScene scene, Query& query, RayHit<width>& rays) {
-#if RAINREF_EMBREE == 4
-  RTCIntersectArguments& arguments = query.intersect;
-#endif
-  RAINREF_EMBREE_ASK(Intersect, width, &rays)
+  if constexpr (width == 1)
+    RAINREF_EMBREE_INTERSECT(1, );
+  else if constexpr (width == 4)
+    RAINREF_EMBREE_INTERSECT(4, valid, );
+  else if constexpr (width == 8)
+    RAINREF_EMBREE_INTERSECT(8, valid, );
+  else
+    RAINREF_EMBREE_INTERSECT(16, valid, );
 }
-template <int width>
-void occluded([[maybe_unused]] const int* valid, RTCScene scene, Query& query, RayHit<width>& rays) {
-#if RAINREF_EMBREE == 4
-  RTCOccludedArguments& arguments = query.occluded;
-#endif
-  RAINREF_EMBREE_ASK(Occluded, width, &rays.ray)
-}
-#undef RAINREF_EMBREE_ASK
+#undef RAINREF_EMBREE_INTERSECT
 
 }  // namespace rainref::compositor::embree

@@ -17,8 +17,7 @@ void PictureEnvironment::radiance(const EscapedRays& escaped_rays, std::span<Vec
   look_up(*texture_, is_cube_, rotation_, escaped_rays, out);
 }
 
-StreetEnvironment::StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama,
-                                     const Rotation& rotation)
+StreetEnvironment::StreetEnvironment(const scene::Scenery& street, const Vec& offset, const Texture& panorama, const Rotation& rotation)
     : street_(&street), offset_(offset), panorama_(panorama, false, Rotation()), rotation_(rotation) {}
 
 namespace {
@@ -36,10 +35,12 @@ void StreetEnvironment::radiance(const EscapedRays& escaped_rays, std::span<Vec>
   which.clear();
   for (std::size_t i = 0; i < escaped_rays.size(); ++i) {
     const EscapedRay escaped_ray = escaped_rays[i];
-    if (escaped_ray.blur > 0)
+    if (escaped_ray.blur > 0) {
       which.push_back(i);
-    else
-      out[i] = street_->radiance(above_road(rotation_.apply(escaped_ray.origin) + offset_), rotation_.apply(escaped_ray.direction));
+      continue;
+    }
+    const Vec direction = rotation_.apply(escaped_ray.direction);
+    out[i] = street_->look(above_road(rotation_.apply(escaped_ray.origin) + offset_), (1 / length(direction)) * direction).radiance;
   }
   if (which.empty()) return;
   const std::size_t count = which.size(), whole = whole_lanes(count);

@@ -1,9 +1,9 @@
-// Surroundings that come with rainref: a picture by direction, and the street at night, ray by ray.
+// Surroundings: a picture by direction, and a street, ray by ray.
 #pragma once
 
 #include "compositor/scene.h"
 #include "image/texture.h"
-#include "night_street/night_street.h"
+#include "scene/scenery.h"
 
 namespace rainref::compositor {
 
@@ -27,16 +27,16 @@ class PictureEnvironment : public Environment {
   Rotation rotation_;
 };
 
-/// The street at night: a sharp one is a ray of its own from where it begins, `offset` [m] being the place of the
+/// A street: a sharp ray is one of its own from where it begins, `offset` [m] being the place of the
 /// scene's origin in the street; a blurred one is looked up in the panorama.
 class StreetEnvironment : public Environment {
  public:
   /// Street and panorama (latitude/longitude with mips, linear) must outlive this.
-  StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama, const Rotation& rotation = Rotation());
+  StreetEnvironment(const scene::Scenery& street, const Vec& offset, const Texture& panorama, const Rotation& rotation = Rotation());
   void radiance(const EscapedRays& escaped_rays, std::span<Vec> radiance) const override;
 
  private:
-  const night_street::Street* street_;
+  const scene::Scenery* street_;
   Vec offset_;
   PictureEnvironment panorama_;
   Rotation rotation_;

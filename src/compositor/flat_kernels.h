@@ -1,4 +1,4 @@
-// Boxes and flat plates met by several rays at once, to the bits that Solids::meet and Plates::meet give.
+// Boxes and flat plates met by several rays at once, to the bits that Boxes::meet and Plates::meet give.
 #pragma once
 
 #include <cstdint>

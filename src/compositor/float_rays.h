@@ -46,10 +46,8 @@ struct FloatRayKernels {
   std::uint32_t (*round)(Packet& packet, const SceneExtent& extent, FloatPacket& out);
   /// The slots of the valid lanes, a bit for each.
   std::uint32_t (*slots_of)(const EmbreeLanes& lanes);
-  /// For lanes whose slots' first hits `changed`: what Embree may take for their ends by now, see float_farthest; or that they
-  /// have ended, where any hit will do.
-  void (*put_ends)(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any,
-                   const EmbreeLanes& lanes);
+  /// For lanes whose slots' first hits `changed`: what Embree may take for their ends by now, see float_farthest.
+  void (*put_ends)(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, const EmbreeLanes& lanes);
 };
 FloatRayKernels float_ray_kernels();
 

@@ -120,12 +120,11 @@ HWY_INLINE HWY_ATTR hn::Vec<NarrowTag> ends(const Packet& packet, const FloatPac
   return hn::DemoteTo(NarrowTag(), select(largest < far, largest, far).v);
 }
 
-void PutEnds(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any, const EmbreeLanes& lanes) {
+void PutEnds(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, const EmbreeLanes& lanes) {
   const FloatTag d;
-  const NarrowTag narrow;
   HWY_ALIGN float by_slot[Packet::slots];
   _Pragma("GCC unroll 2") for (int slot = 0; slot < Packet::slots; slot += n) {
-    hn::StoreU(any ? hn::Set(narrow, -std::numeric_limits<float>::infinity()) : ends(packet, floats, slack, slot), narrow, by_slot + slot);
+    hn::StoreU(ends(packet, floats, slack, slot), NarrowTag(), by_slot + slot);
   }
   int i = 0;
   for (; are_neighbours(lanes, i); i += lanes_at_once) {

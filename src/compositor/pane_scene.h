@@ -1,6 +1,7 @@
 // A wet pane put into a scene: which surfaces it has, and which medium lies on which side of each.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "compositor/pane.h"
@@ -28,5 +29,27 @@ enum class WaterShape : std::uint8_t { displaced, sloped };
 /// with the medium of the outward side first.
 void add_pane(Scene& scene, const Pane& pane, std::shared_ptr<const WaterLayer> water, WaterShape shape, std::shared_ptr<const Opaque> rim,
               const parallel::Executor& executor, const PaneMedia& media = {});
+
+/// The part of a pane's face where some condition holds: wet or dry, in front of something or not.
+class FacePatch : public PaneFace {
+ public:
+  /// is_there: of (u, v) on the pane; a pure function.
+  FacePatch(const Pane& pane, double lift, std::function<bool(double, double)> is_there)
+      : PaneFace(pane, lift), is_there_(std::move(is_there)) {}
+
+ protected:
+  bool is_there(double u, double v) const override { return is_there_(u, v); }
+
+ private:
+  std::function<bool(double, double)> is_there_;
+};
+
+/// Adds inner face, dry and wet outer face, as add_pane does; the water's surface and the rim are the caller's.
+inline void add_faces(Scene& scene, const Pane& pane, const std::function<bool(double, double)>& is_wet, const PaneMedia& media = {}) {
+  scene.add(std::make_shared<PaneFace>(pane, -pane.shape().thickness), Material::interface_of(media.pane, media.within));
+  scene.add(std::make_shared<FacePatch>(pane, 0, [is_wet](double u, double v) { return !is_wet(u, v); }),
+            Material::interface_of(media.outside, media.pane));
+  scene.add(std::make_shared<FacePatch>(pane, 0, is_wet), Material::interface_of(media.water, media.pane));
+}
 
 }  // namespace rainref::compositor

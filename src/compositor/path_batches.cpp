@@ -1,7 +1,5 @@
 #include "compositor/path_batches.h"
 
-#include <algorithm>
-
 namespace rainref::compositor {
 
 std::uint32_t PathBatches::find(std::uint32_t surface, const Medium* medium) {

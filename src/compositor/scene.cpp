@@ -54,7 +54,6 @@ Vec smooth_normal(const Material& material, const Place& place) {
 std::shared_ptr<const Opaque> opaque_of(std::function<Finish(const Place&)> finish) {
   return std::make_shared<OpaqueFunction>(std::move(finish));
 }
-std::shared_ptr<const Opaque> diffuse(const Vec& albedo, const Vec& light) { return emitter(albedo * light); }
 std::shared_ptr<const Opaque> emitter(const Vec& radiance) {
   return opaque_of([radiance](const Place&) {
     Finish f;

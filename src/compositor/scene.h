@@ -103,8 +103,6 @@ Vec smooth_normal(const Material& material, const Place& place);
 
 /// An opaque finish by a function of one place.
 std::shared_ptr<const Opaque> opaque_of(std::function<Finish(const Place&)> finish);
-/// A diffuse surface under equal light from everywhere: radiance = albedo * light.
-std::shared_ptr<const Opaque> diffuse(const Vec& albedo, const Vec& light);
 /// Shines alike from both sides in every direction; mirrors nothing.
 std::shared_ptr<const Opaque> emitter(const Vec& radiance);
 
@@ -137,7 +135,6 @@ class Scene {
 
   /// Gives the surface's number.
   std::uint32_t add(std::shared_ptr<const Surface> surface, Material material);
-  void set_material(std::uint32_t surface, Material material) { materials_[surface] = std::move(material); }
   void set_environment(std::shared_ptr<const Environment> environment) { environment_ = std::move(environment); }
   /// The medium at the eye.
   void set_eye(const Medium& medium) { eye_ = medium; }

@@ -3,7 +3,6 @@
 // was found out.
 #include "compositor/shading.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

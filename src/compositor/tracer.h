@@ -6,7 +6,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "compositor/surface.h"
 
@@ -36,8 +35,6 @@ class Tracer {
   void first_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
   /// The same of as many rays as hits that lie component by component, which spares the tracer from spreading them.
   void first_hits(const RayArrays& rays, std::span<Hit> hits) const;
-  /// blocked[i] is 1 when anything lies within the limits of rays[i], else 0.
-  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
  private:
   struct State;

@@ -2,7 +2,6 @@
 // slower.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -94,15 +93,14 @@ struct Tracer::State {
   std::vector<Node> nodes;
   double largest = 0;  ///< coordinate of a box
 
-  /// With `any` one hit is enough, whichever.
-  Hit first_hit(const Ray& ray, bool any) const {
+  Hit first_hit(const Ray& ray) const {
     Hit first;
     if (nodes.empty()) return first;
     const Feeler feeler(ray, largest);
     std::uint32_t waiting[deepest];
     int count = 0;
     waiting[count++] = 0;
-    while (count > 0 && !(any && first.is_surface())) {
+    while (count > 0) {
       const std::uint32_t at = waiting[--count];
       const Node& node = nodes[at];
       if (!feeler.meets(node.box, first.t)) continue;
@@ -161,17 +159,12 @@ void Tracer::commit() {
 
 void Tracer::first_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   const FloatingPointGuard guard;
-  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = state_->first_hit(rays[i], false);
+  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = state_->first_hit(rays[i]);
 }
 
 void Tracer::first_hits(const RayArrays& rays, std::span<Hit> hits) const {
   const FloatingPointGuard guard;
-  for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = state_->first_hit(rays[i], false);
-}
-
-void Tracer::any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-  const FloatingPointGuard guard;
-  for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = state_->first_hit(rays[i], true).is_surface();
+  for (std::size_t i = 0; i < hits.size(); ++i) hits[i] = state_->first_hit(rays[i]);
 }
 
 }  // namespace rainref::compositor

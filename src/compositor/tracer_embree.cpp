@@ -42,17 +42,15 @@ void bounds_from_table(const RTCBoundsFunctionArguments* a) {
 }
 
 /// Embree hands over a packet whole or in pieces of N lanes, component by component; a lane's id is its slot.
-template <class Arguments>
-void ask_surface(const Arguments* a, RTCRayN* rays, bool any) {
+void find_first(const RTCIntersectFunctionNArguments* a) {
+  RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
   const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
   PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
   const EmbreeLanes lanes{a->valid, &RTCRayN_id(rays, a->N, 0), &RTCRayN_tfar(rays, a->N, 0), static_cast<int>(a->N)};
   const std::uint32_t changed =
       entry.surface->meet_packet(entry.number, a->primID, query.kernels.slots_of(lanes) & query.floats.enters, query.packet);
-  if (changed != 0) query.kernels.put_ends(query.packet, query.floats, query.slack, changed, any, lanes);
+  if (changed != 0) query.kernels.put_ends(query.packet, query.floats, query.slack, changed, lanes);
 }
-void find_first(const RTCIntersectFunctionNArguments* a) { ask_surface(a, RTCRayHitN_RayN(a->rayhit, a->N), false); }
-void find_any(const RTCOccludedFunctionNArguments* a) { ask_surface(a, a->ray, true); }
 
 using Arrays = std::array<float*, 8>;  // origin, direction, nearest, farthest
 
@@ -90,8 +88,8 @@ void prepare(embree::RayHit<width>& rays) {
 }
 
 /// A packet at a time. take(begin, count, packet) lends the packet the components of its rays.
-template <int width, class Take, class Ask>
-void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, const Ask& ask) {
+template <int width, class Take>
+void trace(RTCScene scene, const SceneExtent& extent, const Take& take, std::span<Hit> hits) {
   PacketQuery query;
   query.slack = extent.slack();
   alignas(64) embree::RayHit<width> rays;
@@ -120,7 +118,7 @@ void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, con
       traced = query.floats.enters;
       for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(traced >> slot & 1);
     }
-    ask(valid, query, rays);
+    embree::intersect<width>(valid, scene, query, rays);
   };
   std::size_t begin = 0;
   if constexpr (is_whole) {
@@ -216,25 +214,18 @@ struct Tracer::State {
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
-  template <class Visit>
-  void with_width(const Visit& visit) const {
-    switch (options.packet_width) {
-      case 1:
-        return visit(std::integral_constant<int, 1>());
-      case 4:
-        return visit(std::integral_constant<int, 4>());
-      case 8:
-        return visit(std::integral_constant<int, 8>());
-      default:
-        return visit(std::integral_constant<int, 16>());
-    }
-  }
   template <class Take>
   void find_first_hits(const Take& take, std::span<Hit> hits) const {
-    with_width([&](auto width) {
-      trace<width>(extent, take, hits,
-                   [&](const int* valid, PacketQuery& query, auto& rays) { embree::intersect<width>(valid, scene, query, rays); });
-    });
+    switch (options.packet_width) {
+      case 1:
+        return trace<1>(scene, extent, take, hits);
+      case 4:
+        return trace<4>(scene, extent, take, hits);
+      case 8:
+        return trace<8>(scene, extent, take, hits);
+      default:
+        return trace<16>(scene, extent, take, hits);
+    }
   }
 };
 
@@ -265,7 +256,6 @@ std::uint32_t Tracer::add(std::shared_ptr<const Surface> surface) {
   rtcSetGeometryUserData(entry.geometry, &entry);
   rtcSetGeometryBoundsFunction(entry.geometry, bounds_from_table, nullptr);
   rtcSetGeometryIntersectFunction(entry.geometry, find_first);
-  rtcSetGeometryOccludedFunction(entry.geometry, find_any);
   rtcAttachGeometryByID(s.scene, entry.geometry, number);
   return number;
 }
@@ -327,22 +317,6 @@ void Tracer::first_hits(const RayArrays& rays, std::span<Hit> hits) const {
   const FloatingPointGuard guard;
   PacketRoom room;
   state_->find_first_hits(lending(rays, room), hits);
-}
-
-void Tracer::any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-  const FloatingPointGuard guard;
-  PacketRoom room;
-  constexpr std::size_t block = 256;
-  Hit hits[block];
-  for (std::size_t begin = 0; begin < rays.size(); begin += block) {
-    const std::size_t count = std::min(block, rays.size() - begin);
-    state_->with_width([&](auto width) {
-      trace<width>(
-          state_->extent, spreading(rays.subspan(begin, count), room), {hits, count},
-          [&](const int* valid, PacketQuery& query, auto& packet) { embree::occluded<width>(valid, state_->scene, query, packet); });
-    });
-    for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = hits[i].is_surface();
-  }
 }
 
 }  // namespace rainref::compositor

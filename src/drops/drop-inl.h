@@ -17,8 +17,9 @@ struct DropState {
   }
   RAINREF_FN typename N::Mask lives() const { return life > N(0.0f); }
 };
+inline constexpr char all_live[] = "the list holds live drops alone", all_have_mass[] = "a live drop has a mass unit or more";
 /// The cube root of a mass that counts as `least` at least: 1 makes it that of a live drop, of which the mass is whole.
 template <class N>
 RAINREF_FN N cube_root_of_mass(N mass, float least) {
-  return cube_root(max(mass, N(least)));
+  return cube_root(guard<N>(max(mass, N(least)), all_have_mass));
 }

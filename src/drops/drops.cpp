@@ -1,6 +1,5 @@
 #include "drops/drops.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>

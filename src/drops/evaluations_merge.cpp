@@ -10,8 +10,8 @@
 #include <numeric>
 #include <type_traits>
 
-#include "drops/scalar.h"
-#include "drops/evaluations.h"
+#include "drops/motion/scalar.h"
+#include "drops/info.h"
 #include "math/whole.h"
 #include "pass/record_model.h"
 

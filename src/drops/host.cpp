@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "drops/motion/spawn.pass.h"
 #include "drops/physics.h"
-#include "drops/spawn.pass.h"
 #include "math/constants.h"
 #include "math/real64.h"
 #include "rain/rain.h"

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/memory.h"
 #include "drops/records.h"
 #include "drops/settings.h"
 #include "drops/uniforms.h"
@@ -77,5 +78,9 @@ struct Flux {
   double drops, water;
 };
 Flux flux(const Settings& settings, double normal_z, double normal_wind);
+
+/// Memory of WetGlass and what its passes work with, with a film of columns x rows texels, while there are at most `live` drops, which may
+/// lean.
+MemoryPeak memory(const Settings& settings, int columns, int rows, std::int64_t live, bool lean);
 
 }  // namespace rainref::drops

@@ -1,12 +1,12 @@
 #include "drops/info.h"
 
-#include "drops/integrate.pass.h"
-#include "drops/merge.pass.h"
-#include "drops/necks.pass.h"
-#include "drops/spawn.pass.h"
-#include "drops/splat.pass.h"
+#include "drops/motion/integrate.pass.h"
+#include "drops/motion/merge.pass.h"
+#include "drops/motion/necks.pass.h"
+#include "drops/motion/spawn.pass.h"
+#include "drops/splat/splat.pass.h"
 #include "pass/info.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::drops {
 
@@ -15,14 +15,13 @@ using namespace rainref::capture;
 
 std::vector<UniformBlock> records() {
   return {Drop::layout(), GlassFrame::layout(), Neck::layout(),
-          record<SpawnMass>("SpawnMass", {member<&SpawnMass::mass>("mass", "1", "Mass of a size class of arrivals, as in Drop.")}),
-          record<CountThreshold>("CountThreshold", {member<&CountThreshold::threshold>(
-                                                       "threshold", "1", "A word not below k thresholds draws first_count + k drops.")})};
+          record<SpawnMass>({member<&SpawnMass::mass>("1", "Mass of a size class of arrivals, as in Drop.")}),
+          record<CountThreshold>({member<&CountThreshold::threshold>("1", "A word not below k thresholds draws first_count + k drops.")})};
 }
 
 std::vector<BufferInfo> buffers() {
   const auto list = [](const char* name, const char* sentence, std::array<double, 2> range, const char* record, const char* variant) {
-    return BufferInfo{name, "records", sentence, "1", range, "none", "none", "none", "", record, variant};
+    return BufferInfo{.name = name, .format = "records", .sentence = sentence, .range = range, .record = record, .variant = variant};
   };
   std::vector<BufferInfo> all = pass::buffers_of<SpawnPass>();
   all.push_back(list("glass_frame", "What moves drops, in glass coordinates.", {-1000, 1000}, "GlassFrame", ""));

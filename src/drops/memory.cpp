@@ -1,10 +1,10 @@
-#include "drops/memory.h"
+#include "drops/host.h"
 
 #include <cstdint>
 
 #include "drops/drops.h"
-#include "drops/kernels.h"
-#include "drops/splat_kernels.h"
+#include "drops/motion/kernels.h"
+#include "drops/splat/kernels.h"
 #include "image/memory.h"
 #include "rainref/image.h"
 

@@ -29,7 +29,9 @@ struct Footprints {
 };
 template <class N>
 RAINREF_FN Footprints<N> footprints(N share, N left) {
-  const N larger = cube_root(max(N(1.0f) - share, N(0.125f))), smaller = cube_root(max(share, N(0.0f)));
+  constexpr const char* is_smaller = "the share of the smaller of two drops is between 0 and a half";
+  const N larger = cube_root(guard<N>(max(N(1.0f) - share, N(0.125f)), is_smaller));
+  const N smaller = cube_root(guard<N>(max(share, N(0.0f)), is_smaller));
   const N swollen = mix(N(1.0f) / larger, N(1.0f), left);
   return {larger * swollen, smaller * swollen};
 }

@@ -1,8 +1,5 @@
 #include "drops/physics.h"
 
-#include "math/constants.h"
-#include "math/real64.h"
-
 namespace rainref::drops {
 namespace {
 

@@ -9,12 +9,10 @@ using scene::member;
 
 scene::UniformBlock Drop::layout() {
   return scene::record<Drop>(
-      "Drop",
-      {member<&Drop::position>("position", "1", "Glass coordinates u, v."),
-       member<&Drop::velocity>("velocity", "1/s", "Change of the position."),
-       member<&Drop::mass>("mass", "1", "as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24."),
-       member<&Drop::life>("life", "s", "What remains; not above 0: no drop."),
-       member<&Drop::id>("id", "1", "Its own for ever, ascending in the order of birth.")});
+      {member<&Drop::position>("1", "Glass coordinates u, v."), member<&Drop::velocity>("1/s", "Change of the position."),
+       member<&Drop::mass>("1", "as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24."),
+       member<&Drop::life>("s", "What remains; not above 0: no drop."),
+       member<&Drop::id>("1", "Its own for ever, ascending in the order of birth.")});
 }
 const std::vector<capture::FieldRange>& Drop::ranges(bool corrected) {
   // The glass; one that is crossed in a second; twice the mass of an ordinary drop; its life.
@@ -26,13 +24,11 @@ const std::vector<capture::FieldRange>& Drop::ranges(bool corrected) {
 
 scene::UniformBlock GlassFrame::layout() {
   return scene::record<GlassFrame>(
-      "GlassFrame", {member<&GlassFrame::gravity>("gravity", "1/s^2",
-                                                  "as-published: gravity; corrected: specific force at (0, 0), the car's motion included."),
-                     member<&GlassFrame::wind>("wind", "1/s", "Apparent wind."),
-                     member<&GlassFrame::acceleration>("acceleration", "1/s^2", "as-published: of the vehicle; corrected: 0."),
-                     member<&GlassFrame::id>("id", "1", "0."),
-                     member<&GlassFrame::spin>("spin", "1/s^2", "corrected: specific force per glass coordinate, rows u and v."),
-                     member<&GlassFrame::coriolis>("coriolis", "1/s", "corrected: specific force per velocity, rows u and v.")});
+      {member<&GlassFrame::gravity>("1/s^2", "as-published: gravity; corrected: specific force at (0, 0), the car's motion included."),
+       member<&GlassFrame::wind>("1/s", "Apparent wind."),
+       member<&GlassFrame::acceleration>("1/s^2", "as-published: of the vehicle; corrected: 0."), member<&GlassFrame::id>("1", "0."),
+       member<&GlassFrame::spin>("1/s^2", "corrected: specific force per glass coordinate, rows u and v."),
+       member<&GlassFrame::coriolis>("1/s", "corrected: specific force per velocity, rows u and v.")});
 }
 const std::vector<capture::FieldRange>& GlassFrame::ranges(bool) {
   // On a glass of a metre: the acceleration of gravity, the wind of a drive at 72 km/h, a turn of one radian in a second.
@@ -43,11 +39,10 @@ const std::vector<capture::FieldRange>& GlassFrame::ranges(bool) {
 
 scene::UniformBlock Neck::layout() {
   return scene::record<Neck>(
-      "Neck", {member<&Neck::offset>("offset", "1",
-                                     "From the larger drop's middle to the smaller one's, in plane axes, over the base radius of both."),
-               member<&Neck::share>("share", "1", "Of the smaller one in the mass of both."),
-               member<&Neck::left>("left", "1", "1 when they became one, falling; not above 0: none."),
-               member<&Neck::id>("id", "1", "Of the drop that they are.")});
+      {member<&Neck::offset>("1", "From the larger drop's middle to the smaller one's, in plane axes, over the base radius of both."),
+       member<&Neck::share>("1", "Of the smaller one in the mass of both."),
+       member<&Neck::left>("1", "1 when they became one, falling; not above 0: none."),
+       member<&Neck::id>("1", "Of the drop that they are.")});
 }
 const std::vector<capture::FieldRange>& Neck::ranges(bool) {
   // Two that touch are apart by 2^(2/3) at most.

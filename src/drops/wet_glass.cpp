@@ -1,10 +1,10 @@
 #include "drops/wet_glass.h"
 
-#include "drops/integrate.pass.h"
-#include "drops/merge.pass.h"
-#include "drops/necks.pass.h"
-#include "drops/spawn.pass.h"
-#include "drops/splat.pass.h"
+#include "drops/motion/integrate.pass.h"
+#include "drops/motion/merge.pass.h"
+#include "drops/motion/necks.pass.h"
+#include "drops/motion/spawn.pass.h"
+#include "drops/splat/splat.pass.h"
 #include "pass/run.h"
 
 namespace rainref::drops {

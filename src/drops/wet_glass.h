@@ -2,15 +2,13 @@
 // sets the order of the passes and puts its own between them.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "drops/host.h"
-#include "drops/passes.h"
-#include "drops/splat.h"
+#include "drops/motion/passes.h"
+#include "drops/splat/splat.h"
 #include "pass/definition.h"
 #include "pass/moment.h"
 #include "rainref/recorder.h"

@@ -1,4 +1,4 @@
-#include "edge_splash/evaluations.h"
+#include "edge_splash/info.h"
 
 #include <algorithm>
 #include <array>

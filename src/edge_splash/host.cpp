@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/floating_point.h"
-#include "base/memory.h"
 #include "image/colour.h"
 #include "math/constants.h"
 #include "math/half.h"

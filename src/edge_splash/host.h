@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/memory.h"
 #include "base/rows.h"
 #include "edge_splash/uniforms.h"
 #include "image/texture.h"
@@ -39,5 +40,8 @@ Image make_noise(std::uint64_t seed, int side = 256);
 inline constexpr int crown_side = 512;
 /// A tile of splash crowns as they stand at this time [s], side x side, r32f: 0 where there is none, up to 1.
 Image make_crowns(std::uint64_t seed, double time, int side = crown_side);
+
+/// Memory of the constructor and of frames, with a noise map of noise_side texels a side. The inputs are their owner's.
+MemoryPeak memory(const Settings& settings, int noise_side = 256);
 
 }  // namespace rainref::edge_splash

@@ -3,7 +3,7 @@
 #include "edge_splash/splash.pass.h"
 #include "pass/display.h"
 #include "pass/info.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -15,18 +15,24 @@ EffectInfo make() {
   EffectInfo info;
   info.name = "edge_splash";
   info.passes = {pass::info_of<PublishedSplashPass, SplashPass>(), pass::display_info("splash")};
-  const std::array<double, 2> one{0, 1};
   info.buffers = {
-      {"scene", "rgba16f", "Linear radiance and alpha of the picture that rain falls on.", "1", one, "none", "linear Rec. 709", "straight"},
-      {"depth", "r32f", "Device depth; 0 outside the picture.", "1", one, "none", "none", "none", "", "", published},
-      {"depth", "r32f", "Device depth.", "1", one, "1 / z = depth_scale d + depth_bias", "none", "none", "", "", correct},
-      {"noise_map", "r8", "Noise, a tile; 0 outside it.", "1", one, "none", "none", "none", "", "", published},
-      {"noise_map", "r32f", "Noise at half its resolution, a tile.", "1", one, "none", "none", "none", "", "", correct},
-      {"layer", "r8", "1 where splashes may be.", "1", one, "none", "none", "none", "", "", correct},
+      {.name = "scene",
+       .format = "rgba16f",
+       .sentence = "Linear radiance and alpha of the picture that rain falls on.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "straight"},
+      {.name = "depth", .format = "r32f", .sentence = "Device depth; 0 outside the picture.", .variant = published},
+      {.name = "depth",
+       .format = "r32f",
+       .sentence = "Device depth.",
+       .encoding = "1 / z = depth_scale d + depth_bias",
+       .variant = correct},
+      {.name = "noise_map", .format = "r8", .sentence = "Noise, a tile; 0 outside it.", .variant = published},
+      {.name = "noise_map", .format = "r32f", .sentence = "Noise at half its resolution, a tile.", .variant = correct},
+      {.name = "layer", .format = "r8", .sentence = "1 where splashes may be.", .variant = correct},
   };
-  for (const BufferInfo& written : pass::buffers_of<PublishedSplashPass, SplashPass>()) info.buffers.push_back(written);
-  info.buffers.push_back(
-      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"});
+  pass::append(info.buffers, pass::buffers_of<PublishedSplashPass, SplashPass>());
+  info.buffers.push_back(pass::display_buffer());
   info.depth =
       "device depth of a perspective projection: uniforms depth_scale and depth_bias (corrected), scene keys scene.near, scene.far, "
       "scene.reversed_depth";

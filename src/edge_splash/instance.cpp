@@ -2,17 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "edge_splash/evaluations.h"
-#include "edge_splash/scene_pictures.h"
 #include "edge_splash/host.h"
 #include "edge_splash/info.h"
-#include "edge_splash/memory.h"
 #include "edge_splash/parameters.h"
 #include "edge_splash/shapes.h"
 #include "image/flipped.h"
-#include "night_street/memory.h"
-#include "night_street/night_street.h"
 #include "rainref/error.h"
+#include "scene/scenery_memory.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -26,7 +22,7 @@ Inputs pictures(const scene::Config& config, const Settings& s, const ScenePictu
     in.depth_is_distance = true;
     const scene::Camera eye = camera(s);
     if (source == "street") {
-      night_street::Street::View view = night_street::Street({s.seed}).view(eye, s.width, s.height, s.depth.far_plane, executor);
+      scene::Scenery::View view = effect::street_of(files, {s.seed})->view(eye, s.width, s.height, s.depth.far_plane, executor);
       in.colour = std::move(view.colour);
       in.depth = std::move(view.depth);
     } else {
@@ -51,8 +47,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   effect::RunMemory m{fmt::format("run.size {}x{}", s.width, s.height), {}, s.width, s.height, 8 + 4, 8 + 4};
   const std::size_t inputs = image_bytes(m, Format::rgba32f) + image_bytes(m, Format::r32f);
   if (config.text("scene.source") == "street") {
-    m.peak.then(night_street::view_memory(s.width, s.height));
-    m.peak.release(night_street::normal_bytes(s.width, s.height));
+    m.peak.then(scene::view_memory(s.width, s.height));
   } else {
     m.peak.hold(inputs);
   }
@@ -61,6 +56,16 @@ effect::RunMemory memory_of(const scene::Config& config) {
   if (effect::is_sequence(config.text("scene.image")) || effect::is_sequence(config.text("scene.depth_image")))
     m.peak.pass(2 * inputs + image_bytes(m, Format::rgba32f));  // a picture as it is decoded, turned over, and as the pass takes it
   return m;
+}
+
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  check(settings);
+  ScenePictures named(config, inputs);
+  const Inputs first = pictures(config, settings, named, executor, inputs);
+  auto instance = std::make_unique<Instance>(settings, first, std::move(named), executor);
+  for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
+  return instance;
 }
 
 }  // namespace
@@ -92,21 +97,7 @@ std::vector<image_io::Layer> Instance::layers() const {
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), exposure_}; }
 
 effect::Effect entry() {
-  return {"edge_splash",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            check(settings);
-            ScenePictures named(config, inputs);
-            const Inputs first = pictures(config, settings, named, executor, inputs);
-            auto instance = std::make_unique<Instance>(settings, first, std::move(named), executor);
-            for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
-            return instance;
-          }};
+  return {"edge_splash", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::edge_splash

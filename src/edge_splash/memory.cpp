@@ -1,4 +1,3 @@
-#include "edge_splash/memory.h"
 
 #include "base/floating_point.h"
 #include "edge_splash/host.h"

@@ -10,8 +10,8 @@ namespace {
 
 using namespace rainref::scene;
 
-std::vector<MemberParameter<Settings>> made() {
-  std::vector<MemberParameter<Settings>> table{
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table{
       // The published settings, in the article's order.
       real<&Settings::drop_color>("edge_splash.drop_color", "1", 0, 1000, "Colour of the drops, linear RGB.").published(Real3{1, 1, 1}),
       real<&Settings::drop_alpha>("edge_splash.drop_alpha", "1", 0, 1, "Opacity of the drops.").published(1.0),
@@ -68,18 +68,13 @@ std::vector<MemberParameter<Settings>> made() {
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 170, "Vertical field of view; of a picture from a file, too."),
       real<&Settings::exposure>("display.exposure", "EV", -20, 20, "Exposure of the picture."),
   };
-  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
-  return table;
-}
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 
 }  // namespace
 
 std::span<const scene::Parameter> parameters() {
-  static const std::vector<scene::Parameter> all = parameters_of(members());
+  static const std::vector<scene::Parameter> all = parameters_of(members(), {effect::sequence_parameters()});
   return all;
 }
 

@@ -5,10 +5,7 @@
 #include "edge_splash/splash.pass.h"
 #include "image/footprint.h"
 #include "image/texture.h"
-#include "math/perturbed.h"
-#include "math/enclosure.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
+#include "math/numbers.h"
 
 namespace rainref::edge_splash::scalar {
 using namespace rainref::scalar;
@@ -17,10 +14,7 @@ using namespace rainref::scalar;
 #define RAINREF_LAMBDA
 #include "math/half_turn-inl.h"
 #include "math/optics-inl.h"
-#include "image/sampling_perturbed-inl.h"
-#include "image/sampling-inl.h"
-#include "image/sampling_enclosed-inl.h"
-#include "image/sampling_rearranged-inl.h"
+#include "image/sampling_numbers-inl.h"
 #include "edge_splash/splash.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

@@ -49,12 +49,7 @@ void ScenePictures::fill(int frame, Inputs& in, effect::Inputs& files) const {
   }
   if (depth_) {
     in.depth_is_distance = is_metres_;
-    const image_io::Picture picture = depth_->read(depth, files);
-    try {
-      in.depth = is_metres_ ? effect::depth_of(picture, scale_, far_, in.colour) : flipped(picture.image);
-    } catch (const Error& e) {
-      throw depth_->about(e, depth);
-    }
+    in.depth = is_metres_ ? effect::depth_in(*depth_, frame, scale_, far_, in.colour, files) : flipped(depth_->read(depth, files).image);
   }
   if (layer_) in.layer = flipped(layer_->read(layer, files).image);
 }

@@ -22,24 +22,19 @@ struct SplashResults {
 };
 
 /// As published. A read outside the depth or the noise is 0.
-struct PublishedSplashPass {
+struct PublishedSplashPass : pass::Takes<PublishedSplashUniforms> {
   static constexpr pass::About about{"splash", splash_sentence, {1}, {}, {"sobel", "length"}};
-  using Uniforms = PublishedSplashUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "PublishedSplashUniforms",
-        {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
-         member<&U::width>("width", "texel", {1, 65536}, "Columns of the picture."),
-         member<&U::height>("height", "texel", {1, 65536}, "Rows of the picture."),
-         member<&U::noise_width>("noise_width", "texel", {2, 65536}, "Columns of the noise map."),
-         member<&U::noise_height>("noise_height", "texel", {2, 65536}, "Rows of the noise map."),
-         member<&U::edge_threshold>("edge_threshold", "1", scene::share, "Sobel sum of device depths that counts as an edge."),
-         member<&U::rain_drop_scale>("rain_drop_scale", "1", scene::share, "Threshold of the noise."),
-         member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
-         member<&U::drop_speed>("drop_speed", "texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),
-         member<&U::thickness>("thickness", "texel", {0, 20}, "Distance of the taps where the depth is 1.")});
+    return block({member<&U::drop_color>("1", scene::radiance, "Linear RGB and opacity of the drops."),
+                  member<&U::width>("texel", {1, 65536}, "Columns of the picture."),
+                  member<&U::height>("texel", {1, 65536}, "Rows of the picture."),
+                  member<&U::noise_width>("texel", {2, 65536}, "Columns of the noise map."),
+                  member<&U::noise_height>("texel", {2, 65536}, "Rows of the noise map."),
+                  member<&U::edge_threshold>("1", scene::share, "Sobel sum of device depths that counts as an edge."),
+                  member<&U::rain_drop_scale>("1", scene::share, "Threshold of the noise."),
+                  member<&U::time>("s", scene::frame_time, "Frame number over frame rate, rounded once."),
+                  member<&U::drop_speed>("texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),
+                  member<&U::thickness>("texel", {0, 20}, "Distance of the taps where the depth is 1.")});
   }
   template <class B>
   struct Io {
@@ -51,33 +46,28 @@ struct PublishedSplashPass {
     typename R::Colour colour = R::colour;
   };
 };
-struct SplashPass {
+struct SplashPass : pass::Takes<SplashUniforms> {
   static constexpr pass::About about{"splash", splash_sentence, {}, {1}, {"sobel", "length"}};
-  using Uniforms = SplashUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SplashUniforms",
-        {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
-         member<&U::up>("up", "1", scene::component, "Unit vector that points up, camera axes: right, up, forward."),
-         member<&U::reach>("reach", "texel", {0, 1e9}, "Texels that the band covers at 1 m."),
-         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::depth_scale>("depth_scale", "1/m", {-1e4, 1e4}, "1 / z = depth_scale d + depth_bias."),
-         member<&U::depth_bias>("depth_bias", "1/m", {0, 1e4}, "See depth_scale."),
-         member<&U::reach_min>("reach_min", "texel", scene::whole(1, 4096), "Smallest reach of the taps."),
-         member<&U::reach_max>("reach_max", "texel", scene::whole(1, 4096), "Largest reach of the taps; whole."),
-         member<&U::step_low>("step_low", "m", {0, 1e5}, "Sobel sum of distances at which an edge begins."),
-         member<&U::step_high>("step_high", "m", {0, 1e5}, "Sobel sum from which it is whole."),
-         member<&U::bend_low>("bend_low", "1", {0, 11}, "Bend at which an edge begins."),
-         member<&U::bend_high>("bend_high", "1", {0, 11}, "Bend from which it is whole."),
-         member<&U::cosine_low>("cosine_low", "1", {0, 11}, "Cosine between an edge's normal and up at which the mask begins."),
-         member<&U::cosine_high>("cosine_high", "1", {0, 11}, "Cosine from which it is whole."),
-         member<&U::noise_low>("noise_low", "1", {0, 11}, "Noise at which a drop begins."),
-         member<&U::noise_high>("noise_high", "1", {0, 11}, "Noise from which it is whole."),
-         member<&U::noise_scale>("noise_scale", "1", {0, 1e7}, "Texture coordinates of the noise in a pixel."),
-         member<&U::noise_offset>("noise_offset", "1", scene::share, "Texture coordinates that the noise has scrolled, in [0, 1).")});
+    return block({member<&U::drop_color>("1", scene::radiance, "Linear RGB and opacity of the drops."),
+                  member<&U::up>("1", scene::component, "Unit vector that points up, camera axes: right, up, forward."),
+                  member<&U::reach>("texel", {0, 1e9}, "Texels that the band covers at 1 m."),
+                  member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                  member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                  member<&U::depth_scale>("1/m", {-1e4, 1e4}, "1 / z = depth_scale d + depth_bias."),
+                  member<&U::depth_bias>("1/m", {0, 1e4}, "See depth_scale."),
+                  member<&U::reach_min>("texel", scene::whole(1, 4096), "Smallest reach of the taps."),
+                  member<&U::reach_max>("texel", scene::whole(1, 4096), "Largest reach of the taps; whole."),
+                  member<&U::step_low>("m", {0, 1e5}, "Sobel sum of distances at which an edge begins."),
+                  member<&U::step_high>("m", {0, 1e5}, "Sobel sum from which it is whole."),
+                  member<&U::bend_low>("1", {0, 11}, "Bend at which an edge begins."),
+                  member<&U::bend_high>("1", {0, 11}, "Bend from which it is whole."),
+                  member<&U::cosine_low>("1", {0, 11}, "Cosine between an edge's normal and up at which the mask begins."),
+                  member<&U::cosine_high>("1", {0, 11}, "Cosine from which it is whole."),
+                  member<&U::noise_low>("1", {0, 11}, "Noise at which a drop begins."),
+                  member<&U::noise_high>("1", {0, 11}, "Noise from which it is whole."),
+                  member<&U::noise_scale>("1", {0, 1e7}, "Texture coordinates of the noise in a pixel."),
+                  member<&U::noise_offset>("1", scene::share, "Texture coordinates that the noise has scrolled, in [0, 1).")});
   }
   template <class B>
   struct Io {
@@ -101,22 +91,6 @@ struct Splash {
   Channels<N, 4> colour;
   RAINREF_FN Splash() {}
 };
-/// A column or row of whole texels, before it becomes an integer: a place of its own for what seeks mistakes.
-template <class N>
-RAINREF_FN N whole_place(N x) {
-  return x;
-}
-/// A value that the text has once and a port may compute again: a place of its own for what seeks mistakes.
-template <class N, class Again>
-RAINREF_FN N once(N value, const Again&) {
-  return value;
-}
-/// The single channel of a texel, by whole coordinates; outside by the texture's address rule.
-template <class N, class T>
-RAINREF_FN N texel_at(const T& t, N x, N y) {
-  const Level<N> l = uniform_level<N>(t, 0);
-  return load_near_texel<N>(t, texel_column<N>(t, l, to_int(whole_place(x))), texel_row<N>(t, l, to_int(whole_place(y))));
-}
 template <class N, class M>
 RAINREF_FN N one_where(M mask) {
   return select(mask, N(1.0f), N(0.0f));
@@ -149,8 +123,7 @@ RAINREF_FN Gradient<N> gradient_as_published(const PublishedSplashUniforms& u, c
   const N left = truncated(x - shift), right = truncated(x + shift), low = truncated(sobel_y - shift), high = truncated(sobel_y + shift);
   const N p0 = texel_at<N>(depth, left, high), p1 = texel_at<N>(depth, x, sobel_y - thickness), p2 = texel_at<N>(depth, right, low);
   const N p3 = texel_at<N>(depth, left, sobel_y), p5 = texel_at<N>(depth, right, sobel_y);
-  const N p6 = once(p0, [&]() RAINREF_LAMBDA { return texel_at<N>(depth, left, high); }), p7 = texel_at<N>(depth, x, high),
-          p8 = texel_at<N>(depth, right, high);
+  const N p6 = texel_at<N>(depth, left, high), p7 = texel_at<N>(depth, x, high), p8 = texel_at<N>(depth, right, high);
   return {((((-p0 - p3 * two) - p6) + p2) + p5 * two) + p8, ((((-p0 - p1 * two) - p2) + p6) + p7 * two) + p8};
 }
 /// Masks are 0 or 1. These two functions are all that decides anything.
@@ -182,7 +155,8 @@ RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const 
   out.angle = select(passed, zero, masks.angle);
   out.noise = select(passed, zero, noise);
   // The target ARGB32 holds nothing outside [0, 1].
-  for (int k = 0; k < 4; ++k) out.colour[k] = saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight)));
+  for (int k = 0; k < 4; ++k)
+    out.colour[k] = guard_below<N>(saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight))), "no colour is negative");
   return out;
 }
 /// A read outside the depth or the noise is 0.
@@ -266,8 +240,9 @@ RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, c
   const N facing = ((g.x * up_x + g.y * up_y) / max(magnitude, N(u.step_low))) / max(length(up_x, up_y), N(1e-4f));
   const N angle = smoothstep(u.cosine_low, u.cosine_high, facing);
 
-  const N s = sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]),
-                                       (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1]))[0];
+  const N s = guard_below<N>(sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]),
+                                                      (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1])),
+                             "the offset of the tile lies between 0 and 1")[0];
   const N noise = smoothstep(u.noise_low, u.noise_high, s);
 
   const N weight = ((edge * angle) * noise) * (layer * N(u.drop_color[3]));

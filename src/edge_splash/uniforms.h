@@ -8,32 +8,21 @@ namespace rainref::edge_splash {
 
 /// splash, as published: the article's constant buffer.
 struct PublishedSplashUniforms {
-  float drop_color[4];                     ///< linear RGB, opacity
-  std::int32_t width, height;              ///< of the picture [texel]
-  std::int32_t noise_width, noise_height;  ///< [texel]
-  float edge_threshold;                    ///< of the Sobel sum of device depths
-  float rain_drop_scale;                   ///< threshold of the noise
-  float time;                              ///< n / fps, rounded once [s]
-  float drop_speed;                        ///< of the noise, in x and in y [texel/s]
-  std::int32_t thickness;                  ///< distance of the taps where the depth is 1 [texel]
-  std::int32_t padding0, padding1, padding2;
+  float drop_color[4];
+  std::int32_t width, height, noise_width, noise_height;
+  float edge_threshold, rain_drop_scale, time, drop_speed;
+  std::int32_t thickness, padding0, padding1, padding2;
 };
 
 /// splash, corrected. Thresholds come in pairs, 0 below the first and 1 above the second.
 struct SplashUniforms {
-  float drop_color[4];            ///< linear RGB, opacity
-  float up[3];                    ///< unit vector that points up, in camera axes: right, up, forward
-  float reach;                    ///< texels that the band covers at 1 m
-  float pixel[2];                 ///< extent of a pixel on the image plane at distance 1
-  float half_size[2];             ///< half the extent of the image plane at distance 1
-  float depth_scale, depth_bias;  ///< 1 / z = depth_scale d + depth_bias [1/m]
-  float reach_min, reach_max;     ///< bounds of the reach [texel]
-  float step_low, step_high;      ///< of the Sobel sum of distances [m]
-  float bend_low, bend_high;      ///< of the bend, see splash.pass.h
-  float cosine_low, cosine_high;  ///< of the cosine between an edge's normal and up
-  float noise_low, noise_high;    ///< of the noise
-  float noise_scale[2];           ///< texture coordinates of the noise in a pixel
-  float noise_offset[2];          ///< scrolled so far, in [0, 1)
+  float drop_color[4];
+  float up[3], reach;
+  float pixel[2], half_size[2];
+  float depth_scale, depth_bias, reach_min, reach_max;
+  float step_low, step_high, bend_low, bend_high;
+  float cosine_low, cosine_high, noise_low, noise_high;
+  float noise_scale[2], noise_offset[2];
 };
 
 static_assert(sizeof(PublishedSplashUniforms) == 64 && sizeof(SplashUniforms) == 112);

@@ -10,7 +10,6 @@
 #include "cache/remembered.h"
 #include "effect/npy_picture.h"
 #include "image/flipped.h"
-#include "rainref/error.h"
 #include "scene/check.h"
 
 namespace rainref::effect {
@@ -92,6 +91,11 @@ void add_input(const NamedFile& named, const image_io::Picture& picture, InputFi
   file.channel = picture.taken;
   for (const std::string& remark : picture.remarks) inputs.notes.push_back(fmt::format("{}: '{}': {}", named.key, file.path, remark));
   inputs.files.push_back(std::move(file));
+}
+
+std::shared_ptr<const scene::Scenery> street_of(const Inputs& inputs, const scene::SceneryOptions& options) {
+  if (!inputs.street) throw Error(ExitCode::usage, "scene: expected pictures of what is seen, found none, and no street in their place");
+  return inputs.street(options);
 }
 
 void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why) {

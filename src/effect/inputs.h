@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "image_io/read.h"
 #include "rainref/error.h"
 #include "scene/config.h"
+#include "scene/scenery.h"
 
 namespace rainref::effect {
 
@@ -24,7 +26,10 @@ struct InputFile {
 struct Inputs {
   std::vector<InputFile> files;
   std::vector<std::string> warnings, notes;
+  scene::MakeScenery street = nullptr;  ///< makes what is seen where the scene names no picture: whoever opens a scene chooses it
 };
+/// That street. Throws Error(usage) where there is none.
+std::shared_ptr<const scene::Scenery> street_of(const Inputs& inputs, const scene::SceneryOptions& options);
 
 /// Whether the value of this key names files: its last part ends in "image", or is "panorama" or "drive_cycle".
 bool names_files(std::string_view key);

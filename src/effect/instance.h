@@ -3,17 +3,26 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "effect/display.h"
 #include "effect/drops_layer.h"
 #include "image_io/write.h"
+#include "rainref/image.h"
 #include "rainref/recorder.h"
 #include "state/items.h"
 
 namespace rainref::effect {
+
+/// What the effect's pass display makes of which picture, for a picture that is developed in another way.
+struct Display {
+  enum class Code : std::uint8_t { srgb, power };  ///< IEC 61966-2-1, or the published power 0.4545
+
+  const Image* radiance = nullptr;  ///< linear, four channels of 16 or 32 bits, row 0 = bottom: what display reads
+  double exposure = 0;              ///< EV
+  double vignette = 0;              ///< loss of light at a distance of the picture's width, or height, from its centre
+  Code code = Code::srgb;
+};
 
 /// A picture of an effect that is no frame of it: a map that it baked.
 struct Map {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>

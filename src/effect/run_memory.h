@@ -26,10 +26,13 @@ inline std::uint64_t image_bytes(const RunMemory& m, Format format) { return Ima
 inline bool is_named(const scene::Config& config, const char* key) { return !config.text(key).empty(); }
 
 /// Adds what writing of pictures takes after a frame. Files are taken to be compressed to half.
-void add_pictures(RunMemory& memory, bool png, bool exr);
+inline void add_pictures(RunMemory& m, bool png, bool exr) {
+  if (png) m.peak.pass(m.pixels() / m.samples * (4 + 3));
+  if (exr) m.peak.pass(m.pixels() * (m.exr_images + m.exr_texel + m.exr_texel * 3 / 2));
+}
 /// Adds the copies that a pack or a capture makes of what passes take and give.
-void add_captures(RunMemory& memory);
+inline void add_captures(RunMemory& m) { m.peak.pass(m.peak.held()); }
 /// Throws Error(usage) where it does not fit.
-void require_memory(const RunMemory& memory);
+inline void require_memory(const RunMemory& memory) { rainref::require_memory(memory.subject, memory.peak.peak()); }
 
 }  // namespace rainref::effect

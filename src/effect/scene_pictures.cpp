@@ -54,6 +54,15 @@ Image depth_of(const image_io::Picture& picture, double in_metres, double far, c
   }
   return depth;
 }
+Image depth_in(const PictureSource& depth, int frame, double scale, double far, const Image& colour, Inputs& inputs) {
+  const std::int64_t picture = depth.shown_in(frame);
+  const image_io::Picture read = depth.read(picture, inputs);
+  try {
+    return depth_of(read, scale, far, colour);
+  } catch (const Error& e) {
+    throw depth.about(e, picture);
+  }
+}
 
 Image read_tile(const scene::Config& config, const std::string& key, bool needs_alpha, Inputs& inputs) {
   const image_io::Picture p = read_input(config, key, inputs);

@@ -3,9 +3,8 @@
 
 #include <functional>
 #include <string>
-#include <vector>
 
-#include "effect/inputs.h"
+#include "effect/picture_sequence.h"
 
 namespace rainref::effect {
 
@@ -19,6 +18,8 @@ Image read_linear(const scene::Config& config, const std::string& key, Inputs& i
 /// The picture that scene.depth_image names, times `scale` (scene.depth_scale): metres along the view axis, r32f, row 0 = bottom. The sky
 /// (is_sky) lies `far` metres away. Throws Error(usage) where it has not the size of scene.image, or is below 0.
 Image depth_of(const image_io::Picture& picture, double scale, double far, const Image& colour);
+/// The same of the picture that `depth` shows in a frame; what it says of a texel names the file of a sequence.
+Image depth_in(const PictureSource& depth, int frame, double scale, double far, const Image& colour, Inputs& inputs);
 /// Whether a file means the sky by a depth: 0 (nothing came back), infinity, the largest half 65504, or 65504 m and more. `stored`: the
 /// number in the file, `metres`: what it stands for.
 bool is_sky(float stored, float metres);

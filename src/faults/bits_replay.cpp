@@ -3,19 +3,14 @@
 #include <algorithm>
 
 #include "faults/draw_faults.h"
+#include "faults/generators.h"
 #include "faults/list_faults.h"
-#include "faults/whole_faults.h"
 
 namespace rainref::faults {
 namespace {
 
 /// Record k, or nothing where the list is shorter.
 std::vector<std::byte> at(const Records& list, std::size_t k) { return k < list.size() ? list[k] : std::vector<std::byte>(); }
-
-const capture::PassModel& no_model() {
-  static const capture::ListPass none("", nullptr);
-  return none;
-}
 
 }  // namespace
 
@@ -48,8 +43,8 @@ std::vector<Fault> BitsReplay::plain() {
 
 std::vector<Tried> BitsReplay::causes(const std::vector<Fault>& all) const {
   const auto of = static_cast<std::int64_t>(failing_.size());
-  return tried(executor_, all, {"", "", 0, of, 0, true}, [&](const Fault& d) {
-    Tried cause({d.name, d.sentence, 0, of, 0, true});
+  return tried(executor_, all, failing_.size(), true, [&](const Fault& d) {
+    Tried cause = untried(d, failing_.size(), true);
     capture::PassCase altered = c_;
     if (d.alter_case) d.alter_case(altered);
     const random::DrawsScope scope(d.draws.value_or(random::Draws()));

@@ -1,16 +1,21 @@
-#include "faults/decided.h"
-
+// What is decided beside the search: how bytes lie, a list read beyond its end, what is not a number, another formula that real arithmetic
+// makes equal.
 #include <algorithm>
 #include <set>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "faults/failing_texels.h"
+#include "faults/diagnose.h"
 #include "faults/list_faults.h"
+#include "faults/texel_replay.h"
+#include "judge/alternatives.h"
 #include "judge/bits.h"
+#include "judge/evaluations.h"
 #include "judge/keyed.h"
 #include "judge/slots.h"
+#include "judge/stored.h"
+#include "rainref/error.h"
 
 namespace rainref::faults {
 
@@ -80,14 +85,11 @@ std::optional<Cause> read_beyond_end(const FailedRun& f, std::size_t output) {
   for (const std::size_t live : std::set<std::size_t>{before_zeros, before_copies, right}) {
     if (live >= all.size() || failing_with(f, output, array_of({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(live)}, stored)) > 0)
       continue;
-    const char* const what = live == before_zeros ? ", all zero" : live == before_copies ? ", all alike" : "";
-    Cause cause;
-    cause.name = fmt::format("{} read beyond its end", expected.name);
-    cause.sentence =
-        fmt::format("behind the {} right records stand {} more{}: the buffer is read at its full capacity; read `count` records", live,
-                    all.size() - live, what);
-    cause.explained = cause.inside = cause.of = failing;
-    cause.of_records = cause.is_likely = true;
+    const Kind kind = live == before_zeros    ? Kind::list_read_into_zeros
+                      : live == before_copies ? Kind::list_read_into_copies
+                                              : Kind::list_read_beyond_end;
+    Tried cause(What{kind, {expected.name, std::to_string(live), std::to_string(all.size() - live)}},
+                {"", "", failing, failing, failing, true, true});
     return cause;
   }
   return std::nullopt;
@@ -109,14 +111,59 @@ std::optional<Cause> not_numbers(const FailedRun& f) {
       const judge::Failure& first = o.worst.front();
       const std::string place = o.records ? fmt::format("{} of record {}", first.field, first.x)
                                           : fmt::format("({}, {}).{}", first.x, first.y, "xyzw"[first.channel & 3]);
-      Cause cause;
-      cause.name = "not a number";
-      cause.sentence = fmt::format("each failing element is not a number (NaN), the first is {} of {} in {}", place, o.name, c.id);
-      cause.explained = cause.inside = cause.of = failing;
-      cause.of_records = o.records;
-      cause.is_likely = true;
+      Tried cause(What{Kind::not_a_number, {place, o.name, c.id}}, {"", "", failing, failing, failing, o.records, true});
       return cause;
     }
+  return std::nullopt;
+}
+
+namespace {
+
+/// Whether the formula may give what the port stored at a texel, and bounds it.
+bool holds(const capture::PassModel& model, const std::vector<judge::Slot>& slots, const capture::PassCase& c,
+           const std::vector<capture::Array>& port, const enclosed::Profile& profile, judge::HalfMode mode, Texel at) {
+  judge::Stored stored;
+  stored.read(slots, c, model, profile, port, at.x, at.y);
+  if (stored.any_impossible) return false;
+  judge::Alternatives alternatives;
+  alternatives.run(model, at.x, at.y, stored.got_values.data(), model.rounds_inside() ? judge::narrowed(profile, mode) : profile);
+  if (alternatives.gave_up) return false;
+  std::vector<enclosed::CodeRange> ranges;
+  for (int a = 0; a < alternatives.count; ++a) {
+    const std::vector<enclosed::Enclosure>& values = alternatives.values[static_cast<std::size_t>(a)];
+    judge::code_ranges(slots, values, profile, mode, ranges);
+    bool is_held = judge::inside(profile, ranges, stored);
+    for (std::size_t v = 0; v < slots.size() && is_held; ++v)
+      is_held = stored.free[v] || !judge::bound_of(slots[v], values[v], ranges[v]).vacuous;
+    if (is_held) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<judge::Cause> alternative_formula(const capture::PassCase& c, const std::vector<capture::Array>& port,
+                                                const enclosed::Profile& profile, judge::HalfMode mode, const std::vector<Texel>& failing,
+                                                const std::vector<Texel>& passing) {
+  const capture::PassEvaluations* evaluations = judge::evaluations_of(c.effect, c.pass);
+  if (!evaluations || profile.reference || failing.empty()) return std::nullopt;
+  for (const capture::AlternativeFormula& formula : evaluations->alternatives) {
+    try {
+      const std::unique_ptr<capture::PassModel> model = formula.bind(c);
+      if (!model) continue;
+      const std::vector<judge::Slot> slots = judge::slots_of(c, *model);
+      const auto held = [&](const std::vector<Texel>& texels) {
+        return std::count_if(texels.begin(), texels.end(), [&](Texel t) { return holds(*model, slots, c, port, profile, mode, t); });
+      };
+      const auto inside = static_cast<std::int64_t>(held(failing));
+      if (inside * 10 < static_cast<std::int64_t>(failing.size()) * 9) continue;
+      if (held(passing) * 10 < static_cast<std::ptrdiff_t>(passing.size()) * 9) continue;
+      const auto of = static_cast<std::int64_t>(failing.size());
+      return Tried(What{Kind::another_formula, {formula.name, formula.sentence}}, {"", "", 0, of, inside, false, of >= 4});
+    } catch (const Error&) {
+      continue;  // the case has not what the other formula takes
+    }
+  }
   return std::nullopt;
 }
 

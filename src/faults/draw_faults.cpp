@@ -157,68 +157,57 @@ void add_draw_faults(std::vector<Fault>& out, const std::vector<random::Purpose>
     d.for_diagnosis = true;
     out.push_back(std::move(d));
   };
-  const auto set = [&](auto Draws::*member, auto value, const char* name, const char* sentence) {
+  const auto set_in = [&](random::Purpose only, auto Draws::*member, auto value, const std::string& name, const std::string& sentence) {
+    const std::string which = only == random::Purpose{} ? "" : fmt::format(" of purpose {}", static_cast<std::uint32_t>(only));
     Draws d;
+    d.only = only;
     d.*member = value;
-    add(d, name, sentence);
+    add(d, name + which, sentence + (which.empty() ? "" : ", in the blocks" + which));
+  };
+  const auto set = [&](auto Draws::*member, auto value, const std::string& name, const std::string& sentence) {
+    set_in(random::Purpose{}, member, value, name, sentence);
   };
   for (const random::Purpose only : purposes) {
-    const std::string which = only == random::Purpose{} ? "" : fmt::format(" of purpose {}", static_cast<std::uint32_t>(only));
-    const auto set_in = [&](auto Draws::*member, auto value, const char* name, const char* sentence) {
-      Draws d;
-      d.only = only;
-      d.*member = value;
-      add(d, name + which, fmt::format("{}{}", sentence, which.empty() ? "" : fmt::format(", in the blocks{}", which)));
+    const auto set_counter = [&](auto Draws::*member, auto value, std::size_t k, std::string_view what, std::string_view is) {
+      auto both = Draws().*member;
+      both[k] = value;
+      set_in(only, member, both, fmt::format("random {} counter {}", ordinals[k], what),
+             fmt::format("the {} counter of a block of random words{}", ordinals[k], is));
     };
-    using Off = std::array<std::int32_t, 2>;
-    set_in(&Draws::are_counters_swapped, true, "random counters exchanged",
+    set_in(only, &Draws::are_counters_swapped, true, "random counters exchanged",
            "the two counters of a block of random words, as the step and the number of a record, are exchanged");
-    for (const int by : {1, -1}) {
-      const char* const more = by > 0 ? "more" : "less";
-      set_in(&Draws::counters_off, Off{by, 0}, by > 0 ? "random first counter one more" : "random first counter one less",
-             fmt::format("the first counter of a block of random words is one {} than it should be", more).c_str());
-      set_in(&Draws::counters_off, Off{0, by}, by > 0 ? "random second counter one more" : "random second counter one less",
-             fmt::format("the second counter of a block of random words, as the number of a record, is one {} than it should be", more)
-                 .c_str());
-    }
-    using Strides = std::array<std::uint32_t, 2>;
-    for (const std::uint32_t stride : {2u, 3u, 4u, 8u, 16u})
-      for (const bool is_first : {true, false}) {
-        const char* const counter = is_first ? "first" : "second";
-        set_in(&Draws::strides, is_first ? Strides{stride, 1} : Strides{1, stride},
-               fmt::format("random {} counter without its factor {}", counter, stride).c_str(),
-               fmt::format("the {} counter of a block of random words is a sum whose first term lacks its factor {}", counter, stride)
-                   .c_str());
+    for (const int by : {1, -1})
+      for (const std::size_t k : {0u, 1u}) {
+        const char* const more = by > 0 ? "more" : "less";
+        set_counter(&Draws::counters_off, by, k, fmt::format("one {}", more),
+                    fmt::format("{} is one {} than it should be", k == 0 ? "" : ", as the number of a record,", more));
       }
     for (const std::uint32_t stride : {2u, 3u, 4u, 8u, 16u})
-      for (const bool is_first : {true, false}) {
-        const char* const counter = is_first ? "first" : "second";
-        set_in(
-            &Draws::moved, is_first ? Strides{stride, 1} : Strides{1, stride},
-            fmt::format("random {} counter with its factor {} at the other term", counter, stride).c_str(),
-            fmt::format("the {0} counter of a block of random words is a + {1} b where it should be {1} a + b", counter, stride).c_str());
-      }
-    using Zero = std::array<bool, 2>;
-    set_in(&Draws::is_counter_0, Zero{true, false}, "random first counter left out", "the first counter of a block of random words is 0");
-    set_in(&Draws::is_counter_0, Zero{false, true}, "random second counter left out", "the second counter of a block of random words is 0");
+      for (const std::size_t k : {0u, 1u})
+        set_counter(&Draws::strides, stride, k, fmt::format("without its factor {}", stride),
+                    fmt::format(" is a sum whose first term lacks its factor {}", stride));
+    for (const std::uint32_t stride : {2u, 3u, 4u, 8u, 16u})
+      for (const std::size_t k : {0u, 1u})
+        set_counter(&Draws::moved, stride, k, fmt::format("with its factor {} at the other term", stride),
+                    fmt::format(" is a + {0} b where it should be {0} a + b", stride));
+    for (const std::size_t k : {0u, 1u}) set_counter(&Draws::is_counter_0, true, k, "left out", " is 0");
     // The purpose of another block of the pass.
     for (const random::Purpose other : drawn)
       if (only != random::Purpose{} && other != only && std::abs(static_cast<int>(other) - static_cast<int>(only)) > 1)
-        set_in(&Draws::purpose_off, static_cast<int>(other) - static_cast<int>(only),
-               fmt::format("random purpose {}", static_cast<int>(other)).c_str(),
-               fmt::format("the number of what random words are for is {}, that of others", static_cast<int>(other)).c_str());
-    set_in(&Draws::are_seeds_swapped, true, "random seed's words exchanged", "the low and the high word of the seed are exchanged");
-    set_in(&Draws::purpose_off, 1, "random purpose one more", "the number of what random words are for is one too large");
-    set_in(&Draws::purpose_off, -1, "random purpose one less", "the number of what random words are for is one too small");
+        set_in(only, &Draws::purpose_off, static_cast<int>(other) - static_cast<int>(only),
+               fmt::format("random purpose {}", static_cast<int>(other)),
+               fmt::format("the number of what random words are for is {}, that of others", static_cast<int>(other)));
+    set_in(only, &Draws::are_seeds_swapped, true, "random seed's words exchanged", "the low and the high word of the seed are exchanged");
+    set_in(only, &Draws::purpose_off, 1, "random purpose one more", "the number of what random words are for is one too large");
+    set_in(only, &Draws::purpose_off, -1, "random purpose one less", "the number of what random words are for is one too small");
   }
   for (const int bits : {8, 10, 12, 15, 16, 20, 23})
-    set(&Draws::place_bits, bits, fmt::format("place of {} bits", bits).c_str(),
-        fmt::format("a place is made of the upper {0} bits of its random word alone, over 2^{0}, in place of more of them", bits).c_str());
+    set(&Draws::place_bits, bits, fmt::format("place of {} bits", bits),
+        fmt::format("a place is made of the upper {0} bits of its random word alone, over 2^{0}, in place of more of them", bits));
   set(&Draws::is_place_of_low_bits, true, "place from low bits", "a place takes the low bits of its random word in place of the high ones");
   set(&Draws::is_row_of_buffer, true, "random counter of the buffer's row",
       "a counter of a block of random words is made of the row of the buffer, where it should be the row within the layer: its first row "
-      "is "
-      "not subtracted");
+      "is not subtracted");
   set(&Draws::are_halves_swapped, true, "random counter's halves exchanged",
       "the two halves of the first counter of a block of random words, as a cell's column and row, stand in each other's place");
   using Axes = std::array<bool, 2>;
@@ -245,8 +234,8 @@ void add_counter_faults(std::vector<Fault>& out, const capture::PackPass& pass, 
     for (const std::size_t k : {0u, 1u})
       for (const bool is_added : {false, true}) {
         Fault d;
-        d.name = fmt::format("random {} counter {} {}", k == 0 ? "first" : "second", is_added ? "with" : "without", m.name);
-        d.sentence = fmt::format("the {} counter of a block of random words {} {}", k == 0 ? "first" : "second",
+        d.name = fmt::format("random {} counter {} {}", ordinals[k], is_added ? "with" : "without", m.name);
+        d.sentence = fmt::format("the {} counter of a block of random words {} {}", ordinals[k],
                                  is_added ? "has, added to it," : "lacks its term", m.name);
         d.draws.emplace().counters_off[k] = is_added ? number : static_cast<std::int32_t>(0u - static_cast<std::uint32_t>(number));
         d.for_diagnosis = true;

@@ -1,4 +1,5 @@
-#include "faults/edit_faults.h"
+// An operation of the pass text whose parts are put together otherwise: exchanged, grouped or mapped otherwise, another curve.
+#include "faults/generators.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,9 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "faults/edits.h"
 #include "faults/place_faults.h"
 #include "faults/targets.h"
-#include "faults/vector_groups.h"
 
 namespace rainref::faults {
 namespace {
@@ -56,7 +54,7 @@ class Adder {
       formulas->push_back(formula_of(edit.made[edit.made.size() == 1 ? 0 : c]));
       is_seen |= shows(p, nodes[c], formulas->back());
     }
-    std::string key = fmt::format("{}{}/{}", edit.name, edit.sentence, period);
+    std::string key = name_of(edit.what) + sentence_of(edit.what) + std::to_string(period);
     if (!is_seen || !done_.insert({std::move(key), occurrence}).second) return;
     ++made_;
     Rewrites all{};
@@ -74,21 +72,16 @@ class Adder {
       if (period > 0) all[c].occurrence = occurrence, all[c].period = period;
       all[c].formula = &(*formulas)[c];
     }
-    Fault d;
-    d.name = edit.name;
-    d.sentence = edit.sentence;
-    if (nodes.size() > 1 && edit.made.size() == 1) d.name += ", in all components", d.sentence += ", and so in the other components";
+    Fault& d = out_.emplace_back(edit.what);
+    if (nodes.size() > 1 && edit.made.size() == 1) d.reach = Reach::all;
     d.rewrites = all;
     d.at_texel = [known = known_, formulas](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = known.get(); };
-    d.for_diagnosis = true;
     d.is_one_of_many = true;
-    out_.push_back(std::move(d));
   }
 
   /// The same at all places where the components look alike so few operations deep.
   void shared(const Probe& p, const Nodes& v, std::int8_t depth, Edit edit) {
-    edit.name += ", in each such place";
-    edit.sentence += ", and so wherever a vector is made alike: a function that is called several times";
+    edit.what.reach = Reach::each_vector;
     const std::size_t before = out_.size();
     (*this)(p, v, -1, edit);
     if (out_.size() == before) return;
@@ -102,8 +95,7 @@ class Adder {
   /// At all places that look alike so few operations deep.
   void shared(const Probe& p, const SharedPlace& place, Edit edit) {
     if (is_full()) return;
-    edit.name += ", in each such place";
-    edit.sentence += words_for_all(place);
+    reach_all(edit.what, place);
     const std::size_t before = out_.size();
     (*this)(p, {place.node}, -1, edit);
     if (out_.size() == before) return;
@@ -119,6 +111,12 @@ class Adder {
   std::size_t made_ = 0, most_;
 };
 
+/// What a function of the text may have otherwise: in several places that only look alike anything else is rather a chance.
+bool is_of_function(Kind kind) {
+  return kind == Kind::another_curve || kind == Kind::length_by_sum || kind == Kind::length_by_longer || kind == Kind::held_for_wrapped ||
+         kind == Kind::wrapped_for_held || kind == Kind::ceiling_for_floor;
+}
+
 /// Adds what edits_at(node) gives of each place, from the results to what they are made of.
 template <class EditsAt>
 void each_place(Adder& add, const Probe& p, const EditsAt& edits_at) {
@@ -132,7 +130,7 @@ void each_place(Adder& add, const Probe& p, const EditsAt& edits_at) {
       if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
       // Of two or three that are met in each round of a loop.
       for (const std::int32_t period : {2, 3})
-        if (count > most_alike && count % period == 0 && count <= 8 * period && e.name.starts_with("another member"))
+        if (count > most_alike && count % period == 0 && count <= 8 * period && e.what.kind == Kind::another_member)
           for (std::int32_t first = 0; first < period; ++first) add(p, {at}, first, e, period);
     }
   }
@@ -175,7 +173,7 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;) {
       if (node_of(p, at).occurrence != 0 || is_leaf(node_of(p, at).op)) continue;
       for (Edit& e : weight_edits_of(p, at)) {
-        auto& [nodes, made] = filters[e.name];
+        auto& [nodes, made] = filters[name_of(e.what)];
         nodes.push_back(at);
         add(p, {at}, -1, e);
         made.push_back(std::move(e));
@@ -183,7 +181,8 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     }
     for (const auto& [name, filter] : filters) {
       if (filter.first.size() < 2 || filter.first.size() > Rewrites().size()) continue;
-      Edit every{{}, name + ", in all of these sums", filter.second[0].sentence + ", and so in the other sums of these weights"};
+      Edit every{{}, filter.second[0].what};
+      every.what.reach = Reach::all_sums;
       for (const Edit& e : filter.second) every.made.push_back(e.made[0]);
       add(p, filter.first, -1, every);
     }
@@ -214,15 +213,13 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     for (const SharedPlace& place : shared_places_of(all)) {
       if (add.is_full()) break;
       const Probe& of = all[place.probe];
-      // What is put together otherwise in several places that only look alike is rather a chance; in the rounds of a loop it is none.
+      // In the rounds of a loop it is no chance.
       const bool is_loop = place.depth == perturbed::by_sequence;
       std::vector<Edit> made = edits_of(of, place.node);
       if (is_loop)
         for (Edit& e : value_curve_edits_of(of, {place.node})) made.push_back(std::move(e));
       for (const Edit& e : made)
-        if (is_loop || e.name.starts_with("another") || e.name.starts_with("held") || e.name.starts_with("wrapped") ||
-            e.name.starts_with("ceiling"))
-          add.shared(of, place, e);
+        if (is_loop || is_of_function(e.what.kind)) add.shared(of, place, e);
     }
     each_place(add, p, [&](std::int32_t at) { return rarer_edits_of(p, at); });
   }

@@ -2,13 +2,11 @@
 #include "faults/edits.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
-#include <set>
-
-#include <fmt/format.h>
+#include <string>
 
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -17,7 +15,6 @@ using perturbed::FormulaStep;
 using perturbed::Op;
 using Node = perturbed::Trace::Node;
 
-bool is_dots(const std::string& text) { return text.find_first_not_of(".+-*/ ()") == std::string::npos; }
 bool is_constant(const Probe& p, const Expression& e) {
   return e.step.kind == FormulaStep::Kind::number || (e.node >= 0 && node_of(p, e.node).op == Op::constant);
 }
@@ -46,10 +43,12 @@ class Edits {
   }
 
  private:
-  void keep(Expression made, std::string name, std::string sentence) {
-    out_.push_back({{std::move(made)}, std::move(name), std::move(sentence)});
+  void keep(Expression made, Kind kind, std::vector<std::string> of) { out_.push_back({{std::move(made)}, {kind, std::move(of)}}); }
+  /// What stands there is said.
+  void keep(Expression made, Kind kind) {
+    std::string text = text_of(p_, made);
+    keep(std::move(made), kind, {text_, std::move(text)});
   }
-  std::string instead(const Expression& made) const { return fmt::format("{} stands in place of {}", text_of(p_, made), text_); }
 
   /// Two parts, one below each of two operands, exchanged.
   void swaps() {
@@ -65,11 +64,9 @@ class Edits {
             if (a->node < 0 || b->node < 0 || a->node == b->node || (are_operands && is_symmetric(all_.step.op))) continue;
             if (is_constant(p_, *a) != is_constant(p_, *b)) continue;
             const std::string one = words_for(p_, a->node), other = words_for(p_, b->node);
-            if (is_dots(one) || is_dots(other)) continue;
+            if (says_nothing(one) || says_nothing(other)) continue;
             std::swap(*a, *b);
-            const std::string of = one == other ? " of " + text_ : "";
-            keep(made, fmt::format("exchanged: {} and {}{}", one, other, of),
-                 fmt::format("in {} {} and {} stand in each other's place: {}", text_, one, other, text_of(p_, made)));
+            keep(made, one == other ? Kind::exchanged_alike : Kind::exchanged, {text_, one, other, text_of(p_, made)});
             std::swap(*a, *b);
           }
       }
@@ -93,12 +90,10 @@ class Edits {
         const Expression e = operation(inner.step.op, made);
         const bool is_bound = inner.step.op == Op::maximum || inner.step.op == Op::minimum;
         if (is_bound && (all_.step.op == Op::product || all_.step.op == Op::quotient))
-          keep(e, fmt::format("factor of one side: {}", text_of(p_, other)),
-               fmt::format("in {} {} {} one of the two alone, before the {}: {}", text_, text_of(p_, other),
-                           all_.step.op == Op::product ? "multiplies" : "divides", inner.step.op == Op::maximum ? "maximum" : "minimum",
-                           text_of(p_, e)));
+          keep(e, Kind::factor_of_one_side,
+               {text_, text_of(p_, other), verb_of(all_.step.op), inner.step.op == Op::maximum ? "maximum" : "minimum", text_of(p_, e)});
         else
-          keep(e, "grouped otherwise: " + text_of(p_, e), instead(e) + ": its parentheses stand elsewhere");
+          keep(e, Kind::grouped_otherwise);
       }
     }
   }
@@ -136,9 +131,7 @@ class Edits {
       }
       if (!is_there) continue;
       const Expression e = operation(at->step.op, terms);
-      keep(e, fmt::format("of each part: {}", text_),
-           fmt::format("{}: what is done to the sum {} is done to each of its {}", instead(e), text_of(p_, *at),
-                       factor < 0 ? "terms" : "parts, before they are weighted"));
+      keep(e, factor < 0 ? Kind::of_each_term : Kind::of_each_part, {text_, text_of(p_, e), text_of(p_, *at)});
     }
   }
 
@@ -156,7 +149,7 @@ class Edits {
     for (const Op op : {Op::sum, Op::maximum}) {
       Expression e = squares[0];
       for (std::size_t k = 1; k < squares.size(); ++k) e = operation(op, {e, squares[k]});
-      keep(e, fmt::format("another length: {} for {}", op == Op::sum ? "the sum of the sides" : "the longer side", text_), instead(e));
+      keep(e, op == Op::sum ? Kind::length_by_sum : Kind::length_by_longer);
     }
   }
 
@@ -168,13 +161,12 @@ class Edits {
       const Expression& inner = all_.of[0];
       const Op plus = all_.step.op == Op::square ? Op::sum : inner.step.op;
       const Expression e = operation(plus, {operation(all_.step.op, {inner.of[0]}), operation(all_.step.op, {inner.of[1]})});
-      keep(e, "function of each term: " + text_of(p_, e), instead(e) + ": it is taken of each term, and not of their sum");
-      // Of a product that is a square: reach * reach.
+      keep(e, Kind::function_of_each_term);
     }
     if (is_sum(all_) && all_.of[0].is_operation() && all_.of[1].is_operation() && all_.of[0].step.op == all_.of[1].step.op &&
         bends(all_.of[0].step.op)) {
       const Expression e = operation(all_.of[0].step.op, {operation(all_.step.op, {all_.of[0].of[0], all_.of[1].of[0]})});
-      keep(e, "function of the sum: " + text_of(p_, e), instead(e) + ": it is taken of the sum, and not of each term");
+      keep(e, Kind::function_of_sum);
     }
   }
 
@@ -185,8 +177,8 @@ class Edits {
       if (!all_.of[k].is_operation() || all_.of[k].step.op != Op::square) continue;
       Expression e = all_;
       e.of[k] = all_.of[k].of[0];
-      e.of[1 - k] = operation(Op::root, {operation(Op::maximum, {all_.of[1 - k], number_of(0)})});
-      keep(e, "without squares: " + text_of(p_, e), instead(e) + ": lengths themselves in place of their squares");
+      e.of[1 - k] = root_of(all_.of[1 - k]);
+      keep(e, Kind::without_squares);
     }
     // A squared length beside a number that is a square.
     const auto is_squared_length = [](const Expression& e) {
@@ -196,8 +188,8 @@ class Edits {
     for (const std::size_t k : {0u, 1u}) {
       if (!is_squared_length(all_.of[k]) || !is_constant(p_, all_.of[1 - k])) continue;
       Expression e = all_;
-      for (Expression& side : e.of) side = operation(Op::root, {operation(Op::maximum, {side, number_of(0)})});
-      keep(e, "without squares: " + text_of(p_, e), instead(e) + ": lengths themselves in place of their squares");
+      for (Expression& side : e.of) side = root_of(side);
+      keep(e, Kind::without_squares);
     }
   }
   /// x k + y: k multiplies y, or one of the terms of it, too.
@@ -218,7 +210,7 @@ class Edits {
         for (const Expression* to : terms) {
           if (to == from || to->node < 0 || from->of[k].node < 0) continue;
           const std::string factor = words_for(p_, from->of[k].node), term = words_for(p_, to->node);
-          if (is_dots(factor) || is_dots(term)) continue;
+          if (says_nothing(factor) || says_nothing(term)) continue;
           Expression e = all_;
           // The same term of the copy, by where it stands.
           std::vector<Expression*> before, after;
@@ -229,23 +221,19 @@ class Edits {
               *after[at] = operation(Op::product, {*to, from->of[k]});
               break;
             }
-          keep(e, fmt::format("factor of another term: {} of {}", factor, term),
-               fmt::format("in {} {} multiplies {} too, which it should not", text_, factor, term));
+          keep(e, Kind::factor_of_another_term, {text_, factor, term});
         }
     }
   }
 
   /// One operation for another.
   void functions() {
-    const auto with = [&](Op op, const char* name, const char* why) {
-      const Expression e = operation(op, all_.of);
-      keep(e, fmt::format("{}: {}", name, text_of(p_, e)), fmt::format("{}: {}", instead(e), why));
-    };
+    const auto of_held = [&](Expression made, Kind kind, const Expression& x) { keep(std::move(made), kind, {text_, text_of(p_, x)}); };
     switch (all_.step.op) {
       case Op::sum:
-        return with(Op::product, "product for sum", "multiplied in place of added");
+        return keep(operation(Op::product, all_.of), Kind::product_for_sum);
       case Op::product:
-        return with(Op::sum, "sum for product", "added in place of multiplied");
+        return keep(operation(Op::sum, all_.of), Kind::sum_for_product);
       case Op::mix:
         for (const std::size_t k : {0u, 1u}) {
           if (!all_.of[k].is_operation() || all_.of[k].step.op != Op::mix) continue;
@@ -253,30 +241,27 @@ class Edits {
             Expression outer = all_, inner = all_.of[k];
             outer.of[k] = inner.of[j];
             inner.of[j] = std::move(outer);
-            keep(inner, "order of two blends: " + text_of(p_, inner), instead(inner) + ": the two blends are made in the other order");
+            keep(inner, Kind::order_of_two_blends);
           }
         }
         return;
       case Op::fract:
-        return keep(clamped(all_.of[0]), "held for wrapped: " + text_,
-                    fmt::format("for {} {} is held to [0, 1]", text_, text_of(p_, all_.of[0])));
+        return of_held(clamped(all_.of[0]), Kind::held_for_wrapped, all_.of[0]);
       case Op::floor:
-        return keep(operation(Op::negation, {operation(Op::floor, {operation(Op::negation, {all_.of[0]})})}), "ceiling for floor: " + text_,
-                    fmt::format("for {} {} is rounded up", text_, text_of(p_, all_.of[0])));
+        return of_held(operation(Op::negation, {operation(Op::floor, {operation(Op::negation, {all_.of[0]})})}), Kind::ceiling_for_floor,
+                       all_.of[0]);
       case Op::minimum:
       case Op::maximum:
         for (const std::size_t k : {0u, 1u})
           if (all_.of[k].is_operation() && all_.of[k].step.op == Op::product)
             for (const std::size_t j : {0u, 1u}) {
               const Expression e = operation(Op::mix, {all_.of[1 - k], all_.of[k].of[1 - j], all_.of[k].of[j]});
-              keep(e, "blended for the larger or smaller: " + text_of(p_, e), instead(e));
+              keep(e, Kind::blended_for_bound);
             }
         if (all_.of[0].is_operation() && all_.of[0].step.op != all_.step.op &&
             (all_.of[0].step.op == Op::minimum || all_.of[0].step.op == Op::maximum)) {
-          keep(all_.of[0].of[0], "clamp left out: " + text_,
-               fmt::format("{} is not held between its ends: {} stands there", text_, text_of(p_, all_.of[0].of[0])));
-          keep(operation(Op::fract, {all_.of[0].of[0]}), "wrapped for held: " + text_,
-               fmt::format("for {} stands the fraction of {}: it is wrapped in place of held", text_, text_of(p_, all_.of[0].of[0])));
+          of_held(all_.of[0].of[0], Kind::clamp_left_out, all_.of[0].of[0]);
+          of_held(operation(Op::fract, {all_.of[0].of[0]}), Kind::wrapped_for_held, all_.of[0].of[0]);
         }
         return;
       default:
@@ -292,7 +277,7 @@ class Edits {
     for (Expression* to : all) {
       if (to->is_operation() || to->node < 0 || (!is_constant(p_, *to) && node_of(p_, to->node).op != Op::load)) continue;
       const std::string& name = p_.names[static_cast<std::size_t>(to->node)];
-      if (name.empty() || name.find_first_not_of("0123456789.-e") == std::string::npos) continue;
+      if (name.empty() || is_number(name)) continue;
       for (std::int32_t at = 0; at < static_cast<std::int32_t>(p_.trace.nodes.size()); ++at) {
         const Node& n = node_of(p_, at);
         if ((n.op != Op::sum && n.op != Op::difference) || n.occurrence != 0 || at == node_) continue;
@@ -305,8 +290,7 @@ class Edits {
         const Expression kept = *to;
         const std::string wrong = words_for(p_, at);
         *to = after;
-        keep(made, fmt::format("value of after: {} for {}", wrong, name),
-             fmt::format("in {} stands {} where {} is meant: the value of after a step", text_, wrong, name));
+        keep(made, Kind::value_of_after, {text_, wrong, name});
         *to = kept;
       }
     }
@@ -322,11 +306,10 @@ class Edits {
         if (to == all[0] || to->node < 0 || from->node < 0 || to->node == from->node) continue;
         if (!is_leaf(node_of(p_, from->node).op) && node_of(p_, from->node).op != Op::lookup) continue;
         const std::string right = words_for(p_, to->node), wrong = words_for(p_, from->node);
-        if (is_dots(right) || is_dots(wrong) || right == wrong || to->is_operation()) continue;
+        if (says_nothing(right) || says_nothing(wrong) || right == wrong || to->is_operation()) continue;
         const Expression kept = *to, other = *from;
         *to = other;
-        keep(made, fmt::format("taken for another: {} for {}", wrong, right),
-             fmt::format("in {} stands {} where {} is meant", text_, wrong, right));
+        keep(made, Kind::taken_for_another, {text_, wrong, right});
         *to = kept;
       }
   }

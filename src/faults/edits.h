@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "faults/probe.h"
@@ -28,6 +28,12 @@ Expression clamped(const Expression& x);
 /// A part of expression_of() as the value that stands there, whatever else changes it, in place of what it is made of.
 Expression as_part(const Expression& e);
 Expression operation(perturbed::Op op, std::vector<Expression> of);
+inline Expression sum(Expression a, Expression b) { return operation(perturbed::Op::sum, {std::move(a), std::move(b)}); }
+inline Expression difference(Expression a, Expression b) { return operation(perturbed::Op::difference, {std::move(a), std::move(b)}); }
+inline Expression product(Expression a, Expression b) { return operation(perturbed::Op::product, {std::move(a), std::move(b)}); }
+inline Expression quotient(Expression a, Expression b) { return operation(perturbed::Op::quotient, {std::move(a), std::move(b)}); }
+/// sqrt(max(x, 0)).
+Expression root_of(Expression x);
 
 /// A node of a probe with what it is made of, so many operations deep; its parts are paths from it.
 Expression expression_of(const Probe& p, std::int32_t node, int depth);
@@ -41,13 +47,11 @@ void parts(Expression& e, std::vector<Expression*>& out);
 perturbed::Formula formula_of(const Expression& e);
 /// What a formula gives at a node of a probe.
 float value_at(const Probe& p, std::int32_t node, const perturbed::Formula& formula);
-/// It in the words of the pass, at most about 80 letters.
-std::string text_of(const Probe& p, const Expression& e);
 
 /// What may stand there in place of what is meant.
 struct Edit {
   std::vector<Expression> made;  ///< of each place
-  std::string name, sentence;
+  What what;
 };
 /// Of one place.
 std::vector<Edit> edits_of(const Probe& p, std::int32_t node);

@@ -1,10 +1,8 @@
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "faults/edits.h"
-#include "faults/operation_names.h"
 #include "faults/targets.h"
+#include "faults/text.h"
 #include "math/formula.h"
 
 namespace rainref::faults {
@@ -12,7 +10,7 @@ namespace rainref::faults {
 using perturbed::Formula;
 using perturbed::FormulaStep;
 using perturbed::Op;
-using Kind = FormulaStep::Kind;
+using Step = FormulaStep::Kind;
 using Node = perturbed::Trace::Node;
 
 namespace {
@@ -23,7 +21,7 @@ Expression built(const Probe& p, std::int32_t node, std::array<std::int8_t, 6> p
   const Op op = node < 0 ? Op::constant : node_of(p, node).op;
   const int takes = perturbed::operands_of(op);
   if (node < 0 || depth == 0 || takes == 0 || length >= path.size() || (op == Op::comparison && length > 0)) {
-    e.step.kind = Kind::part;
+    e.step.kind = Step::part;
     e.step.path = path;
     return e;
   }
@@ -52,56 +50,30 @@ void append(const Expression& e, Formula& out) {
   for (const Expression& below : e.of) append(below, out);
   out.push_back(e.step);
 }
-std::string text_so_deep(const Probe& p, const Expression& e, int depth) {
-  if (!e.is_operation()) {
-    if (e.step.kind == Kind::number && e.node < 0) return fmt::format("{:.6g}", e.step.number);
-    return e.node < 0 ? "..." : p.text(e.node, std::max(depth, 1));
-  }
-  if (depth == 0) return "...";
-  const Op op = e.step.op;
-  if (op == Op::negation) return "-" + text_so_deep(p, e.of[0], depth);
-  if (op == Op::comparison) return text_so_deep(p, e.of[0], depth - 1) + " < " + text_so_deep(p, e.of[1], depth - 1);
-  if (const char* sign = sign_of(op); *sign) {
-    const auto side = [&](const Expression& of) {
-      const std::string text = text_so_deep(p, of, depth - 1);
-      return text.find(' ') != std::string::npos && text.back() != ')' ? fmt::format("({})", text) : text;
-    };
-    const std::string a = side(e.of[0]), b = side(e.of[1]);
-    const auto closed = [&](const Expression& of, const std::string& text) {
-      const bool is_sum = *sign_of(of.is_operation() ? of.step.op : of.node >= 0 ? node_of(p, of.node).op : Op::constant);
-      return is_sum && text.front() != '(' && text.find(' ') != std::string::npos ? fmt::format("({})", text) : text;
-    };
-    return closed(e.of[0], a) + sign + closed(e.of[1], b);
-  }
-  if (!*function_of(op)) return text_so_deep(p, e.of[0], depth);
-  std::string out = std::string(function_of(op)) + "(";
-  for (std::size_t k = 0; k < e.of.size(); ++k) out += (k == 0 ? "" : ", ") + text_so_deep(p, e.of[k], depth - 1);
-  return out + ")";
-}
-
 }  // namespace
 
 Expression number_of(float value) {
   Expression e;
-  e.step.kind = Kind::number;
+  e.step.kind = Step::number;
   e.step.number = value;
   return e;
 }
 Expression itself(std::int32_t node) {
   Expression e;
-  e.step.kind = Kind::itself;
+  e.step.kind = Step::itself;
   e.node = node;
   return e;
 }
 bool can_be_had(const Expression& e) {
-  if (e.step.kind == Kind::part && e.step.path[0] < 0) return false;
+  if (e.step.kind == Step::part && e.step.path[0] < 0) return false;
   return std::all_of(e.of.begin(), e.of.end(), can_be_had);
 }
 Expression clamped(const Expression& x) { return operation(Op::minimum, {operation(Op::maximum, {x, number_of(0)}), number_of(1)}); }
+Expression root_of(Expression x) { return operation(Op::root, {operation(Op::maximum, {std::move(x), number_of(0)})}); }
 Expression as_part(const Expression& e) {
   Expression out = e;
   out.of.clear();
-  out.step.kind = e.step.path[0] < 0 ? Kind::itself : Kind::part;
+  out.step.kind = e.step.path[0] < 0 ? Step::itself : Step::part;
   return out;
 }
 Expression operation(Op op, std::vector<Expression> of) {
@@ -114,14 +86,13 @@ Expression expression_of(const Probe& p, std::int32_t node, int depth) { return 
 
 Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const std::vector<std::int32_t>& changed, int depth) {
   Expression e;
-  e.step.kind = Kind::part;  // without a path: it cannot be had
+  e.step.kind = Step::part;  // without a path: it cannot be had
   e.node = node;
   if (node < 0) return e;
   const Node& n = node_of(p, node);
-  const bool is_of_list =
-      p.names.size() > static_cast<std::size_t>(node) && p.names[static_cast<std::size_t>(node)].find(" of ") != std::string::npos;
-  if (n.op == Op::constant && !is_of_list) {
-    e.step.kind = Kind::number;
+  const bool is_of_records = p.names.size() > static_cast<std::size_t>(node) && is_of_list(p.names[static_cast<std::size_t>(node)]);
+  if (n.op == Op::constant && !is_of_records) {
+    e.step.kind = Step::number;
     e.step.number = n.value;
     return e;
   }
@@ -133,7 +104,7 @@ Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const s
     return e;
   }
   if (node < at && !is_changed) {
-    e.step.kind = Kind::met;
+    e.step.kind = Step::met;
     e.step.shape = n.shape;
     e.step.back = 0;
     for (std::int32_t m = node; m < at; ++m) e.step.back += node_of(p, m).shape == n.shape;
@@ -141,7 +112,7 @@ Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const s
   }
   const int takes = perturbed::operands_of(n.op);
   if (takes == 0 || depth == 0) return e;
-  e.step.kind = Kind::operation;
+  e.step.kind = Step::operation;
   e.step.op = n.op;
   for (int k = 0; k < takes; ++k) e.of.push_back(elsewhere(p, n.of[static_cast<std::size_t>(k)], at, changed, depth - 1));
   return e;
@@ -162,10 +133,4 @@ float value_at(const Probe& p, std::int32_t node, const Formula& formula) {
   for (std::size_t k = 0; k < of.size(); ++k) of[k] = perturbed::Perturbed::of(n.with[k]);
   return perturbed::by_formula(formula, perturbed::Perturbed::of(n.value), of, n.of, p.trace, static_cast<std::size_t>(node)).v;
 }
-std::string text_of(const Probe& p, const Expression& e) {
-  for (int depth = 4; depth > 1; --depth)
-    if (std::string text = text_so_deep(p, e, depth); text.size() <= 80) return text;
-  return text_so_deep(p, e, 1).substr(0, 80);
-}
-
 }  // namespace rainref::faults

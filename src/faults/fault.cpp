@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
 
+#include "faults/generators.h"
 #include "faults/list_faults.h"
-#include "faults/output_faults.h"
+#include "faults/members.h"
+#include "faults/probe.h"
 #include "judge/rearrange.h"
 #include "rainref/error.h"
 
@@ -38,13 +39,10 @@ bool is_legal(perturbed::Fault s) {
 }
 
 void add_faults(std::vector<Fault>& out) {
-  for (const perturbed::FaultInfo& s : perturbed::faults()) {
-    Fault d;
-    d.name = s.name;
-    d.sentence = s.sentence;
-    d.behaviour.fault = s.fault;
-    d.legal = is_legal(s.fault);
-    out.push_back(std::move(d));
+  for (const perturbed::Fault s : perturbed::faults()) {
+    Fault& d = out.emplace_back(What{behind(Kind::fused, static_cast<int>(s) - static_cast<int>(perturbed::Fault::fused))}, false);
+    d.behaviour.fault = s;
+    d.legal = is_legal(s);
   }
 }
 
@@ -53,138 +51,86 @@ void add_stores(std::vector<Fault>& out, const PassCase& c) {
   const std::vector<Slot> slots = slots_of(c);
   if (std::none_of(slots.begin(), slots.end(), [](const Slot& s) { return s.kind == FormatInfo::float16; })) return;
   for (const HalfMode mode : {HalfMode::rtz, HalfMode::rne}) {
-    Fault d;
-    d.name = mode == HalfMode::rtz ? "half stores toward zero" : "half stores to nearest";
-    d.sentence = mode == HalfMode::rtz ? "stores to binary16 truncate; port.json or the profile say that they round to nearest"
-                                       : "stores to binary16 round to nearest; port.json or the profile say that they truncate";
+    Fault& d = out.emplace_back(What{mode == HalfMode::rtz ? Kind::half_stores_toward_zero : Kind::half_stores_to_nearest}, false);
     d.stores = mode;
     d.legal = true;
-    out.push_back(std::move(d));
   }
 }
 
 /// Every literal and uniform that the pass meets all over the picture, as another number. What only some rows meet comes
 /// from their own index.
 void add_constants(std::vector<Fault>& out, const PassCase& c, const capture::PassModel& model) {
-  std::map<float, int> values;
-  std::vector<float> met;
-  constexpr int probes = 8;
-  if (model.width() > 0) {
-    perturbed::Behaviour collecting;
-    collecting.constants = &met;
-    const perturbed::Scope scope(collecting);
-    std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
-    for (int j = 0; j < probes; ++j)
-      for (int i = 0; i < probes; ++i) {
-        model.evaluate(i * (model.width() - 1) / (probes - 1), j * (model.height() - 1) / (probes - 1), unused.data());
-        for (const float v : std::set<float>(met.begin(), met.end())) ++values[v];
-        met.clear();
-      }
-  }
-  for (const float v : constants_of_lists(model, c)) values[v] = probes * probes;
+  constexpr int all = 64;
+  std::map<float, int> values = constants_met(model);
+  for (const float v : constants_of_lists(model, c)) values[v] = all;
   for (const auto& [v, places] : values) {
-    if (places < probes * probes / 2 || v == 0 || !(v > -1e30f && v < 1e30f)) continue;
-    const auto add = [&, value = v](float replacement, const char* what, bool for_diagnosis) {
-      Fault d;
-      d.name = fmt::format("constant {} {}", value, what);
-      d.sentence = fmt::format("a literal or uniform of value {} is {}", value, replacement);
-      d.behaviour.fault = perturbed::Fault::constant;
-      d.behaviour.constant = value;
-      d.behaviour.replacement = replacement;
-      d.for_diagnosis = for_diagnosis;
-      out.push_back(std::move(d));
+    if (places < all / 2 || v == 0 || !(v > -1e30f && v < 1e30f)) continue;
+    const auto add = [&, value = v](Kind kind, float replacement, bool for_diagnosis = true) {
+      out.push_back(replaced({kind, {fmt::format("{}", value), fmt::format("{}", replacement)}}, value, replacement, for_diagnosis));
     };
-    add(v * 1.01f, "off by 1 %", false);
-    add(v * (1 + 0x1p-10f), "off by 2^-10", false);
-    add(0, "missing", true);
-    add(-v, "negated", true);
-    add(v * 2, "doubled", true);
-    add(v / 2, "halved", true);
-    add(v * v, "taken twice", true);
-    add(1 / v, "inverted", true);
+    add(Kind::constant_off_by_a_hundredth, v * 1.01f, false);
+    add(Kind::constant_off_by_a_bit, v * (1 + 0x1p-10f), false);
+    add(Kind::constant_missing, 0);
+    add(Kind::constant_negated, -v);
+    add(Kind::constant_doubled, v * 2);
+    add(Kind::constant_halved, v / 2);
+    add(Kind::constant_taken_twice, v * v);
+    add(Kind::constant_inverted, 1 / v);
   }
-}
-
-template <class T>
-void set_member(PassCase& c, std::size_t offset, T value) {
-  std::memcpy(c.uniforms.data() + offset, &value, sizeof value);
 }
 
 void add_uniforms(std::vector<Fault>& out, const capture::PackPass& pass, const PassCase* before) {
+  const auto add = [&](Kind kind, std::vector<std::string> of, std::function<void(PassCase&)> alter, bool for_diagnosis = false) {
+    out.emplace_back(What{kind, std::move(of)}, for_diagnosis).alter_case = std::move(alter);
+  };
   for (const scene::Member& m : pass.block.members) {
-    if (m.name.starts_with("padding")) continue;
-    const auto add = [&](std::string what, std::string sentence, std::function<void(PassCase&)> alter) {
-      Fault d;
-      d.name = fmt::format("uniform {} {}", m.name, what);
-      d.sentence = std::move(sentence);
-      d.alter_case = std::move(alter);
-      out.push_back(std::move(d));
-    };
+    if (is_padding(m)) continue;
     if (m.scalar == scene::Scalar::int32 && m.components == 1) {
-      add("the other way", fmt::format("the choice that {} makes is inverted, or {} is not set", m.name, m.name), [m](PassCase& c) {
-        std::int32_t v;
-        std::memcpy(&v, c.uniforms.data() + m.offset, 4);
-        if (v == 0 || v == 1) set_member(c, m.offset, 1 - v);  // else it is no flag
-      });
-      out.back().for_diagnosis = true;
+      const auto inverted = [at = m.offset](PassCase& c) {
+        const auto v = number_at<std::int32_t>(c.uniforms.data(), at);
+        if (v == 0 || v == 1) put_number(c.uniforms.data(), at, 1 - v);  // else it is no flag
+      };
+      add(Kind::uniform_the_other_way, {m.name}, inverted, true);
     }
-    add("is zero", fmt::format("{} is not set", m.name), [m](PassCase& c) { std::memset(c.uniforms.data() + m.offset, 0, m.size()); });
-    if (m.components > 1) {
-      add("reversed", fmt::format("the components of {} are in reverse order", m.name), [m](PassCase& c) {
+    add(Kind::uniform_is_zero, {m.name}, [m](PassCase& c) { std::memset(c.uniforms.data() + m.offset, 0, m.size()); });
+    if (m.components > 1)
+      add(Kind::uniform_reversed, {m.name}, [m](PassCase& c) {
         auto* words = reinterpret_cast<std::array<std::byte, 4>*>(c.uniforms.data() + m.offset);
         std::reverse(words, words + m.components);
       });
-    }
-    for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k) {
-      const std::string part = m.components == 1 ? "" : fmt::format("{} ", "xyzw"[k]);
-      add(part + "negated", fmt::format("{} {}has the other sign", m.name, part),
-          [m, k](PassCase& c) { c.uniforms[m.offset + 4 * static_cast<std::size_t>(k) + 3] ^= std::byte{0x80}; });
-      out.back().for_diagnosis = true;
-    }
-    if (m.scalar != scene::Scalar::float32 && m.components == 1) {
+    for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k)
+      add(
+          Kind::uniform_negated, {m.components == 1 ? m.name : m.name + " " + component_name(k)},
+          [at = offset_of(m, k)](PassCase& c) { c.uniforms[at + 3] ^= std::byte{0x80}; }, true);
+    if (m.scalar != scene::Scalar::float32 && m.components == 1)
       for (const int by : {-1, 1}) {
-        add(by < 0 ? "one less" : "one more", fmt::format("{} is off by one", m.name), [m, by](PassCase& c) {
-          std::int32_t v;
-          std::memcpy(&v, c.uniforms.data() + m.offset, 4);
-          set_member(c, m.offset, std::max(0, v + by));
-        });
-        out.back().for_diagnosis = m.scalar != scene::Scalar::int32;
+        const auto moved = [at = m.offset, by](PassCase& c) {
+          put_number(c.uniforms.data(), at, std::max(0, number_at<std::int32_t>(c.uniforms.data(), at) + by));
+        };
+        add(by < 0 ? Kind::uniform_one_less : Kind::uniform_one_more, {m.name}, moved, m.scalar != scene::Scalar::int32);
       }
-    }
     if (before && before->uniforms.size() >= m.offset + m.size()) {
       const std::vector<std::byte> old(before->uniforms.begin() + static_cast<std::ptrdiff_t>(m.offset),
                                        before->uniforms.begin() + static_cast<std::ptrdiff_t>(m.offset + m.size()));
-      add("stale", fmt::format("{} is that of the run before", m.name),
+      add(Kind::uniform_stale, {m.name},
           [m, old](PassCase& c) { std::copy(old.begin(), old.end(), c.uniforms.begin() + static_cast<std::ptrdiff_t>(m.offset)); });
     }
   }
   // Members of one kind that are easily taken for each other: a missing aspect ratio, width for height.
-  const auto family = [](const scene::Member& m) { return m.name.substr(0, m.name.find_last_of('_') + 1) + m.unit; };
-  for (const scene::Member& m : pass.block.members) {
+  for (const scene::Member& m : pass.block.members)
     for (const scene::Member& other : pass.block.members) {
       if (&m == &other || m.scalar != scene::Scalar::float32 || other.scalar != m.scalar || m.components != 1 || other.components != 1 ||
           family(m) != family(other))
         continue;
-      Fault d;
-      d.name = fmt::format("uniform {} is {}", m.name, other.name);
-      d.sentence = fmt::format("{} has the value of {}", m.name, other.name);
-      d.alter_case = [m, other](PassCase& c) { std::memcpy(c.uniforms.data() + m.offset, c.uniforms.data() + other.offset, m.size()); };
-      d.for_diagnosis = true;
-      out.push_back(d);
+      const auto taken = [m, other](PassCase& c) { std::memcpy(c.uniforms.data() + m.offset, c.uniforms.data() + other.offset, m.size()); };
+      add(Kind::uniform_has_value, {m.name, other.name}, taken, true);
       if (m.offset > other.offset) continue;
-      d.name = fmt::format("uniforms {} and {} exchanged", m.name, other.name);
-      d.sentence = fmt::format("{} and {} have each other's value", m.name, other.name);
-      d.alter_case = [m, other](PassCase& c) {
+      const auto exchanged = [m, other](PassCase& c) {
         std::swap_ranges(&c.uniforms[m.offset], &c.uniforms[m.offset] + m.size(), &c.uniforms[other.offset]);
       };
-      out.push_back(std::move(d));
+      add(Kind::uniforms_exchanged, {m.name, other.name}, exchanged, true);
     }
-  }
-  Fault shifted;
-  shifted.name = "uniform block shifted by 4 bytes";
-  shifted.sentence = "the uniform block's padding differs (std140 against a tight layout)";
-  shifted.alter_case = [](PassCase& c) { std::rotate(c.uniforms.begin(), c.uniforms.begin() + 4, c.uniforms.end()); };
-  out.push_back(std::move(shifted));
+  add(Kind::uniform_block_shifted, {}, [](PassCase& c) { std::rotate(c.uniforms.begin(), c.uniforms.begin() + 4, c.uniforms.end()); });
 }
 
 CaseInput* input_of(PassCase& c, const std::string& name) {
@@ -196,57 +142,52 @@ CaseInput* input_of(PassCase& c, const std::string& name) {
 void add_inputs(std::vector<Fault>& out, const PassCase& c, const PassCase* before) {
   for (const CaseInput& i : c.inputs) {
     const std::string name = i.name;
-    const auto add = [&](std::string what, std::string sentence, std::function<void(Array&)> alter) {
-      Fault d;
-      d.name = fmt::format("input {} {}", name, what);
-      d.sentence = std::move(sentence);
-      d.alter_case = [name, alter](PassCase& altered) { alter(input_of(altered, name)->array); };
-      out.push_back(std::move(d));
+    const auto add = [&](Kind kind, std::function<void(Array&)> alter, bool for_diagnosis = false) {
+      out.emplace_back(What{kind, {name}}, for_diagnosis).alter_case = [name, alter](PassCase& altered) {
+        alter(input_of(altered, name)->array);
+      };
     };
     if (i.array.is_records) {
-      add("without its first record", fmt::format("the first of {} is left out", name), [](Array& a) {
+      add(Kind::input_without_first, [](Array& a) {
         if (a.width == 0) return;
         a.levels[0].erase(a.levels[0].begin(), a.levels[0].begin() + static_cast<std::ptrdiff_t>(a.record.size));
         --a.width;
       });
-      add("without its last record", fmt::format("the last of {} is left out", name), [](Array& a) {
+      add(Kind::input_without_last, [](Array& a) {
         if (a.width == 0) return;
         a.levels[0].resize(a.levels[0].size() - a.record.size);
         --a.width;
       });
     } else {
-      add("upside down", fmt::format("row 0 of {} is v = 1", name), [](Array& a) { flip_rows(a); });
-      add("mirrored", fmt::format("{} is mirrored left to right", name), [](Array& a) { flip_columns(a); });
-      if (info(i.array.format).channels > 1) {
-        add("with its first two channels swapped", fmt::format("the first two channels of {} are swapped (ping-pong order)", name),
-            [](Array& a) { swap_channels(a, 0, 1); });
-      }
-      if (info(i.array.format).channels == 2) {
-        for (const int from : {0, 1}) {
-          add(from == 0 ? "with its first channel for both" : "with its second channel for both",
-              fmt::format("of {0} the {1} channel is read for both: {0}.{2} where {0}.{3} is meant", name, from == 0 ? "first" : "second",
-                          "xy"[from], "yx"[from]),
-              [from](Array& a) { copy_channel(a, from, 1 - from); });
-          out.back().for_diagnosis = true;
-        }
-      }
-      if (info(i.array.format).channels >= 3) {
-        add("as BGRA", fmt::format("{} is read in the order BGRA", name), [](Array& a) { swap_channels(a, 0, 2); });
-      }
-      if (i.array.levels.size() > 1) {
-        add("without mip levels", fmt::format("{} has its first level only, or is read at level 0", name),
-            [](Array& a) { a.levels.resize(1); });
-      }
+      const int channels = info(i.array.format).channels;
+      add(Kind::input_upside_down, flip_rows);
+      add(Kind::input_mirrored, flip_columns);
+      if (channels > 1) add(Kind::input_pair_swapped, [](Array& a) { swap_channels(a, 0, 1); });
+      if (channels == 2)
+        for (const int from : {0, 1})
+          add(
+              from == 0 ? Kind::input_first_for_both : Kind::input_second_for_both, [from](Array& a) { copy_channel(a, from, 1 - from); },
+              true);
+      if (channels >= 3) add(Kind::input_as_bgra, [](Array& a) { swap_channels(a, 0, 2); });
+      if (i.array.levels.size() > 1) add(Kind::input_without_levels, [](Array& a) { a.levels.resize(1); });
     }
     const CaseInput* old = before ? before->input(name) : nullptr;
-    if (old && old->array.levels != i.array.levels) {
-      const Array stale = old->array;
-      add("stale", fmt::format("{} is that of the run before", name), [stale](Array& a) { a = stale; });
-    }
+    if (old && old->array.levels != i.array.levels) add(Kind::input_stale, [stale = old->array](Array& a) { a = stale; });
   }
 }
 
 }  // namespace
+
+Fault replaced(What what, float value, float by, bool is_asked_by_diagnosis_alone) {
+  Fault d(std::move(what), is_asked_by_diagnosis_alone);
+  d.behaviour.fault = perturbed::Fault::constant;
+  d.behaviour.constant = value;
+  d.behaviour.replacement = by;
+  return d;
+}
+void tell_places_by(Fault& d, std::shared_ptr<const std::vector<float>> known) {
+  d.at_texel = [known = std::move(known)](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = known.get(); };
+}
 
 std::vector<Fault> faults_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model, const PassCase* before) {
   std::vector<Fault> all;

@@ -10,6 +10,7 @@
 
 #include "capture/pack_read.h"
 #include "capture/pass_model.h"
+#include "faults/what.h"
 #include "judge/evaluations.h"
 #include "judge/slots.h"
 #include "judge/verdict.h"
@@ -31,8 +32,10 @@ struct Texel {
   int x, y;
 };
 
-struct Fault {
-  std::string name, sentence;
+struct Fault : What {
+  Fault() = default;
+  explicit Fault(What what, bool is_asked_by_diagnosis_alone = true) : What(std::move(what)), for_diagnosis(is_asked_by_diagnosis_alone) {}
+
   perturbed::Behaviour behaviour;                      ///< what the arithmetic does
   std::function<void(capture::PassCase&)> alter_case;  ///< what the pass takes; null: as captured
   std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)>
@@ -52,6 +55,10 @@ struct Fault {
 
   bool is_evaluated() const { return !alter_outputs && !alter_list && !draws; }
 };
+/// All numbers of this value have another one.
+Fault replaced(What what, float value, float by, bool is_asked_by_diagnosis_alone = true);
+/// The places of a fault are told apart by these numbers.
+void tell_places_by(Fault& d, std::shared_ptr<const std::vector<float>> known);
 
 /// All faults of a pass on a case: of the arithmetic, of each literal and uniform, of inputs, of finished buffers and lists.
 /// `before` is the run of the same pass before this one, or null.

@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "faults/place_faults.h"
+#include "faults/solver.h"
 
 namespace rainref::faults {
 namespace {
@@ -31,21 +32,6 @@ std::size_t farthest_slot(const Wanted& w) {
   return best;
 }
 
-/// A value between two at which `off` changes its sign.
-template <class Off>
-float bisected(float low, float high, const Off& off) {
-  double at_low = off(low);
-  for (int round = 0; round < 40; ++round) {
-    const float middle = low + (high - low) / 2;
-    const double at = off(middle);
-    if ((at < 0) == (at_low < 0))
-      low = middle, at_low = at;
-    else
-      high = middle;
-  }
-  return low + (high - low) / 2;
-}
-
 /// With so many significant digits.
 float rounded(float x, int digits) { return number_from<float>(fmt::format("{:.{}g}", x, digits)).value_or(x); }
 
@@ -63,7 +49,8 @@ std::vector<float> replacements(const Replaced& pass, const Wanted& w) {
   double before = off(tried[0]);
   for (std::size_t k = 1; k < tried.size(); ++k) {
     const double now = off(tried[k]);
-    if (std::isfinite(before) && std::isfinite(now) && (before < 0) != (now < 0)) roots.push_back(bisected(tried[k - 1], tried[k], off));
+    if (std::isfinite(before) && std::isfinite(now) && (before < 0) != (now < 0))
+      roots.push_back(bisected(tried[k - 1], tried[k], before, 40, off));
     before = now;
   }
   std::sort(roots.begin(), roots.end(), [v](float a, float b) { return std::abs(a - v) < std::abs(b - v); });
@@ -78,7 +65,7 @@ std::vector<float> typed_wrong(float x) {
     if (const std::optional<float> v = number_from<float>(text); v && *v != x && std::isfinite(*v)) out.push_back(*v);
   };
   // More digits than that are no literal of the text but computed from some.
-  if (right.find('e') != std::string::npos || right.size() > 9) return out;
+  if (std::count(right.begin(), right.end(), 'e') > 0 || right.size() > 9) return out;
   for (std::size_t at = 0; at < right.size(); ++at) {
     if (right[at] < '0' || right[at] > '9') continue;
     for (char digit = '0'; digit <= '9'; ++digit) {
@@ -144,21 +131,18 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
 
 }  // namespace
 
+Fault another_value(Kind kind, const Constant& constant, float said, float replacement) {
+  What what{kind, {constant.name, fmt::format("{:.5g}", said), fmt::format("{}", constant.value)}};
+  what.is_literal = constant.begins_as_literal;
+  return replaced(std::move(what), constant.value, replacement);
+}
+
 void add_fitted_constants(std::vector<Fault>& out, const EvaluateWith& evaluate, const Constants& constants,
                           const std::vector<Wanted>& wanted) {
   if (wanted.empty()) return;
-  for (const auto& [value, name, is_literal] : constants) {
-    const std::optional<float> other = fitted({evaluate, value}, wanted, is_literal);
-    if (!other) continue;
-    Fault d;
-    d.name = fmt::format("another value of {}", name);
-    d.sentence = fmt::format("{} is about {:.5g} in the port, {} in the reference", name, *other, value);
-    d.behaviour.fault = perturbed::Fault::constant;
-    d.behaviour.constant = value;
-    d.behaviour.replacement = *other;
-    d.for_diagnosis = true;
-    out.push_back(std::move(d));
-  }
+  for (const Constant& constant : constants)
+    if (const std::optional<float> other = fitted({evaluate, constant.value}, wanted, constant.is_literal))
+      out.push_back(another_value(Kind::another_value, constant, *other, *other));
 }
 
 }  // namespace rainref::faults

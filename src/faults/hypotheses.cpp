@@ -5,15 +5,12 @@
 #include <map>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "faults/draw_faults.h"
-#include "faults/edit_faults.h"
-#include "faults/failing_texels.h"
-#include "faults/order_faults.h"
+#include "faults/generators.h"
+#include "faults/list_faults.h"
 #include "faults/place_faults.h"
-#include "faults/substitution_faults.h"
-#include "faults/whole_faults.h"
+#include "faults/text.h"
+#include "judge/evaluations.h"
 
 namespace rainref::faults {
 namespace {
@@ -54,13 +51,6 @@ std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
   return all;
 }
 
-/// A channel of an input that has another sign, is taken from 1, or counts as 0: in the text a term has.
-bool is_of_channel(const Fault& d) {
-  const std::string& n = d.name;
-  return n.starts_with("input ") &&
-         (n.ends_with(" negated") || n.ends_with(" from 1 down") || n.find(" without its ") != std::string::npos);
-}
-
 /// Failing texels away from the edges, if there are some: what stands beyond an edge has no name.
 std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassModel& model) {
   std::vector<Texel> out;
@@ -79,15 +69,8 @@ void add_fitted_thresholds(std::vector<Fault>& out, const Probed& p, const Const
     std::size_t has_above = 0, has_below = 0;
   };
   std::map<float, Range> ranges;
-  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(p.model.values()));
   for (const Texel at : failing) {
-    perturbed::Trace trace;
-    perturbed::Behaviour following;
-    following.trace = &trace;
-    {
-      const perturbed::Scope scope(following);
-      p.model.evaluate(at.x, at.y, unused.data());
-    }
+    const perturbed::Trace trace = trace_of(p.model, at);
     std::map<float, std::array<float, 2>> nearest;  // of what is compared with it: above, below
     for (const perturbed::Trace::Node& n : trace.nodes)
       for (const std::size_t k : {0u, 1u}) {
@@ -105,24 +88,16 @@ void add_fitted_thresholds(std::vector<Fault>& out, const Probed& p, const Const
       if (std::isfinite(sides[1])) ++r.has_below, r.below = std::min(r.below, sides[1]);
     }
   }
-  for (const auto& [value, name, is_literal] : constants) {
-    const auto found = ranges.find(value);
-    if (found == ranges.end() || value == 0) continue;
-    const auto add = [&, value = value, &name = name](float bound, const char* side) {
-      const float other = bound + (bound - value) * 1e-3f;
-      if (other == value) return;
-      Fault d;
-      d.name = fmt::format("another value of {}", name);
-      d.sentence = fmt::format("{}, which is compared with, is {} {:.5g} in the port, {} in the reference", name, side, bound, value);
-      d.behaviour.fault = perturbed::Fault::constant;
-      d.behaviour.constant = value;
-      d.behaviour.replacement = other;
-      d.for_diagnosis = true;
-      out.push_back(std::move(d));
+  for (const Constant& constant : constants) {
+    const auto found = ranges.find(constant.value);
+    if (found == ranges.end() || constant.value == 0) continue;
+    const auto add = [&](float bound, Kind kind) {
+      const float other = bound + (bound - constant.value) * 1e-3f;
+      if (other != constant.value) out.push_back(another_value(kind, constant, bound, other));
     };
     const Range& r = found->second;
-    if (r.has_above == failing.size()) add(r.above, "at least");
-    if (r.has_below == failing.size()) add(r.below, "at most");
+    if (r.has_above == failing.size()) add(r.above, Kind::another_threshold_above);
+    if (r.has_below == failing.size()) add(r.below, Kind::another_threshold_below);
   }
 }
 
@@ -132,13 +107,10 @@ std::vector<float> without_records(std::vector<float> known, const std::vector<P
   std::set<float> of_records;
   for (const Probe& p : probes)
     for (std::size_t n = 0; n < p.names.size(); ++n)
-      if (p.trace.nodes[n].op == perturbed::Op::constant && p.names[n].find(" of ") != std::string::npos)
-        of_records.insert(p.trace.nodes[n].value);
+      if (p.trace.nodes[n].op == perturbed::Op::constant && is_of_list(p.names[n])) of_records.insert(p.trace.nodes[n].value);
   std::erase_if(known, [&](float v) { return of_records.contains(v); });
   return known;
 }
-
-bool is_of_uniform(const Fault& d) { return d.name.starts_with("uniform") && !d.name.ends_with("stale"); }
 
 bool is_of_operation(const Fault& d) {
   return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
@@ -148,7 +120,8 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, operations, channels;
   // Constants are tried by their names; uniforms and what an operation may be mistaken for everywhere, after each place by itself.
   std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
-  take(all, uniforms, is_of_uniform);
+  // What is wrong with a uniform itself: a mistake in the text that gives the same is believed first.
+  take(all, uniforms, [](const Fault& d) { return d.is(trait::uniform); });
   take(all, operations, is_of_operation);
   const std::vector<random::Purpose> drawn = purposes_drawn([&] {
     std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(p.model.values()));
@@ -159,7 +132,8 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   add_tap_faults(all, p);
   add_input_mixups(all, p);
   add_level_faults(all, p);
-  take(all, channels, is_of_channel);
+  // A channel of an input that has another sign, is taken from 1, or counts as 0: in the text a term has.
+  take(all, channels, [](const Fault& d) { return d.is(trait::channel); });
   const std::vector<float> known = constants_everywhere(p.model);
   const std::vector<Probe> probes = probes_of(p, spread(inner(failing, p.model), 4), known);
   const Constants constants = names_of_constants(probes, known);
@@ -167,9 +141,9 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   add_place_faults(all, probes, known, PlaceKind::plain);
   // A scalar that is missing from three components is rather not set: vectors come after the uniforms.
   std::vector<Fault> vectors;
-  take(all, vectors, [](const Fault& d) { return d.name.ends_with(", in all components"); });
+  take(all, vectors, [](const Fault& d) { return d.is_of_all_components(); });
   add_named_constants(all, constants, false);
-  take(uniforms, all, [](const Fault& d) { return d.name.ends_with("is zero") || d.name.ends_with("the other way"); });
+  take(uniforms, all, [](const Fault& d) { return d.is(trait::set_at_all); });
   add_uniform_mixups(all, p, uniforms_met(probes, p.pass));
   // The same places, with all constants alike: the components of a vector are one place then, whatever they are multiplied by.
   std::move(vectors.begin(), vectors.end(), std::back_inserter(all));
@@ -216,6 +190,79 @@ std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::
   add_fitted_constants(out, evaluate, constants, telling(wanted_at(p.c, port, reference, spread(failing, 100)), 12));
   add_fitted_thresholds(out, p, constants, spread(failing, 100));
   return out;
+}
+
+// ---- lists
+
+namespace {
+
+/// That one is not set is plain, as what is wrong with all of a list.
+bool is_mixed_up_uniform(const Fault& d) { return d.is(trait::uniform) && !d.is(trait::unset); }
+
+/// Some records, each by itself, that with the most operations first; of a list whose records are not alone all of it.
+std::vector<Probe> probes_of_records(const Probed& p, const std::string& list, const std::vector<float>& known,
+                                     const std::vector<Probed>& alone) {
+  if (alone.empty()) return probes_of_list(p, list, known);
+  constexpr std::size_t most = 3;
+  std::vector<Probe> out;
+  for (const Probed& one : alone) out.push_back(std::move(probes_of_list(one, list, known)[0]));
+  std::stable_sort(out.begin(), out.end(), [](const Probe& a, const Probe& b) { return a.trace.nodes.size() > b.trace.nodes.size(); });
+  if (out.size() > most) out.resize(most);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before) {
+  std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before);
+  // As for texels, constants are tried by their names.
+  std::erase_if(
+      all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant || is_of_operation(d) || is_mixed_up_uniform(d); });
+  const capture::PassEvaluations* evaluations = judge::evaluations_of(p.c.effect, p.c.pass);
+  if (!p.bind && evaluations && evaluations->recompute) {
+    add_draw_faults(all, purposes_drawn([&] { static_cast<void>(evaluations->recompute(p.c)); }));
+    add_counter_faults(all, p.pass, p.c);
+    add_uniform_values(all, p);
+  }
+  return all;
+}
+
+Hypotheses list_hypotheses(const Probed& p, const std::string& list, const std::vector<Probed>& alone) {
+  std::vector<Fault> all;
+  add_input_mixups(all, p, false);
+  const std::vector<float> known = constants_of_lists(p.model, p.c);
+  const bool is_followed = p.bind && p.model.keyed(list);
+  const std::vector<Probe> probes = is_followed ? probes_of_records(p, list, known, alone) : std::vector<Probe>();
+  const Constants constants = names_of_constants(probes, known);
+  add_named_constants(all, constants, false);
+  add_place_faults(all, probes, known, PlaceKind::plain);
+  // The members of the records of other lists are no numbers that tell places apart: of wipers each is met in a round of a loop.
+  const std::vector<float> own = without_records(known, probes);
+  const std::vector<Probe> again = own.size() == known.size() || !is_followed ? probes : probes_of_records(p, list, own, alone);
+  if (own.size() < known.size()) add_place_faults(all, again, own, PlaceKind::plain);
+  std::set<std::string> used = uniforms_met(probes, p.pass);
+  if (!is_followed)
+    for (const scene::Member& m : p.pass.block.members) used.insert(m.name);
+  add_uniform_mixups(all, p, used);
+  add_whole_mixups(all, p);
+  const std::vector<Probe> alike = is_followed ? probes_of_records(p, list, {}, alone) : std::vector<Probe>();
+  add_place_faults(all, alike, {}, PlaceKind::plain);
+  for (Fault& d : faults_of(p.pass, p.c, p.model, nullptr))
+    if (is_of_operation(d) || is_mixed_up_uniform(d)) all.push_back(std::move(d));
+  add_place_faults(all, probes, known, PlaceKind::multiple);
+  add_named_constants(all, constants, true);
+  add_place_faults(all, alike, {}, PlaceKind::multiple);
+  add_odd_constants(all, p, constants);
+  // Where records stand alone most are none after a few of them; else all are evaluated for each, so that fewer are asked where they
+  // are many.
+  const std::size_t nodes = probes.empty() ? 1 : probes[0].trace.nodes.size();
+  const std::size_t most = std::min<std::size_t>(1200, 1 + (alone.empty() ? 8000000 : 40000000) / nodes);
+  add_shared_place_faults(all, again, own);
+  add_order_faults(all, again, own, most);
+  add_order_faults(all, alike, {}, most);
+  add_edit_faults(all, {again.begin(), again.begin() + std::min<std::ptrdiff_t>(1, std::ssize(again))}, own, most, true, again);
+  if (!again.empty()) add_vector_substitutions(all, again[0], own, most);
+  return {std::move(all), constants, {}, {}, {}};
 }
 
 }  // namespace rainref::faults

@@ -31,8 +31,6 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list, const std::
 /// Numbers that are met everywhere, but for those that a record of a list holds.
 std::vector<float> without_records(std::vector<float> known, const std::vector<Probe>& probes);
 
-/// What is wrong with a uniform itself. A mistake in the text that gives the same is believed first.
-bool is_of_uniform(const Fault& d);
 /// What an operation may be mistaken for, everywhere. At one place it is said better.
 bool is_of_operation(const Fault& d);
 /// Moves some faults to another list.

@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <functional>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "faults/fault.h"
+#include "faults/members.h"
+#include "judge/rearrange.h"
+#include "math/half.h"
 
 namespace rainref::faults {
 
@@ -22,27 +22,69 @@ inline std::vector<std::size_t> enveloped_images(const capture::PassCase& c) {
   return out;
 }
 
-/// alter(image, port's image): false where it does not apply. `sentence`: for the first image that it is said of. The port's images must
+/// A channel of a texel; a code of 8 bits as a share of 255.
+inline float channel_at(const FormatInfo& f, const std::byte* at) {
+  return f.kind == FormatInfo::float32   ? number_at<float>(at, 0)
+         : f.kind == FormatInfo::float16 ? to_float(number_at<Half>(at, 0))
+                                         : static_cast<float>(std::to_integer<int>(*at)) / 255.0f;
+}
+/// Puts a channel of halves or floats.
+inline void put_channel(const FormatInfo& f, std::byte* at, float v) {
+  if (f.kind == FormatInfo::float16)
+    put_number(at, 0, to_half(v));
+  else
+    put_number(at, 0, v);
+}
+
+using Alter = std::function<void(capture::Array&)>;
+/// Channel `to` of each texel as channel `from` of another image of the same format and size.
+inline Alter taking_channel(const capture::Array& source, int from, int to) {
+  return [source, from, to](capture::Array& a) {
+    const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes);
+    for (std::size_t t = 0; t + a.element_bytes() <= a.levels[0].size(); t += a.element_bytes())
+      std::memcpy(a.levels[0].data() + t + n * static_cast<std::size_t>(to),
+                  source.levels[0].data() + t + n * static_cast<std::size_t>(from), n);
+  };
+}
+/// Channel k, of halves or floats, with the other sign.
+inline Alter negating_channel(const FormatInfo& f, int k) {
+  return [last = (k + 1) * f.channel_bytes - 1](capture::Array& a) {
+    judge::each_texel(a, [last](std::byte* t) { t[last] ^= std::byte{0x80}; });
+  };
+}
+/// Channel k as 0.
+inline Alter clearing_channel(const FormatInfo& f, int k) {
+  return [first = k * f.channel_bytes, n = f.channel_bytes](capture::Array& a) {
+    judge::each_texel(a, [first, n](std::byte* t) { std::fill(t + first, t + first + n, std::byte{0}); });
+  };
+}
+
+/// alter(image, port's image): false where it does not apply. what(image): of the first image that it is said of. The port's images must
 /// outlive the fault.
 inline void add_to_images(std::vector<Fault>& out, const capture::PassCase& c, const std::vector<capture::Array>& port,
-                          const std::string& name, const std::function<std::string(const capture::Array&)>& sentence,
+                          const std::function<What(const capture::Array&)>& what,
                           const std::function<bool(capture::Array&, const capture::Array&)>& alter) {
   const std::vector<std::size_t> images = enveloped_images(c);
-  const auto add = [&](std::string words, std::vector<std::size_t> of) {
-    Fault d;
-    d.name = std::move(words);
-    d.sentence = sentence(c.outputs[of.front()].array);
+  const auto add = [&](std::vector<std::size_t> of) -> Fault& {
+    Fault& d = out.emplace_back(what(c.outputs[of.front()].array));
     d.alter_outputs = [of, alter, &port](const capture::PassCase&, std::vector<capture::Array>& arrays) {
       bool applies = false;
       for (const std::size_t o : of) applies |= alter(arrays[o], port[o]);
       return applies;
     };
-    d.for_diagnosis = true;
-    out.push_back(std::move(d));
+    return d;
   };
-  if (!images.empty()) add(name, images);
-  for (std::size_t k = 0; images.size() > 1 && k < images.size(); ++k)
-    add(fmt::format("{}: {} alone", name, c.outputs[images[k]].name), {images[k]});
+  if (!images.empty()) add(images);
+  for (std::size_t k = 0; images.size() > 1 && k < images.size(); ++k) {
+    Fault& d = add({images[k]});
+    d.reach = Reach::image_alone;
+    d.where = {c.outputs[images[k]].name};
+  }
+}
+inline void add_to_images(std::vector<Fault>& out, const capture::PassCase& c, const std::vector<capture::Array>& port, Kind kind,
+                          const std::function<bool(capture::Array&, const capture::Array&)>& alter) {
+  add_to_images(
+      out, c, port, [kind](const capture::Array&) { return What{kind}; }, alter);
 }
 
 }  // namespace rainref::faults

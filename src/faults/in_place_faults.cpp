@@ -4,11 +4,10 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
-
-#include <fmt/format.h>
+#include <string>
 
 #include "capture/bound_texture.h"
-#include "faults/decidable_faults.h"
+#include "faults/generators.h"
 #include "faults/taps.h"
 #include "judge/slots.h"
 
@@ -52,30 +51,22 @@ int own_channel(const Tap& t) { return t.channel; }
 
 using Of = std::shared_ptr<const Updated>;
 
-Fault with_loads(std::string name, std::string sentence, std::function<std::vector<float>(Texel)> loads_at) {
-  Fault d;
-  d.name = std::move(name);
-  d.sentence = std::move(sentence);
+Fault with_loads(What what, std::function<std::vector<float>(Texel)> loads_at) {
+  Fault d(std::move(what));
   d.at_texel = [loads_at = std::move(loads_at)](Texel at, perturbed::Behaviour& b, std::vector<float>& loads) {
     loads = loads_at(at);
     b.loads = &loads;
   };
-  d.for_diagnosis = true;
   return d;
 }
 
 /// One texel after the other: those before it in the order of rows, upward or downward, are new.
 void add_scans(std::vector<Fault>& out, const Of& u) {
-  const std::string& name = u->input.name;
   for (const bool is_upward : {true, false})
-    out.push_back(with_loads(fmt::format("{} written in place, texel by texel{}", name, is_upward ? "" : ", from the last row"),
-                             fmt::format("{0} is read while it is written: neighbours before a texel already hold their new values; two "
-                                         "buffers in turn (ping-pong) are needed",
-                                         name),
-                             [u, is_upward](Texel at) {
-                               const auto is_new = [=](Texel t) { return t.y == at.y ? t.x < at.x : (t.y < at.y) == is_upward; };
-                               return u->loads(at, is_new, own_channel);
-                             }));
+    out.push_back(with_loads({is_upward ? Kind::in_place : Kind::in_place_from_last_row, {u->input.name}}, [u, is_upward](Texel at) {
+      const auto is_new = [=](Texel t) { return t.y == at.y ? t.x < at.x : (t.y < at.y) == is_upward; };
+      return u->loads(at, is_new, own_channel);
+    }));
 }
 
 /// Group by group: a neighbour in another group is new or old, whichever group ran first, which nobody knows. Of the ways in which a
@@ -86,45 +77,41 @@ void add_group_orders(std::vector<Fault>& out, const Probed& p, const std::vecto
   constexpr std::pair<int, int> sizes[] = {{8, 8}, {16, 16}, {16, 8}, {8, 4}, {32, 32}, {32, 1}, {64, 1}};
   for (const auto& [width, height] : sizes) {
     if (width >= p.model.width() && height >= p.model.height()) continue;
-    out.push_back(with_loads(
-        fmt::format("{} written in place, by groups of {}x{}", u->input.name, width, height),
-        fmt::format(
-            "{0} is read while it is written: neighbours in other {1}x{2} groups already hold their new values, and no barrier orders "
-            "groups; two buffers in turn (ping-pong) are needed",
-            u->input.name, width, height),
-        [u, slots, &model = p.model, &port, w = width, h = height](Texel at) {
-          const auto group_of = [=](Texel t) { return std::pair(t.x / w, t.y / h); };
-          std::vector<std::pair<int, int>> others;
-          for (const Tap& t : u->taps.all)
-            if (Texel from; u->place(t, at, from) && group_of(from) != group_of(at) &&
-                            std::find(others.begin(), others.end(), group_of(from)) == others.end())
-              others.push_back(group_of(from));
-          constexpr std::size_t most = 3;
-          if (others.size() > most) others.clear();
-          std::vector<float> best;
-          double least = HUGE_VAL;
-          for (unsigned ran = 0; ran < 1u << others.size(); ++ran) {
-            const auto is_new = [&](Texel t) {
-              const auto found = std::find(others.begin(), others.end(), group_of(t));
-              return found != others.end() && (ran >> (found - others.begin()) & 1) != 0;
-            };
-            std::vector<float> loads = u->loads(at, is_new, own_channel);
-            perturbed::Behaviour behaviour;
-            behaviour.loads = &loads;
-            std::vector<perturbed::Perturbed> values(slots.size());
-            {
-              const perturbed::Scope scope(behaviour);
-              model.evaluate(at.x, at.y, values.data());
-            }
-            double off = 0;
-            for (std::size_t v = 0; v < slots.size(); ++v) {
-              const Array& stored = port[static_cast<std::size_t>(slots[v].output)];
-              off += std::abs(static_cast<double>(values[v].v) - judge::stored_value(slots[v], slots[v].at(stored, at.x, at.y)));
-            }
-            if (best.empty() || off < least) least = off, best = std::move(loads);
-          }
-          return best;
-        }));
+    out.push_back(with_loads({Kind::in_place_by_groups, {u->input.name, std::to_string(width), std::to_string(height)}},
+                             [u, slots, &model = p.model, &port, w = width, h = height](Texel at) {
+                               const auto group_of = [=](Texel t) { return std::pair(t.x / w, t.y / h); };
+                               std::vector<std::pair<int, int>> others;
+                               for (const Tap& t : u->taps.all)
+                                 if (Texel from; u->place(t, at, from) && group_of(from) != group_of(at) &&
+                                                 std::find(others.begin(), others.end(), group_of(from)) == others.end())
+                                   others.push_back(group_of(from));
+                               constexpr std::size_t most = 3;
+                               if (others.size() > most) others.clear();
+                               std::vector<float> best;
+                               double least = HUGE_VAL;
+                               for (unsigned ran = 0; ran < 1u << others.size(); ++ran) {
+                                 const auto is_new = [&](Texel t) {
+                                   const auto found = std::find(others.begin(), others.end(), group_of(t));
+                                   return found != others.end() && (ran >> (found - others.begin()) & 1) != 0;
+                                 };
+                                 std::vector<float> loads = u->loads(at, is_new, own_channel);
+                                 perturbed::Behaviour behaviour;
+                                 behaviour.loads = &loads;
+                                 std::vector<perturbed::Perturbed> values(slots.size());
+                                 {
+                                   const perturbed::Scope scope(behaviour);
+                                   model.evaluate(at.x, at.y, values.data());
+                                 }
+                                 double off = 0;
+                                 for (std::size_t v = 0; v < slots.size(); ++v) {
+                                   const Array& stored = port[static_cast<std::size_t>(slots[v].output)];
+                                   off += std::abs(static_cast<double>(values[v].v) -
+                                                   judge::stored_value(slots[v], slots[v].at(stored, at.x, at.y)));
+                                 }
+                                 if (best.empty() || off < least) least = off, best = std::move(loads);
+                               }
+                               return best;
+                             }));
   }
 }
 
@@ -134,15 +121,11 @@ void add_own_exchange(std::vector<Fault>& out, const Of& u) {
   for (const Tap& t : u->taps.all)
     if (!u->taps.is_neighbour(t)) own.push_back(t);
   const auto add = [&](std::vector<std::size_t> loads) {
-    out.push_back(with_loads(
-        fmt::format("{} with its two channels exchanged at the texel itself", u->input.name),
-        fmt::format("{0}.x and {0}.y are exchanged at the texel itself, its neighbours are right: newest and previous level",
-                    u->input.name),
-        [u, loads = std::move(loads)](Texel at) {
-          return u->loads(
-              at, [](Texel) { return false; },
-              [&](const Tap& t) { return std::find(loads.begin(), loads.end(), t.load) != loads.end() ? 1 - t.channel : t.channel; });
-        }));
+    out.push_back(with_loads({Kind::own_channels_exchanged, {u->input.name}}, [u, loads = std::move(loads)](Texel at) {
+      return u->loads(
+          at, [](Texel) { return false; },
+          [&](const Tap& t) { return std::find(loads.begin(), loads.end(), t.load) != loads.end() ? 1 - t.channel : t.channel; });
+    }));
   };
   constexpr std::size_t few = 4;
   const unsigned all = own.size() > few ? 1 : (1u << own.size()) - 1;

@@ -1,23 +1,27 @@
+// Inputs of a pass mixed up, shifted, in another encoding, at coarser levels; records of an input with one thing of them changed.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <tuple>
 #include <utility>
+#include <vector>
 
-#include <fmt/format.h>
-
-#include "faults/case_adder.h"
-#include "faults/whole_faults.h"
+#include "capture/bound_texture.h"
+#include "faults/generators.h"
+#include "faults/image_faults.h"
+#include "faults/members.h"
 #include "image/colour.h"
 #include "judge/rearrange.h"
-#include "math/half.h"
 #include "math/unorm.h"
 
 namespace rainref::faults {
-namespace {
 
 using capture::Array;
 using capture::CaseInput;
 using capture::PassCase;
+
+namespace {
 
 /// Passes the colours of every level through a function; codes become floats, which hold the result.
 template <class Change>
@@ -28,25 +32,11 @@ void recode(Array& a, Change change, bool is_any = false) {
     std::vector<std::byte> out;
     const std::size_t n = static_cast<std::size_t>(f.channel_bytes);
     for (std::size_t t = 0, k = 0; t + n <= level.size(); t += n, ++k) {
-      float v = 0;
-      if (f.kind == FormatInfo::float32) {
-        std::memcpy(&v, &level[t], 4);
-      } else if (f.kind == FormatInfo::float16) {
-        Half h;
-        std::memcpy(&h, &level[t], 2);
-        v = to_float(h);
-      } else {
-        v = std::to_integer<int>(level[t]) / 255.0f;
-      }
+      float v = channel_at(f, &level[t]);
       const bool is_alpha = f.channels == 4 && k % 4 == 3;
       if (!is_alpha && (is_any || (v >= 0 && v <= 1))) v = static_cast<float>(change(v));
-      if (f.kind == FormatInfo::float16) {
-        const Half h = to_half(v);
-        std::memcpy(&level[t], &h, 2);
-        continue;
-      }
       if (!to_floats) {
-        std::memcpy(&level[t], &v, 4);
+        put_channel(f, &level[t], v);
         continue;
       }
       const auto* bytes = reinterpret_cast<const std::byte*>(&v);
@@ -64,183 +54,221 @@ void drop_first_level(Array& a) {
   a.height = a.height > 1 ? a.height / 2 : 1;
 }
 
-void add_image(CaseAdder& add, const PassCase& c, std::size_t i) {
-  const std::string name = c.inputs[i].name;
-  const Array& a = c.inputs[i].array;
-  const FormatInfo& f = info(a.format);
-  const auto array = [&](std::string what, std::string sentence, std::function<void(Array&)> alter) {
-    add(fmt::format("input {} {}", name, what), std::move(sentence), [i, alter](PassCase& altered) { alter(altered.inputs[i].array); });
-  };
-  for (const auto& [dx, dy, way] :
-       {std::tuple(1, 0, "a column to the right"), {-1, 0, "a column to the left"}, {0, 1, "a row further on"}, {0, -1, "a row before"}})
-    array(fmt::format("read {}", way), fmt::format("{} is read {}", name, way),
-          [dx = dx, dy = dy](Array& to) { judge::shift(to, dx, dy); });
-  if (a.width == a.height)
-    array("with u and v exchanged", fmt::format("{} is read with u and v exchanged", name), [](Array& to) { judge::transpose(to); });
-  if (a.levels.size() > 1) array("one level above", fmt::format("{} is read one level too coarse", name), drop_first_level);
-  for (int from = 0; from < f.channels; ++from)
-    for (int to = 0; to < f.channels; ++to) {
-      if (from == to) continue;
-      if (from < to && !(from == 0 && to == 1))
-        array(fmt::format("with its {} and {} exchanged", "xyzw"[from], "xyzw"[to]),
-              fmt::format("{} and {} of {} are exchanged", "xyzw"[from], "xyzw"[to], name),
-              [from, to](Array& altered) { judge::swap_channels(altered, from, to); });
-      if (f.channels > 2)
-        array(fmt::format("with its {} for {}", "xyzw"[from], "xyzw"[to]),
-              fmt::format("{}.{} is read where {}.{} is meant", name, "xyzw"[from], name, "xyzw"[to]),
-              [from, to](Array& altered) { judge::copy_channel(altered, from, to); });
+class Adder {
+ public:
+  Adder(std::vector<Fault>& out, const PassCase& c) : out_(out), c_(c) {}
+
+  void add(Kind kind, std::vector<std::string> of, std::function<void(PassCase&)> alter) const {
+    out_.emplace_back(What{kind, std::move(of)}).alter_case = std::move(alter);
+  }
+  /// alter(array of input i); `more`: what its words speak of behind its name.
+  void array(std::size_t i, Kind kind, std::vector<std::string> more, std::function<void(Array&)> alter) const {
+    more.insert(more.begin(), c_.inputs[i].name);
+    add(kind, std::move(more), [i, alter](PassCase& altered) { alter(altered.inputs[i].array); });
+  }
+
+  void image(std::size_t i) const {
+    const std::string& name = c_.inputs[i].name;
+    const Array& a = c_.inputs[i].array;
+    const FormatInfo& f = info(a.format);
+    for (const auto& [dx, dy, way] : {std::tuple(1, 0, Kind::input_read_right),
+                                      {-1, 0, Kind::input_read_left},
+                                      {0, 1, Kind::input_read_further_on},
+                                      {0, -1, Kind::input_read_before}})
+      array(i, way, {}, [dx = dx, dy = dy](Array& to) { judge::shift(to, dx, dy); });
+    if (a.width == a.height) array(i, Kind::input_axes_exchanged, {}, judge::transpose);
+    if (a.levels.size() > 1) array(i, Kind::input_one_level_above, {}, drop_first_level);
+    for (int from = 0; from < f.channels; ++from)
+      for (int to = 0; to < f.channels; ++to) {
+        if (from == to) continue;
+        const std::vector<std::string> both{component_name(from), component_name(to)};
+        if (from < to && !(from == 0 && to == 1))
+          array(i, Kind::input_channels_exchanged, both, [from, to](Array& altered) { judge::swap_channels(altered, from, to); });
+        if (f.channels > 2)
+          array(i, Kind::input_channel_for_another, both, [from, to](Array& altered) { judge::copy_channel(altered, from, to); });
+      }
+    if (f.kind == FormatInfo::float16 || f.kind == FormatInfo::float32)
+      for (int k = 0; k < f.channels; ++k) {
+        array(i, Kind::input_channel_negated, {component_name(k)}, negating_channel(f, k));
+        array(i, Kind::input_without_channel, {component_name(k)}, clearing_channel(f, k));
+      }
+    const auto coded = [&](Kind kind, double (*change)(double)) {
+      array(i, kind, {}, [change](Array& altered) { recode(altered, change); });
+    };
+    if (f.kind == FormatInfo::unorm8 || f.channels >= 3) {
+      coded(Kind::input_decoded, [](double v) { return decode_srgb(v); });
+      coded(Kind::input_encoded, [](double v) { return encode_srgb(v); });
+      coded(Kind::input_decoded_by_power, [](double v) { return decode_gamma22(v); });
     }
-  if (f.kind == FormatInfo::float16 || f.kind == FormatInfo::float32)
-    for (int k = 0; k < f.channels; ++k) {
-      const int last = (k + 1) * f.channel_bytes - 1, first = k * f.channel_bytes;
-      array(fmt::format("with its {} negated", "xyzw"[k]), fmt::format("{}.{} has the other sign", name, "xyzw"[k]),
-            [last](Array& altered) { judge::each_texel(altered, [last](std::byte* t) { t[last] ^= std::byte{0x80}; }); });
-      array(fmt::format("without its {}", "xyzw"[k]), fmt::format("{}.{} counts as 0", name, "xyzw"[k]), [first, last](Array& altered) {
-        judge::each_texel(altered, [first, last](std::byte* t) { std::fill(t + first, t + last + 1, std::byte{0}); });
+    coded(Kind::input_from_1, [](double v) { return 1 - v; });
+    for (const Address address : {Address::clamp, Address::repeat, Address::mirror, Address::border}) {
+      if (c_.inputs[i].address_u == address && c_.inputs[i].address_v == address) continue;
+      add(Kind::input_beyond_edge, {name, address_words(address)}, [i, address](PassCase& altered) {
+        altered.inputs[i].address_u = altered.inputs[i].address_v = address;
+        if (address == Address::border) altered.inputs[i].border = {};
       });
     }
-  if (f.kind == FormatInfo::unorm8 || f.channels >= 3) {
-    array("decoded once more", fmt::format("{} is taken for sRGB and decoded", name),
-          [](Array& altered) { recode(altered, [](double v) { return decode_srgb(v); }); });
-    array("still encoded", fmt::format("{} is not decoded: sRGB is taken for linear", name),
-          [](Array& altered) { recode(altered, [](double v) { return encode_srgb(v); }); });
-    array("decoded by a power of 2.2", fmt::format("{} is decoded by a power of 2.2", name),
-          [](Array& altered) { recode(altered, [](double v) { return decode_gamma22(v); }); });
   }
-  array("from 1 down", fmt::format("{} is taken from 1", name), [](Array& altered) { recode(altered, [](double v) { return 1 - v; }); });
-  for (const Address address : {Address::clamp, Address::repeat, Address::mirror, Address::border}) {
-    if (c.inputs[i].address_u == address && c.inputs[i].address_v == address) continue;
-    const char* const words = address == Address::clamp    ? "clamped"
-                              : address == Address::repeat ? "repeated"
-                              : address == Address::mirror ? "mirrored"
-                                                           : "0";
-    add(fmt::format("input {} {} beyond its edge", name, words), fmt::format("beyond its edge {} is {}: another address mode", name, words),
-        [i, address](PassCase& altered) {
-          altered.inputs[i].address_u = altered.inputs[i].address_v = address;
-          if (address == Address::border) altered.inputs[i].border = {};
-        });
-  }
-}
 
-/// Every record of a list with one thing of it changed.
-void add_records(CaseAdder& add, const PassCase& c, std::size_t i) {
-  const std::string name = c.inputs[i].name;
-  const scene::UniformBlock record = c.inputs[i].array.record;
-  add(fmt::format("input {} left out", name), fmt::format("no record of {} counts", name), [i](PassCase& altered) {
-    altered.inputs[i].array.levels[0].clear();
-    altered.inputs[i].array.width = 0;
-  });
-  const std::size_t count = record.size > 0 ? c.inputs[i].array.levels[0].size() / record.size : 0;
-  constexpr std::size_t most_records = 40;
-  for (std::size_t k = 1; k < std::min(count, most_records); ++k)
-    add(fmt::format("loop over {} ends early", name),
-        fmt::format("only the first {} records of {} count: the loop ends at one that it should only pass over",
-                    k == 1 ? "one of the" : std::to_string(k), name),
-        [i, k, size = record.size](PassCase& altered) {
-          altered.inputs[i].array.levels[0].resize(k * size);
-          altered.inputs[i].array.width = static_cast<int>(k);
-        });
-  struct Field {
-    std::string name;
-    std::size_t offset;
-    bool is_in_texels;
-  };
-  std::vector<Field> fields;
-  for (const scene::Member& m : record.members)
-    for (int k = 0; m.scalar == scene::Scalar::float32 && !m.name.starts_with("padding") && k < m.components; ++k)
-      fields.push_back({m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), m.offset + 4 * static_cast<std::size_t>(k),
-                        m.unit == "texel"});
-  const auto each = [&](std::string what, std::string sentence, std::function<void(std::byte*)> change) {
-    add(std::move(what), std::move(sentence), [i, change, size = record.size](PassCase& altered) {
-      std::vector<std::byte>& all = altered.inputs[i].array.levels[0];
-      for (std::size_t r = 0; r + size <= all.size(); r += size) change(all.data() + r);
-    });
-  };
-  for (const scene::Member& m : record.members) {
-    if (m.scalar != scene::Scalar::float32 || m.components < 2) continue;
-    each(fmt::format("{} of {} with the other sign", m.name, name), fmt::format("{} of {} points the other way", m.name, name),
-         [m](std::byte* r) {
-           for (int k = 0; k < m.components; ++k) r[m.offset + 4 * static_cast<std::size_t>(k) + 3] ^= std::byte{0x80};
-         });
-  }
-  // What has four components and no name for each is a matrix of 2 x 2.
-  std::vector<std::size_t> matrices;
-  for (const scene::Member& m : record.members)
-    if (m.scalar == scene::Scalar::float32 && m.components == 4) matrices.push_back(m.offset);
-  if (!matrices.empty())
-    each(fmt::format("matrices of {} transposed", name), fmt::format("rows and columns of the matrices of {} are exchanged", name),
-         [matrices](std::byte* r) {
-           for (const std::size_t at : matrices) std::swap_ranges(r + at + 4, r + at + 8, r + at + 8);
-         });
-  for (const Field& f : fields) {
-    const auto scaled = [&](const char* what, const char* sentence, float (*change)(float)) {
-      each(fmt::format("{} of {} {}", f.name, name, what), fmt::format("{} of {} {}", f.name, name, sentence),
-           [offset = f.offset, change](std::byte* r) {
-             float v;
-             std::memcpy(&v, r + offset, 4);
-             v = change(v);
-             std::memcpy(r + offset, &v, 4);
-           });
+  /// Every record of a list with one thing of it changed.
+  void records(std::size_t i) const {
+    const std::string& name = c_.inputs[i].name;
+    const scene::UniformBlock& record = c_.inputs[i].array.record;
+    const auto keep = [&](Kind kind, std::vector<std::string> more, std::size_t count) {
+      array(i, kind, std::move(more), [count, size = record.size](Array& list) {
+        list.levels[0].resize(count * size);
+        list.width = static_cast<int>(count);
+      });
     };
-    scaled("left out", "counts as 0", [](float) { return 0.0f; });
-    scaled("left out of a product", "counts as 1", [](float) { return 1.0f; });
-    scaled("with the other sign", "has the other sign", [](float v) { return -v; });
-    scaled("halved", "is taken half as large: a diameter for a radius", [](float v) { return v / 2; });
-    scaled("doubled", "is taken twice as large: a radius for a diameter", [](float v) { return v * 2; });
-    scaled("squared", "is squared", [](float v) { return v * v; });
-    if (f.is_in_texels) scaled("half a texel less", "is half a texel less", [](float v) { return v - 0.5f; });
-    if (f.is_in_texels) scaled("half a texel more", "is half a texel more", [](float v) { return v + 0.5f; });
-    for (const Field& other : fields)
-      if (&other != &f)
-        each(fmt::format("{} of {} is {}", f.name, name, other.name),
-             fmt::format("of {} {} is read where {} is meant", name, other.name, f.name),
-             [to = f.offset, from = other.offset](std::byte* r) { std::memcpy(r + to, r + from, 4); });
-    for (const Field& other : fields)
-      if (&other > &f)
-        each(fmt::format("{} and {} of {} exchanged", f.name, other.name, name),
-             fmt::format("of {} {} and {} have each other's value", name, f.name, other.name),
-             [a = f.offset, b = other.offset](std::byte* r) { std::swap_ranges(r + a, r + a + 4, r + b); });
+    keep(Kind::input_left_out, {}, 0);
+    const std::size_t count = record.size > 0 ? c_.inputs[i].array.levels[0].size() / record.size : 0;
+    constexpr std::size_t most_records = 40;
+    for (std::size_t k = 1; k < std::min(count, most_records); ++k)
+      keep(k == 1 ? Kind::loop_ends_after_one : Kind::loop_ends_early, {std::to_string(k)}, k);
+    const auto each = [&](Kind kind, std::vector<std::string> of, std::function<void(std::byte*)> change) {
+      add(kind, std::move(of), [i, change, size = record.size](PassCase& altered) {
+        std::vector<std::byte>& all = altered.inputs[i].array.levels[0];
+        for (std::size_t r = 0; r + size <= all.size(); r += size) change(all.data() + r);
+      });
+    };
+    for (const scene::Member& m : record.members)
+      if (m.scalar == scene::Scalar::float32 && m.components > 1)
+        each(Kind::vector_of_other_sign, {m.name, name}, [m](std::byte* r) {
+          for (int k = 0; k < m.components; ++k) r[offset_of(m, k) + 3] ^= std::byte{0x80};
+        });
+    // What has four components and no name for each is a matrix of 2 x 2.
+    std::vector<std::size_t> matrices;
+    for (const scene::Member& m : record.members)
+      if (m.scalar == scene::Scalar::float32 && m.components == 4) matrices.push_back(m.offset);
+    if (!matrices.empty())
+      each(Kind::matrices_transposed, {name}, [matrices](std::byte* r) {
+        for (const std::size_t at : matrices) std::swap_ranges(r + at + 4, r + at + 8, r + at + 8);
+      });
+    const std::vector<Part> fields = float_parts(record);
+    for (const Part& f : fields) {
+      const auto changed = [&](Kind kind, float (*change)(float)) {
+        each(kind, {f.name, name}, [at = f.offset, change](std::byte* r) { put_number(r, at, change(number_at<float>(r, at))); });
+      };
+      changed(Kind::field_left_out, [](float) { return 0.0f; });
+      changed(Kind::field_left_out_of_product, [](float) { return 1.0f; });
+      changed(Kind::field_of_other_sign, [](float v) { return -v; });
+      changed(Kind::field_halved, [](float v) { return v / 2; });
+      changed(Kind::field_doubled, [](float v) { return v * 2; });
+      changed(Kind::field_squared, [](float v) { return v * v; });
+      if (f.unit == "texel") changed(Kind::field_half_less, [](float v) { return v - 0.5f; });
+      if (f.unit == "texel") changed(Kind::field_half_more, [](float v) { return v + 0.5f; });
+      for (const Part& other : fields)
+        if (&other != &f)
+          each(Kind::field_is_another, {f.name, name, other.name},
+               [to = f.offset, from = other.offset](std::byte* r) { std::memcpy(r + to, r + from, 4); });
+      for (const Part& other : fields)
+        if (&other > &f)
+          each(Kind::fields_exchanged, {f.name, name, other.name},
+               [a = f.offset, b = other.offset](std::byte* r) { std::swap_ranges(r + a, r + a + 4, r + b); });
+    }
   }
-}
+
+ private:
+  std::vector<Fault>& out_;
+  const PassCase& c_;
+};
 
 }  // namespace
 
 void add_scaled_inputs(std::vector<Fault>& out, const Probed& p) {
-  CaseAdder add(out);
+  const Adder add(out, p.c);
   for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
     if (p.c.inputs[i].array.is_records) continue;
-    const std::string& name = p.c.inputs[i].name;
-    add(fmt::format("input {} doubled", name), fmt::format("{} counts twice", name), [i](PassCase& c) {
-      recode(
-          c.inputs[i].array, [](double v) { return 2 * v; }, true);
-    });
-    add(fmt::format("input {} halved", name), fmt::format("{} counts half", name), [i](PassCase& c) {
-      recode(
-          c.inputs[i].array, [](double v) { return v / 2; }, true);
-    });
+    const auto scaled = [&](Kind kind, double by) {
+      add.array(i, kind, {}, [by](Array& a) {
+        recode(
+            a, [by](double v) { return by * v; }, true);
+      });
+    };
+    scaled(Kind::input_doubled, 2);
+    scaled(Kind::input_halved, 0.5);
   }
 }
 
 void add_input_mixups(std::vector<Fault>& out, const Probed& p, bool images) {
-  CaseAdder add(out);
+  const Adder add(out, p.c);
   const std::string other = p.c.corrected() ? "as-published" : "corrected";
-  add(fmt::format("the {} formula", other), fmt::format("this is the {} formula of the pass, not the {} one", other, p.c.variant),
-      [other](PassCase& c) { c.variant = other; });
-  for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
-    if (p.c.inputs[i].array.is_records) add_records(add, p.c, i);
-    if (p.c.inputs[i].array.is_records || !images) continue;
-    add_image(add, p.c, i);
-    for (std::size_t j = i + 1; j < p.c.inputs.size(); ++j) {
-      const Array &a = p.c.inputs[i].array, &b = p.c.inputs[j].array;
+  add.add(Kind::other_formula, {other, p.c.variant}, [other](PassCase& c) { c.variant = other; });
+  const std::vector<CaseInput>& all = p.c.inputs;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].array.is_records) add.records(i);
+    if (all[i].array.is_records || !images) continue;
+    add.image(i);
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      const Array &a = all[i].array, &b = all[j].array;
       if (a.is_records || b.is_records || info(a.format).channels != info(b.format).channels) continue;
-      add(fmt::format("inputs {} and {} exchanged", p.c.inputs[i].name, p.c.inputs[j].name),
-          fmt::format("{} and {} are bound in each other's place", p.c.inputs[i].name, p.c.inputs[j].name),
-          [i, j](PassCase& c) { std::swap(c.inputs[i].array, c.inputs[j].array); });
+      add.add(Kind::inputs_exchanged, {all[i].name, all[j].name}, [i, j](PassCase& c) { std::swap(c.inputs[i].array, c.inputs[j].array); });
       for (const auto& [to, from] : {std::pair(i, j), std::pair(j, i)})
-        add(fmt::format("input {} is {}", p.c.inputs[to].name, p.c.inputs[from].name),
-            fmt::format("{} is bound where {} is meant", p.c.inputs[from].name, p.c.inputs[to].name),
-            [to = to, from = from](PassCase& c) { c.inputs[to].array = c.inputs[from].array; });
+        add.add(Kind::input_is_another, {all[to].name, all[from].name},
+                [to = to, from = from](PassCase& c) { c.inputs[to].array = c.inputs[from].array; });
     }
+  }
+}
+
+namespace {
+
+bool has_floats(const Array& a) {
+  const FormatInfo::Kind kind = info(a.format).kind;
+  return kind == FormatInfo::float16 || kind == FormatInfo::float32;
+}
+/// A level, decoded.
+struct Level {
+  std::vector<float> values;
+  int width, height, channels;
+};
+Level level_of(const Array& a, int level) {
+  return {capture::decoded(a, level), a.level_width(level), a.level_height(level), info(a.format).channels};
+}
+/// Between four texels, at (u, v) of [0, 1].
+double filtered(const Level& l, double u, double v, int channel) {
+  const double x = u * l.width - 0.5, y = v * l.height - 0.5;
+  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+  const double fx = x - i, fy = y - j;
+  const auto at = [&](int dx, int dy) {
+    const int column = std::clamp(i + dx, 0, l.width - 1), row = std::clamp(j + dy, 0, l.height - 1);
+    return static_cast<double>(l.values[static_cast<std::size_t>((row * l.width + column) * l.channels + channel)]);
+  };
+  return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
+}
+/// The first level becomes what a lookup at `lod` gives at its texels.
+void coarsen(Array& a, double lod) {
+  const FormatInfo& f = info(a.format);
+  const int last = static_cast<int>(a.levels.size()) - 1;
+  const double level = std::clamp(lod, 0.0, static_cast<double>(last));
+  const int first = static_cast<int>(std::floor(level));
+  const Level low = level_of(a, first), high = level_of(a, std::min(first + 1, last));
+  const double share = level - first;
+  std::byte* to = a.levels[0].data();
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      for (int k = 0; k < f.channels; ++k, to += f.channel_bytes) {
+        const double u = (x + 0.5) / a.width, v = (y + 0.5) / a.height;
+        const auto value = static_cast<float>(filtered(low, u, v, k) * (1 - share) + filtered(high, u, v, k) * share);
+        put_channel(f, to, value);
+      }
+}
+
+}  // namespace
+
+void add_level_faults(std::vector<Fault>& out, const Probed& p) {
+  for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
+    const Array& a = p.c.inputs[i].array;
+    if (a.is_records || a.levels.size() < 2 || !has_floats(a)) continue;
+    const auto at = [&](double lod, const std::string& level) {
+      if (lod > 0)
+        out.emplace_back(What{Kind::input_at_level, {p.c.inputs[i].name, level}}).alter_case = [i, lod](PassCase& altered) {
+          coarsen(altered.inputs[i].array, lod);
+        };
+    };
+    for (const scene::Member& m : p.pass.block.members)
+      if (is_level(m) && m.scalar == scene::Scalar::float32 && m.components == 1)
+        at(number_at<float>(p.c.uniforms.data(), m.offset), m.name);
+    for (int k = 1; k < static_cast<int>(a.levels.size()); ++k) at(k, std::to_string(k));
   }
 }
 

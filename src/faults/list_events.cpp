@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "faults/list_adder.h"
+#include "faults/list_faults.h"
 #include "judge/evaluations.h"
 
 namespace rainref::faults {
@@ -82,54 +82,50 @@ Ids present(const List& list, const ListEdit& e) {
 }  // namespace
 
 void add_events(Adder& a) {
-  a.add("without a record", "an append is lost: two threads took one slot, or the counter is not atomic",
-        [](const List& list, const PassCase&, ListEdit& e) {
-          const Ids at = present(list, e);
-          const std::set<std::uint32_t> lost(at.begin(), at.end());
-          std::erase_if(e.records, [&](const auto& r) { return lost.contains(list.id_of(r)); });
-          return !at.empty();
-        });
-  a.add("with a record twice", "one record is appended by two threads, or a slot is not cleared when its record moves",
-        [](const List& list, const PassCase&, ListEdit& e) {
-          const Ids at = present(list, e);
-          const std::set<std::uint32_t> twice(at.begin(), at.end());
-          for (std::size_t i = 0, n = e.records.size(); i < n; ++i) {
-            if (!twice.contains(list.id_of(e.records[i]))) continue;
-            const std::vector<std::byte> twin = e.records[i];
-            e.records.push_back(twin);
-          }
-          return !at.empty();
-        });
-  a.add("with an ended record still alive", "a record that died or was captured stays in the list as it was",
-        [](const List& list, const PassCase& c, ListEdit& e) {
-          const Ids ended = ended_in(list, c, e.records);
-          if (ended.empty()) return false;
-          const auto before = list.taken(c);
-          for (const std::uint32_t id : e.at.empty() ? Ids{ended[ended.size() / 2]} : e.at) {
-            if (std::find(ended.begin(), ended.end(), id) == ended.end()) return false;
-            e.records.push_back(before.at(id));
-          }
-          return true;
-        });
-  a.add("with an unmerged pair", "records that should have merged went on each by itself",
-        [](const List& list, const PassCase& c, ListEdit& e) {
-          const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
-          if (!pair) return false;
-          const Ids ended = ended_in(list, c, e.records);
-          bool some_ended = false, some_go_on = false;
-          for (const std::uint32_t id : e.at.empty() ? Ids(pair->begin(), pair->end()) : e.at) {
-            const auto alone = as_if_alone(list, c, id);
-            if (!alone) return false;
-            const std::size_t place = list.place(e.records, id);
-            const bool has_ended = place == e.records.size();
-            (has_ended ? some_ended : some_go_on) = true;
-            if (has_ended)
-              e.records.push_back(*alone);
-            else
-              e.records[place] = *alone;
-          }
-          return some_ended && some_go_on;
-        });
+  a.add(Kind::list_without_record, [](const List& list, const PassCase&, ListEdit& e) {
+    const Ids at = present(list, e);
+    const std::set<std::uint32_t> lost(at.begin(), at.end());
+    std::erase_if(e.records, [&](const auto& r) { return lost.contains(list.id_of(r)); });
+    return !at.empty();
+  });
+  a.add(Kind::list_with_twin, [](const List& list, const PassCase&, ListEdit& e) {
+    const Ids at = present(list, e);
+    const std::set<std::uint32_t> twice(at.begin(), at.end());
+    for (std::size_t i = 0, n = e.records.size(); i < n; ++i) {
+      if (!twice.contains(list.id_of(e.records[i]))) continue;
+      const std::vector<std::byte> twin = e.records[i];
+      e.records.push_back(twin);
+    }
+    return !at.empty();
+  });
+  a.add(Kind::list_with_ended, [](const List& list, const PassCase& c, ListEdit& e) {
+    const Ids ended = ended_in(list, c, e.records);
+    if (ended.empty()) return false;
+    const auto before = list.taken(c);
+    for (const std::uint32_t id : e.at.empty() ? Ids{ended[ended.size() / 2]} : e.at) {
+      if (std::find(ended.begin(), ended.end(), id) == ended.end()) return false;
+      e.records.push_back(before.at(id));
+    }
+    return true;
+  });
+  a.add(Kind::list_with_unmerged, [](const List& list, const PassCase& c, ListEdit& e) {
+    const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
+    if (!pair) return false;
+    const Ids ended = ended_in(list, c, e.records);
+    bool some_ended = false, some_go_on = false;
+    for (const std::uint32_t id : e.at.empty() ? Ids(pair->begin(), pair->end()) : e.at) {
+      const auto alone = as_if_alone(list, c, id);
+      if (!alone) return false;
+      const std::size_t place = list.place(e.records, id);
+      const bool has_ended = place == e.records.size();
+      (has_ended ? some_ended : some_go_on) = true;
+      if (has_ended)
+        e.records.push_back(*alone);
+      else
+        e.records[place] = *alone;
+    }
+    return some_ended && some_go_on;
+  });
   // change(to, alone): of an absorbing drop, by what it would be had it captured nothing.
   const auto of_absorbing = [&](const auto& change) {
     return [change](const List& list, const PassCase& c, ListEdit& e) {
@@ -144,25 +140,23 @@ void add_events(Adder& a) {
       return true;
     };
   };
-  a.add("with a capture that is lost", "a captured record ends, and its absorbing drop goes on as if alone: what it had is lost",
-        of_absorbing([](const List&, const auto& alone, auto& absorbing) { absorbing = alone; }));
-  a.add("with the mass of before a capture", "an absorbing drop takes over the motion of what it captures, but not its mass",
+  a.add(Kind::list_with_lost_capture, of_absorbing([](const List&, const auto& alone, auto& absorbing) { absorbing = alone; }));
+  a.add(Kind::list_with_mass_of_before,
         of_absorbing([](const List& list, const auto& alone, auto& absorbing) { copy_member(*mass_of(list), alone, absorbing); }));
-  a.add("with a record not treated", "the pass leaves out a record that it should have changed",
-        [](const List& list, const PassCase& c, ListEdit& e) {
-          constexpr std::size_t most = 16;  // of many it is no accident
-          if (e.at.size() > most) return false;
-          const auto before = list.taken(c);
-          const std::set<std::uint32_t> at(e.at.begin(), e.at.end());
-          std::size_t found = 0;
-          for (auto& r : e.records) {
-            const auto old = before.find(list.id_of(r));
-            if (old == before.end() || (at.empty() ? found > 0 || old->second == r : !at.contains(list.id_of(r)))) continue;
-            r = old->second;
-            ++found;
-          }
-          return found > 0 && found >= at.size();
-        });
+  a.add(Kind::list_with_untreated, [](const List& list, const PassCase& c, ListEdit& e) {
+    constexpr std::size_t most = 16;  // of many it is no accident
+    if (e.at.size() > most) return false;
+    const auto before = list.taken(c);
+    const std::set<std::uint32_t> at(e.at.begin(), e.at.end());
+    std::size_t found = 0;
+    for (auto& r : e.records) {
+      const auto old = before.find(list.id_of(r));
+      if (old == before.end() || (at.empty() ? found > 0 || old->second == r : !at.contains(list.id_of(r)))) continue;
+      r = old->second;
+      ++found;
+    }
+    return found > 0 && found >= at.size();
+  });
 }
 
 }  // namespace rainref::faults

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "faults/list_faults.h"
+#include "faults/members.h"
 #include "judge/keyed.h"
 
 namespace rainref::faults {
@@ -11,6 +12,7 @@ namespace rainref::faults {
 using capture::Array;
 using capture::PassCase;
 using judge::keyed_outputs;
+using scene::Member;
 
 namespace {
 
@@ -18,6 +20,36 @@ namespace {
 constexpr int most_for_altered_cases = 4096;
 
 }  // namespace
+
+List::List(const PassCase& c, std::size_t o) : output(o), name(c.outputs[o].name), layout(c.outputs[o].array.record) {
+  for (const Member& m : layout.members) {
+    if (m.name == "id")
+      id = m.offset;
+    else if (!is_padding(m))
+      fields.push_back(m);
+  }
+}
+
+std::map<std::uint32_t, std::vector<std::byte>> List::taken(const PassCase& c) const {
+  std::map<std::uint32_t, std::vector<std::byte>> out;
+  const capture::CaseInput* in = c.input(name);
+  if (!in || !in->array.is_records || in->array.record.size != layout.size) return out;
+  for (std::vector<std::byte>& r : records_of(in->array)) out.emplace(id_of(r), std::move(r));
+  return out;
+}
+
+std::size_t List::place(const Records& records, std::uint32_t of) const {
+  return static_cast<std::size_t>(std::find_if(records.begin(), records.end(), [&](const auto& r) { return id_of(r) == of; }) -
+                                  records.begin());
+}
+
+Fault& Adder::add(Kind kind, Alter alter, std::vector<std::string> more) {
+  more.insert(more.begin(), list_.name);
+  Fault& d = out_.emplace_back(What{kind, std::move(more)}, false);
+  d.list_output = static_cast<int>(list_.output);
+  d.alter_list = [list = list_, alter](const PassCase& c, ListEdit& e) { return alter(list, c, e); };
+  return d;
+}
 
 Records records_of(const Array& list) {
   const std::size_t size = list.record.size;
@@ -55,6 +87,8 @@ std::vector<float> constants_of_lists(const capture::PassModel& model, const Pas
     for (const auto& [v, count] : counts)
       if (2 * count >= c.outputs[o].array.width) out.push_back(v);
   }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

@@ -1,13 +1,11 @@
 #include "faults/list_faults.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 #include <limits>
 #include <set>
 
-#include <fmt/format.h>
-
-#include "faults/list_adder.h"
+#include "faults/members.h"
 #include "judge/keyed.h"
 #include "math/half.h"
 
@@ -29,7 +27,7 @@ void permute_as_port(const List& list, ListEdit& e) {
     double sum = 0;
     for (const Member& m : list.fields)
       for (int k = 0; k < m.components; ++k) {
-        const std::size_t at = m.offset + 4 * static_cast<std::size_t>(k);
+        const std::size_t at = offset_of(m, k);
         const double x = m.scalar == scene::Scalar::float32 ? float_at(a, at) : word_at(a, at),
                      y = m.scalar == scene::Scalar::float32 ? float_at(b, at) : word_at(b, at);
         const double scale = std::max(std::abs(x), std::abs(y));
@@ -55,54 +53,51 @@ void permute_as_port(const List& list, ListEdit& e) {
 }
 
 void add_orders(Adder& a) {
-  a.add("in another order", "slots are filled in another order: records are matched by id", [](const List&, const PassCase&, ListEdit& e) {
+  a.add(Kind::list_in_another_order, [](const List&, const PassCase&, ListEdit& e) {
      std::reverse(e.records.begin(), e.records.end());
      return e.records.size() > 1;
    }).legal = true;
-  a.add("under permuted ids", "the records are right, under each other's ids: keys and fields are sorted or compacted apart",
-        [](const List& list, const PassCase&, ListEdit& e) {
-          constexpr std::size_t most = 1024;  // each is compared with each
-          if (e.port) {
-            if (e.at.size() > most) return false;
-            permute_as_port(list, e);
-            return true;
-          }
-          Ids ids;
-          for (const auto& r : e.records) ids.push_back(list.id_of(r));
-          for (std::size_t i = 0; i < e.records.size(); ++i) list.set_id(e.records[i], ids[ids.size() - 1 - i]);
-          return e.records.size() > 1;
-        });
+  a.add(Kind::list_under_permuted_ids, [](const List& list, const PassCase&, ListEdit& e) {
+    constexpr std::size_t most = 1024;  // each is compared with each
+    if (e.port) {
+      if (e.at.size() > most) return false;
+      permute_as_port(list, e);
+      return true;
+    }
+    Ids ids;
+    for (const auto& r : e.records) ids.push_back(list.id_of(r));
+    for (std::size_t i = 0; i < e.records.size(); ++i) list.set_id(e.records[i], ids[ids.size() - 1 - i]);
+    return e.records.size() > 1;
+  });
   for (const std::size_t by : {1, -1}) {
-    Fault& d = a.add(by == 1 ? "one slot off" : "one slot off, other way", "an id has the fields of the slot beside it",
-                     [by](const List& list, const PassCase&, ListEdit& e) {
-                       const Records right = e.records;
-                       const std::size_t n = right.size();
-                       for (std::size_t i = 0; i < n; ++i) {
-                         e.records[i] = right[(i + n + by) % n];
-                         list.set_id(e.records[i], list.id_of(right[i]));
-                       }
-                       return n > 1;
-                     });
+    Fault& d =
+        a.add(by == 1 ? Kind::list_one_slot_off : Kind::list_one_slot_off_other_way, [by](const List& list, const PassCase&, ListEdit& e) {
+          const Records right = e.records;
+          const std::size_t n = right.size();
+          for (std::size_t i = 0; i < n; ++i) {
+            e.records[i] = right[(i + n + by) % n];
+            list.set_id(e.records[i], list.id_of(right[i]));
+          }
+          return n > 1;
+        });
     d.for_diagnosis = by != 1;
   }
-  a.add("with ids one too large", "ids count from 1, or the id is taken after the counter was raised",
-        [](const List& list, const PassCase&, ListEdit& e) {
-          for (auto& r : e.records) list.set_id(r, list.id_of(r) + 1);
-          return !e.records.empty();
-        });
-  a.add("without its last record", "the dispatch is one short", [](const List&, const PassCase&, ListEdit& e) {
+  a.add(Kind::list_ids_one_too_large, [](const List& list, const PassCase&, ListEdit& e) {
+    for (auto& r : e.records) list.set_id(r, list.id_of(r) + 1);
+    return !e.records.empty();
+  });
+  a.add(Kind::list_without_last, [](const List&, const PassCase&, ListEdit& e) {
     if (e.records.empty()) return false;
     e.records.pop_back();
     return true;
   });
-  a.add("without the last partial workgroup", "records beyond the last whole workgroup of 64 are not written",
-        [](const List&, const PassCase&, ListEdit& e) {
-          const std::size_t whole = e.records.size() / 64 * 64;
-          const bool some = whole < e.records.size();
-          e.records.resize(whole);
-          return some;
-        });
-  a.add("not written", "the list stays empty", [](const List&, const PassCase&, ListEdit& e) {
+  a.add(Kind::list_without_workgroup, [](const List&, const PassCase&, ListEdit& e) {
+    const std::size_t whole = e.records.size() / 64 * 64;
+    const bool some = whole < e.records.size();
+    e.records.resize(whole);
+    return some;
+  });
+  a.add(Kind::list_not_written, [](const List&, const PassCase&, ListEdit& e) {
     const bool some = !e.records.empty();
     e.records.clear();
     return some;
@@ -111,69 +106,62 @@ void add_orders(Adder& a) {
 
 // ---- fields --------------------------------------------------------------------------------------------------------
 void add_fields(Adder& a, bool has_input) {
+  // change(record, all right records, its number): of each record.
+  const auto each = [&](Kind kind, std::vector<std::string> more, auto change) -> Fault& {
+    const auto alter = [change](const List&, const PassCase&, ListEdit& e) {
+      const Records right = e.records;
+      for (std::size_t i = 0; i < right.size(); ++i) change(e.records[i], right, i);
+      return true;
+    };
+    return a.add(kind, alter, std::move(more));
+  };
   for (const Member& m : a.list().fields) {
     for (const std::size_t by : {1, -1}) {
-      Fault& d = a.add(fmt::format("with the {} of the {} slot", m.name, by == 1 ? "next" : "previous"),
-                       fmt::format("{} is read or written one slot off", m.name), [m, by](const List&, const PassCase&, ListEdit& e) {
-                         const Records right = e.records;
-                         const std::size_t n = right.size();
-                         for (std::size_t i = 0; i < n; ++i) copy_member(m, right[(i + n + by) % n], e.records[i]);
-                         return n > 1;
-                       });
-      d.for_diagnosis = by != 1;
+      const auto alter = [m, by](const List&, const PassCase&, ListEdit& e) {
+        const Records right = e.records;
+        const std::size_t n = right.size();
+        for (std::size_t i = 0; i < n; ++i) copy_member(m, right[(i + n + by) % n], e.records[i]);
+        return n > 1;
+      };
+      a.add(by == 1 ? Kind::list_next_slot : Kind::list_previous_slot, alter, {m.name}).for_diagnosis = by != 1;
     }
     if (has_input) {
-      a.add(fmt::format("with stale {}", m.name), fmt::format("{} is that of before the pass", m.name),
-            [m](const List& list, const PassCase& c, ListEdit& e) {
-              const auto before = list.taken(c);
-              for (auto& r : e.records)
-                if (const auto old = before.find(list.id_of(r)); old != before.end()) copy_member(m, old->second, r);
-              return true;
-            });
+      const auto alter = [m](const List& list, const PassCase& c, ListEdit& e) {
+        const auto before = list.taken(c);
+        for (auto& r : e.records)
+          if (const auto old = before.find(list.id_of(r)); old != before.end()) copy_member(m, old->second, r);
+        return true;
+      };
+      a.add(Kind::list_stale_field, alter, {m.name});
     }
     if (m.scalar != scene::Scalar::float32) continue;
-    a.add(fmt::format("with {} through half", m.name), fmt::format("{} has half precision", m.name),
-          [m](const List&, const PassCase&, ListEdit& e) {
-            for (auto& r : e.records) each_float(m, r, [](float f, int) { return to_float(to_half(f)); });
-            return true;
-          })
-        .for_diagnosis = true;
-    a.add(fmt::format("without {}", m.name), fmt::format("{} is not stored", m.name), [m](const List&, const PassCase&, ListEdit& e) {
-       for (auto& r : e.records) each_float(m, r, [](float, int) { return 0.0f; });
-       return true;
-     }).for_diagnosis = true;
-    for (int k = 0; k < m.components; ++k) {
-      const std::string part = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
-      a.add(fmt::format("with {} negated", part), fmt::format("{} has the other sign: the axis points the other way", part),
-            [m, k](const List&, const PassCase&, ListEdit& e) {
-              for (auto& r : e.records) each_float(m, r, [k](float f, int at) { return at == k && f != 0 ? -f : f; });
-              return true;
-            });
-    }
-    if (m.components > 1) {
-      a.add(fmt::format("with {}.x and {}.y exchanged", m.name, m.name), fmt::format("x and y of {} are exchanged", m.name),
-            [m](const List&, const PassCase&, ListEdit& e) {
-              for (auto& r : e.records) {
-                const std::vector<std::byte> right = r;
-                each_float(m, r,
-                           [&](float f, int at) { return at < 2 ? float_at(right, m.offset + 4 * static_cast<std::size_t>(1 - at)) : f; });
-              }
-              return true;
-            });
-    }
+    using Record = std::vector<std::byte>;
+    each(Kind::list_field_through_half, {m.name}, [m](Record& r, const Records&, std::size_t) {
+      each_float(m, r, [](float f, int) { return to_float(to_half(f)); });
+    }).for_diagnosis = true;
+    each(Kind::list_without_field, {m.name}, [m](Record& r, const Records&, std::size_t) {
+      each_float(m, r, [](float, int) { return 0.0f; });
+    }).for_diagnosis = true;
+    for (int k = 0; k < m.components; ++k)
+      each(Kind::list_field_negated, {part_name(m, k)}, [m, k](Record& r, const Records&, std::size_t) {
+        each_float(m, r, [k](float f, int at) { return at == k && f != 0 ? -f : f; });
+      });
+    if (m.components > 1)
+      each(Kind::list_axes_exchanged, {m.name}, [m](Record& r, const Records& right, std::size_t i) {
+        each_float(m, r, [&](float f, int at) { return at < 2 ? float_at(right[i], offset_of(m, 1 - at)) : f; });
+      });
   }
   // What has four components and no name for each is a matrix of 2 x 2.
   std::vector<Member> matrices;
   for (const Member& m : a.list().fields)
     if (m.scalar == scene::Scalar::float32 && m.components == 4) matrices.push_back(m);
   if (!matrices.empty())
-    a.add("with its matrices transposed", "rows and columns of the matrices are exchanged: they are stored column by column",
-          [matrices](const List&, const PassCase&, ListEdit& e) {
-            for (auto& r : e.records)
-              for (const Member& m : matrices) std::swap_ranges(&r[m.offset + 4], &r[m.offset + 4] + 4, &r[m.offset + 8]);
-            return !e.records.empty();
-          });
-  a.add("through half", "the fields have half precision", [](const List& list, const PassCase&, ListEdit& e) {
+    a.add(Kind::list_matrices_transposed, [matrices](const List&, const PassCase&, ListEdit& e) {
+      for (auto& r : e.records)
+        for (const Member& m : matrices) std::swap_ranges(&r[m.offset + 4], &r[m.offset + 4] + 4, &r[m.offset + 8]);
+      return !e.records.empty();
+    });
+  a.add(Kind::list_through_half, [](const List& list, const PassCase&, ListEdit& e) {
     for (auto& r : e.records)
       for (const Member& m : list.fields)
         if (m.scalar == scene::Scalar::float32) each_float(m, r, [](float f, int) { return to_float(to_half(f)); });
@@ -185,23 +173,19 @@ void add_fields(Adder& a, bool has_input) {
 void add_times(std::vector<Fault>& out, Adder& a, const PassCase& c, bool has_input, const PassCase* before) {
   const std::string name = a.list().name;
   if (has_input) {
-    a.add("one step late", "the list is that of before the pass: a missing swap or a stale binding",
-          [](const List& list, const PassCase& taken, ListEdit& e) {
-            const capture::CaseInput* in = taken.input(list.name);
-            e.records = records_of(in->array);
-            return true;
-          });
-    Fault twice;
-    twice.name = fmt::format("{} one step early", name);
-    twice.sentence = "the pass runs twice in a step";
-    twice.alter_case = [name, gave = c.outputs[a.list().output].array](PassCase& altered) {
-      for (capture::CaseInput& i : altered.inputs)
-        if (i.name == name) i.array = gave;
-    };
-    out.push_back(std::move(twice));
+    a.add(Kind::list_one_step_late, [](const List& list, const PassCase& taken, ListEdit& e) {
+      const capture::CaseInput* in = taken.input(list.name);
+      e.records = records_of(in->array);
+      return true;
+    });
+    out.emplace_back(What{Kind::list_one_step_early, {name}}, false).alter_case =
+        [name, gave = c.outputs[a.list().output].array](PassCase& altered) {
+          for (capture::CaseInput& i : altered.inputs)
+            if (i.name == name) i.array = gave;
+        };
   }
   if (const capture::CaseOutput* old = before ? before->output(name) : nullptr; old && old->array.is_records) {
-    a.add("stale", "the list is that of the run before", [stale = old->array](const List&, const PassCase&, ListEdit& e) {
+    a.add(Kind::list_stale, [stale = old->array](const List&, const PassCase&, ListEdit& e) {
       e.records = records_of(stale);
       return true;
     });

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "faults/generators.h"
 #include "faults/hypotheses.h"
 #include "faults/list_faults.h"
+#include "faults/members.h"
 #include "faults/place_faults.h"
-#include "faults/whole_faults.h"
 #include "judge/evaluations.h"
 #include "judge/keyed.h"
 #include "math/path_enumeration.h"
@@ -46,8 +47,8 @@ std::vector<Word> words_of(const UniformBlock& layout) {
   std::vector<Word> out;
   for (const bool floats : {true, false})
     for (const scene::Member& m : layout.members) {
-      if (m.name == "id" || m.name.starts_with("padding") || (m.scalar == scene::Scalar::float32) != floats) continue;
-      for (int k = 0; k < m.components; ++k) out.push_back({m.offset + 4 * static_cast<std::size_t>(k), floats});
+      if (m.name == "id" || is_padding(m) || (m.scalar == scene::Scalar::float32) != floats) continue;
+      for (int k = 0; k < m.components; ++k) out.push_back({offset_of(m, k), floats});
     }
   return out;
 }
@@ -94,9 +95,7 @@ Match compare(const Records& guess, const Records& got, const std::vector<Word>&
     for (std::size_t k = 0; k < words.size(); ++k) {
       const Word& w = words[k];
       if (std::memcmp(&guess[i][w.offset], &got[i][w.offset], 4) == 0) continue;
-      float a, b;
-      std::memcpy(&a, &guess[i][w.offset], 4);
-      std::memcpy(&b, &got[i][w.offset], 4);
+      const auto a = number_at<float>(guess[i].data(), w.offset), b = number_at<float>(got[i].data(), w.offset);
       if (w.is_float && a == b) continue;  // zeros
       m.exact = false;
       const double leeway = own && (*own)[k] > 0 ? (*own)[k] : w.leeway, off = std::abs(static_cast<double>(a) - b);
@@ -105,11 +104,6 @@ Match compare(const Records& guess, const Records& got, const std::vector<Word>&
     }
   }
   return m;
-}
-
-const capture::PassModel& no_model() {
-  static const capture::ListPass none("", nullptr);
-  return none;
 }
 
 }  // namespace
@@ -159,8 +153,7 @@ std::vector<Fault> ListReplay::uniforms_read_off() const {
     const Records &port = of(got_, id), &right = of(right_, id);
     if (port.size() != 1 || right.size() != 1 || stored.size() > most) continue;
     for (const Word& w : words_) {
-      float v;
-      std::memcpy(&v, &port[0][w.offset], 4);
+      const auto v = number_at<float>(port[0].data(), w.offset);
       const bool differs = w.is_float && std::memcmp(&port[0][w.offset], &right[0][w.offset], 4) != 0;
       if (differs && std::find(stored.begin(), stored.end(), v) == stored.end()) stored.push_back(v);
     }
@@ -178,11 +171,7 @@ std::vector<Fault> ListReplay::fitted() {
   for (const Word& w : words_)
     if (w.is_float) floats.push_back(w.offset);
   std::vector<Wanted> wanted;
-  const auto number = [](const std::vector<std::byte>& record, std::size_t at) {
-    float v;
-    std::memcpy(&v, &record[at], 4);
-    return v;
-  };
+  const auto number = [](const std::vector<std::byte>& record, std::size_t at) { return number_at<float>(record.data(), at); };
   constexpr std::size_t most = 12;
   for (std::size_t k = 0; k < failing_.size() && wanted.size() < most; ++k) {
     const Records &port = of(got_, failing_[k]), &right = of(right_, failing_[k]);
@@ -236,7 +225,7 @@ bool ListReplay::is_none_alone(const Fault& d) const {
 }
 
 Tried ListReplay::cause(const Fault& d) const {
-  Tried cause{{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size()), 0, true}};
+  Tried cause = untried(d, failing_.size(), true);
   if (is_none_alone(d)) return cause;
   const std::optional<Array> list = faulty_list(d, c_, output_, *evaluations_, model_, reference_, failing_, &stored_);
   if (!list) return cause;
@@ -263,7 +252,7 @@ Tried ListReplay::cause(const Fault& d) const {
 }
 
 std::vector<Tried> ListReplay::causes(const std::vector<Fault>& all) const {
-  return tried(executor_, all, {"", "", 0, static_cast<std::int64_t>(failing_.size()), 0, true}, [&](const Fault& d) { return cause(d); });
+  return tried(executor_, all, failing_.size(), true, [&](const Fault& d) { return cause(d); });
 }
 
 ListReplay::ListReplay(const ListReplay& of, const capture::PassCase& c, const capture::PassModel& model)
@@ -304,11 +293,7 @@ std::vector<float> ListReplay::given(const Fault& d) const {
     for (const auto& [id, records] : by_id(*list))
       for (const auto& r : records) {
         out.push_back(static_cast<float>(id));
-        for (const Word& w : words_) {
-          float v;
-          std::memcpy(&v, &r[w.offset], 4);
-          out.push_back(v);
-        }
+        for (const Word& w : words_) out.push_back(number_at<float>(r.data(), w.offset));
       }
   } catch (const Error&) {
     out.clear();

@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "faults/generators.h"
 #include "faults/list_faults.h"
 #include "faults/list_replay.h"
-#include "faults/substitution_faults.h"
+#include "faults/members.h"
+#include "faults/solver.h"
 #include "judge/evaluations.h"
 #include "rainref/error.h"
 
@@ -53,9 +55,7 @@ void ListReplay::find_alone() {
 
 std::vector<Fault> ListReplay::solved() {
   const std::string& name = c_.outputs[output_].name;
-  std::vector<float> known = constants_of_lists(*model_, c_);
-  std::sort(known.begin(), known.end());
-  known.erase(std::unique(known.begin(), known.end()), known.end());
+  const std::vector<float> known = constants_of_lists(*model_, c_);
   std::vector<std::unique_ptr<Probe>> probes;
   std::vector<Solvable> texels;
   for (const std::shared_ptr<Alone>& one : alone_) {
@@ -88,15 +88,13 @@ std::vector<Fault> ListReplay::solved() {
 
 /// A field that is so many times what it should be, of most records.
 void ListReplay::add_scale(std::vector<Fault>& out, const scene::Member& m) const {
-  if (m.scalar != scene::Scalar::float32 || m.name.starts_with("padding")) return;
+  if (m.scalar != scene::Scalar::float32 || is_padding(m)) return;
   std::vector<double> ratios;
   for (const std::uint32_t id : failing_) {
     const Records &port = of(got_, id), &right = of(right_, id);
     if (port.size() != 1 || right.size() != 1) continue;
     for (int k = 0; k < m.components; ++k) {
-      float a, b;
-      std::memcpy(&a, &port[0][m.offset + 4 * static_cast<std::size_t>(k)], 4);
-      std::memcpy(&b, &right[0][m.offset + 4 * static_cast<std::size_t>(k)], 4);
+      const auto a = number_at<float>(port[0].data(), offset_of(m, k)), b = number_at<float>(right[0].data(), offset_of(m, k));
       if (b != 0 && std::isfinite(a)) ratios.push_back(static_cast<double>(a) / b);
     }
   }
@@ -107,24 +105,17 @@ void ListReplay::add_scale(std::vector<Fault>& out, const scene::Member& m) cons
   const bool is_part = std::abs(ratio) < 1;
   const auto nice = static_cast<float>(is_part ? 1 / (std::round(64 / ratio) / 64) : std::round(ratio * 64) / 64);
   const std::string words = is_part ? fmt::format("1/{:.5g}", 1 / nice) : fmt::format("{:.5g}", nice);
-  Fault d;
-  d.name = fmt::format("another scale of {}: {}", m.name, words);
-  d.sentence = fmt::format("{} is {} of what it should be: another divisor or factor, or a conversion that is left out", m.name, words);
+  Fault& d = out.emplace_back(What{Kind::another_scale, {m.name, words}});
   d.list_output = static_cast<int>(output_);
   d.alter_list = [m, nice, layout = reference_.record](const PassCase&, ListEdit& e) {
     for (auto& r : e.records) {
       if (!e.at.empty() && !std::binary_search(e.at.begin(), e.at.end(), id_of(r, layout))) continue;
       for (int k = 0; k < m.components; ++k) {
-        float v;
-        std::memcpy(&v, &r[m.offset + 4 * static_cast<std::size_t>(k)], 4);
-        v *= nice;
-        std::memcpy(&r[m.offset + 4 * static_cast<std::size_t>(k)], &v, 4);
+        put_number(r.data(), offset_of(m, k), number_at<float>(r.data(), offset_of(m, k)) * nice);
       }
     }
     return true;
   };
-  d.for_diagnosis = true;
-  out.push_back(std::move(d));
 }
 
 }  // namespace rainref::faults

@@ -2,11 +2,9 @@
 #include <algorithm>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "faults/edits.h"
 #include "faults/targets.h"
-#include "faults/vector_groups.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -100,9 +98,7 @@ class Moves {
     const bool is_factor = n.op == Op::product || n.op == Op::quotient;
     const std::string name = words_for(p_, what);
     // What cannot be said in full is rather something else.
-    const std::size_t dots = name.find("...");
-    if ((dots != std::string::npos && name.find("...", dots + 3) != std::string::npos) || name == "2" || name == "0.5" || name == "4")
-      return;
+    if (gaps(name) > 1 || name == "2" || name == "0.5" || name == "4") return;
     const float v = node_of(p_, what).value;
     if (v == (is_factor ? 1.0f : 0.0f)) return;
     const auto is_of_its_kind = [&](std::int32_t at) {
@@ -124,14 +120,8 @@ class Moves {
         one.edit.made.push_back(operation(n.op, {itself(at), std::move(moved)}));
       }
       if (!is_had || one.nodes.size() > perturbed::Rewrites().size()) continue;
-      const std::string there = words_for(p_, to[0]), here = words_for(p_, from[0]);
-      const char* const does = n.op == Op::product    ? "multiplies"
-                               : n.op == Op::quotient ? "divides"
-                               : n.op == Op::sum      ? "is added to"
-                                                      : "is taken from";
-      one.edit.name = fmt::format("moved outward: {} to {}", name, there);
-      one.edit.sentence = fmt::format("{} {} {}{}, the result, where it belongs into {}: it is taken too late", name, does, there,
-                                      to.size() > 1 ? " and the other components" : "", here);
+      one.edit.what = {to.size() > 1 ? Kind::moved_outward_of_all : Kind::moved_outward,
+                       {words_for(p_, from[0]), name, words_for(p_, to[0]), verb_of(n.op)}};
       out_.push_back(std::move(one));
     }
   }
@@ -151,9 +141,7 @@ class Moves {
         JointEdit& one = out_.emplace_back();
         one.nodes = {at};
         one.edit.made.push_back(std::move(made));
-        one.edit.name = fmt::format("moved inward: {} to {}", by, to);
-        one.edit.sentence = fmt::format("{} {} {} alone, within {}, where it belongs to all of that: it is taken too early", by,
-                                        all.step.op == Op::product ? "multiplies" : "divides", to, text_of(p_, all.of[k]));
+        one.edit.what = {Kind::moved_inward, {text_of(p_, all.of[k]), by, to, verb_of(all.step.op)}};
       });
     }
   }

@@ -180,16 +180,16 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
       std::erase_if(all, [](const Fault& d) { return d.for_diagnosis; });
       const std::vector<std::unique_ptr<const Stores>> stores = stores_under(chosen, c, *model, *options.executor);
       for (const Fault& d : all) {
-        if (places.contains(d.name)) continue;
-        places[d.name] = report.mutants.size();
-        report.mutants.push_back({pass.name, d.name, d.sentence, d.legal});
+        if (places.try_emplace(name_of(d), report.mutants.size()).second)
+          report.mutants.push_back({pass.name, name_of(d), sentence_of(d), d.legal});
       }
       options.executor->for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k) {
           const Fault& d = all[static_cast<std::size_t>(k)];
           try {
-            judge_mutant_lists(d, c, *evaluations, model.get(), chosen, report.mutants[places[d.name]]);
-            judge_mutant(d, c, bind, *model, texels, stores, report.mutants[places[d.name]]);
+            MutantJudgement& mutant = report.mutants[places.at(name_of(d))];
+            judge_mutant_lists(d, c, *evaluations, model.get(), chosen, mutant);
+            judge_mutant(d, c, bind, *model, texels, stores, mutant);
           } catch (const Error&) {
             // the altered case is none that the pass can run: nothing to compare
           }

@@ -1,15 +1,14 @@
-#include "faults/order_faults.h"
+// Mistakes in the order of steps: a value of before in place of the new one, a factor that is applied too early or too late.
+#include "faults/generators.h"
 
 #include <algorithm>
 #include <memory>
 #include <set>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "faults/place_faults.h"
-
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -32,7 +31,7 @@ class Adder {
  public:
   Adder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
       : out_(out), known_(std::make_shared<const std::vector<float>>(known)), most_(most) {}
-  void operator()(const Probe& p, const Site& site, Rewrite r, std::string name, std::string sentence) {
+  void operator()(const Probe& p, const Site& site, Rewrite r, What what) {
     Rewrites all{};
     std::uint32_t key = 0;
     for (std::size_t k = 0; k < site.nodes.size(); ++k) {
@@ -43,14 +42,10 @@ class Adder {
     }
     if (made_ >= most_ || !done_.insert({r.kind, key, site.occurrence, r.operand, r.path}).second) return;
     ++made_;
-    Fault d;
-    d.name = std::move(name);
-    d.sentence = std::move(sentence);
-    if (site.nodes.size() > 1) d.name += ", in all components", d.sentence += ", and so in the other components";
+    if (site.nodes.size() > 1) what.reach = Reach::all;
+    Fault& d = out_.emplace_back(std::move(what));
     d.rewrites = all;
-    d.at_texel = [known = known_](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = known.get(); };
-    d.for_diagnosis = true;
-    out_.push_back(std::move(d));
+    tell_places_by(d, known_);
   }
 
  private:
@@ -75,18 +70,8 @@ void add_parts(Adder& add, const Probe& p, const Site& site, std::int8_t k, cons
     // What both ends of a clamp hold.
     const bool is_held = (op == Op::minimum || op == Op::maximum) && path == std::array<std::int8_t, 2>{0, 0} &&
                          node_of(p, node_of(p, whole).of[0]).op == (op == Op::minimum ? Op::maximum : Op::minimum);
-    if (is_held) {
-      add(p, site, {RewriteKind::part, 0, -1, k, path}, "clamp left out: " + right,
-          fmt::format("in {} stands {} where {} is meant: it is not held between its ends", words_for(p, at), wrong, right));
-      return;
-    }
-    if (op == Op::floor) {
-      add(p, site, {RewriteKind::part, 0, -1, k, path}, "floor left out: " + right,
-          fmt::format("in {} stands {} where {} is meant: it is not rounded down", words_for(p, at), wrong, right));
-      return;
-    }
-    add(p, site, {RewriteKind::part, 0, -1, k, path}, fmt::format("value of before: {} for {}", wrong, right),
-        fmt::format("in {} stands {} where {} is meant: the value of before a step", words_for(p, at), wrong, right));
+    const Kind kind = is_held ? Kind::unclamped_before : op == Op::floor ? Kind::unrounded_before : Kind::value_of_before;
+    add(p, site, {RewriteKind::part, 0, -1, k, path}, {kind, {words_for(p, at), wrong, right}});
   };
   for (std::int8_t i = 0; i < 3; ++i) {
     const std::int32_t part = node_of(p, whole).of[static_cast<std::size_t>(i)];
@@ -103,39 +88,23 @@ void add_factors(Adder& add, const Probe& p, const Site& site) {
     const std::int32_t of = n.of[static_cast<std::size_t>(k)];
     if (of < 0) continue;
     const Node& operand = node_of(p, of);
-    const auto other = [&] { return words_for(p, n.of[static_cast<std::size_t>(1 - k)]); };
-    if ((n.op == Op::sum || n.op == Op::difference) && operand.op == Op::product)
-      for (std::int8_t f = 0; f < 2; ++f) {
-        const std::string factor = words_for(p, operand.of[static_cast<std::size_t>(f)]);
-        add(p, site, {RewriteKind::over_all, 0, -1, k, {f, -1}}, "factor of the whole sum: " + factor,
-            fmt::format("{} multiplies all of {}, after the sum, where it should multiply one term", factor, all));
-      }
-    if ((n.op == Op::maximum || n.op == Op::minimum) && operand.op == Op::product)
-      for (std::int8_t f = 0; f < 2; ++f) {
-        const std::string factor = words_for(p, operand.of[static_cast<std::size_t>(f)]);
-        const char* const what = n.op == Op::maximum ? "maximum" : "minimum";
-        add(p, site, {RewriteKind::over_all, 0, -1, k, {f, -1}}, fmt::format("factor of the whole {}: {}", what, factor),
-            fmt::format("{} multiplies all of {}, where it should multiply one of the two", factor, all));
-      }
+    const auto over_all = [&](Kind kind) {
+      for (std::int8_t f = 0; f < 2; ++f)
+        add(p, site, {RewriteKind::over_all, 0, -1, k, {f, -1}}, {kind, {all, words_for(p, operand.of[static_cast<std::size_t>(f)])}});
+    };
+    if ((n.op == Op::sum || n.op == Op::difference) && operand.op == Op::product) over_all(Kind::factor_of_whole_sum);
+    if (n.op == Op::maximum && operand.op == Op::product) over_all(Kind::factor_of_whole_maximum);
+    if (n.op == Op::minimum && operand.op == Op::product) over_all(Kind::factor_of_whole_minimum);
     if ((n.op == Op::product || (n.op == Op::quotient && k == 0)) && (operand.op == Op::sum || operand.op == Op::difference))
       for (const RewriteKind kind : {RewriteKind::over_first, RewriteKind::over_second})
-        add(p, site, {kind, 0, -1, k, {-1, -1}}, fmt::format("{} of one term: {}", n.op == Op::product ? "factor" : "divisor", other()),
-            fmt::format("in {} {} {} {} alone", all, other(), n.op == Op::product ? "multiplies" : "divides",
-                        words_for(p, operand.of[kind == RewriteKind::over_first ? 0 : 1])));
+        add(p, site, {kind, 0, -1, k, {-1, -1}},
+            {n.op == Op::product ? Kind::factor_of_one_term : Kind::divisor_of_one_term,
+             {all, words_for(p, n.of[static_cast<std::size_t>(1 - k)]),
+              words_for(p, operand.of[kind == RewriteKind::over_first ? 0 : 1])}});
   }
 }
 
-/// What rounds or bends a number: where it stands among sums matters.
-const char* name_of(Op op) {
-  return op == Op::floor         ? "floor"
-         : op == Op::fract       ? "fract"
-         : op == Op::magnitude   ? "abs"
-         : op == Op::root        ? "sqrt"
-         : op == Op::square      ? "square"
-         : op == Op::power       ? "pow"
-         : op == Op::exponential ? "exp"
-                                 : "";
-}
+/// Where what rounds or bends a number stands among sums matters.
 void add_functions(Adder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const Node& n = node_of(p, at);
@@ -143,31 +112,22 @@ void add_functions(Adder& add, const Probe& p, const Site& site) {
   if (n.op == Op::sum || n.op == Op::difference)
     for (std::int8_t k = 0; k < 2; ++k) {
       const std::int32_t of = n.of[static_cast<std::size_t>(k)];
-      const char* const function = name_of(op_of(of));
+      const char* const function = bend_name(op_of(of));
       if (!*function || op_of(of) == Op::power) continue;
-      add(p, site, {RewriteKind::function_of_all, 0, -1, k, {-1, -1}}, fmt::format("{} of the whole sum: {}", function, words_for(p, at)),
-          fmt::format("{} is taken of all of {}, where it should be of {} alone", function, words_for(p, at),
-                      words_for(p, node_of(p, of).of[0])));
+      add(p, site, {RewriteKind::function_of_all, 0, -1, k, {-1, -1}},
+          {Kind::function_of_whole_sum, {words_for(p, at), function, words_for(p, node_of(p, of).of[0])}});
     }
   const Op inner = op_of(n.of[0]);
-  if (!*name_of(n.op) || (inner != Op::sum && inner != Op::difference)) return;
+  if (!*bend_name(n.op) || (inner != Op::sum && inner != Op::difference)) return;
   for (const RewriteKind kind : {RewriteKind::function_of_first, RewriteKind::function_of_second}) {
     const std::int32_t term = node_of(p, n.of[0]).of[kind == RewriteKind::function_of_first ? 0 : 1];
     if (n.op == Op::floor && op_of(term) == Op::fract) continue;  // nothing is left of it: the floor is left out with it
-    add(p, site, {kind, 0, -1, 0, {-1, -1}}, fmt::format("{} of one term: {}", name_of(n.op), words_for(p, term)),
-        fmt::format("{} is taken of {} alone, where it should be of all of {}", name_of(n.op), words_for(p, term), words_for(p, n.of[0])));
+    add(p, site, {kind, 0, -1, 0, {-1, -1}}, {Kind::function_of_one_term, {words_for(p, n.of[0]), bend_name(n.op), words_for(p, term)}});
   }
 }
 
-bool bends(Op op) { return *name_of(op) || op == Op::minimum || op == Op::maximum || op == Op::sine || op == Op::cosine; }
+bool bends(Op op) { return *bend_name(op) || op == Op::minimum || op == Op::maximum || op == Op::sine || op == Op::cosine; }
 bool scales(Op op) { return op == Op::product || op == Op::quotient; }
-const char* verb_of(Op op) { return op == Op::quotient ? "divides" : op == Op::product ? "multiplies" : "bounds"; }
-std::string function_words(const Probe& p, const Node& n, bool is_clamp) {
-  if (is_clamp) return "the clamp";
-  if (n.op == Op::minimum || n.op == Op::maximum)
-    return fmt::format("{} with {}", n.op == Op::minimum ? "min" : "max", words_for(p, n.of[1]));
-  return n.op == Op::sine ? "sin" : n.op == Op::cosine ? "cos" : name_of(n.op);
-}
 /// An operation and that of its operand in the other order, where that is another number: a factor before a function or after it.
 void add_commuted(Adder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
@@ -184,18 +144,14 @@ void add_commuted(Adder& add, const Probe& p, const Site& site) {
     if (of < 0) continue;
     const Node& operand = node_of(p, of);
     const auto after = [&](RewriteKind kind, const Node& inner, std::int8_t j) {
-      const std::int32_t other = inner.of[static_cast<std::size_t>(1 - j)];
-      const std::string factor = words_for(p, other), function = function_words(p, n, kind == RewriteKind::commuted_outer_2);
-      add(p, site, {kind, 0, -1, k, {j, -1}}, fmt::format("too late: {} after {}", factor, function),
-          fmt::format("in {} {} {} what {} gives; it should be taken before, inside of {}", all, factor, verb_of(inner.op), function,
-                      function));
+      const std::string function = kind == RewriteKind::commuted_outer_2 ? "the clamp" : function_text(p, n);
+      add(p, site, {kind, 0, -1, k, {j, -1}},
+          {Kind::too_late, {all, words_for(p, inner.of[static_cast<std::size_t>(1 - j)]), verb_of(inner.op), function}});
     };
     const auto before = [&](RewriteKind kind, const Node& inner, std::int8_t j) {
-      const std::string factor = words_for(p, n.of[static_cast<std::size_t>(1 - k)]);
-      const std::string function = function_words(p, inner, kind == RewriteKind::commuted_inner_2);
-      add(p, site, {kind, 0, -1, k, {j, -1}}, fmt::format("too early: {} before {}", factor, function),
-          fmt::format("in {} {} {} what {} is taken of; it should be taken after, outside of {}", all, factor, verb_of(n.op), function,
-                      function));
+      const std::string function = kind == RewriteKind::commuted_inner_2 ? "the clamp" : function_text(p, inner);
+      add(p, site, {kind, 0, -1, k, {j, -1}},
+          {Kind::too_early, {all, words_for(p, n.of[static_cast<std::size_t>(1 - k)]), verb_of(n.op), function}});
     };
     if (bends(n.op) && scales(operand.op))
       for (std::int8_t j = 0; j < (operand.op == Op::quotient ? 1 : 2); ++j) after(RewriteKind::commuted, operand, j);
@@ -209,8 +165,7 @@ void add_commuted(Adder& add, const Probe& p, const Site& site) {
     }
     // (a + b) / c for a / c + b.
     if ((n.op == Op::sum || n.op == Op::difference) && operand.op == Op::quotient)
-      add(p, site, {RewriteKind::commuted, 0, -1, k, {0, -1}}, "divisor of the whole sum: " + words_for(p, operand.of[1]),
-          fmt::format("{} divides all of {}, after the sum, where it should divide one term", words_for(p, operand.of[1]), all));
+      add(p, site, {RewriteKind::commuted, 0, -1, k, {0, -1}}, {Kind::divisor_of_whole_sum, {all, words_for(p, operand.of[1])}});
   }
 }
 
@@ -219,10 +174,7 @@ void add_commuted(Adder& add, const Probe& p, const Site& site) {
 void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most) {
   Adder add(out, known, most);
   for (const Probe& p : probes) {
-    std::vector<int> uses(p.trace.nodes.size());
-    for (const Node& n : p.trace.nodes)
-      for (const std::int32_t of : n.of)
-        if (of >= 0) ++uses[static_cast<std::size_t>(of)];
+    const std::vector<int> uses = uses_of(p.trace);
     std::vector<Site> sites;
     for (std::vector<std::size_t>& vector : vectors_of(p)) sites.push_back({std::move(vector), -1});
     for (std::size_t at = p.trace.nodes.size(); at-- > 0;) {
@@ -242,9 +194,7 @@ void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
         for (std::int8_t k = 0; k < 2; ++k)
           if (n.of[static_cast<std::size_t>(k)] >= 0 && node_of(p, n.of[static_cast<std::size_t>(k)]).op == Op::choice) {
             const auto at = static_cast<std::size_t>(&n - p.trace.nodes.data());
-            add(p, {{at}, -1}, {RewriteKind::first_wins, 0, -1, k, {-1, -1}}, "order of choices reversed",
-                "of several that hold in a loop another one stays: the loop runs in the other order, so that the last of them, "
-                "which should lie on top, lies below");
+            add(p, {{at}, -1}, {RewriteKind::first_wins, 0, -1, k, {-1, -1}}, {Kind::order_of_choices});
           }
     for (const Site& site : sites)
       for (std::int8_t k = 0; k < 3; ++k)

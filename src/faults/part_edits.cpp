@@ -4,13 +4,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <set>
-
-#include <fmt/format.h>
+#include <string>
 
 #include "faults/edits.h"
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -19,24 +18,7 @@ using perturbed::FormulaStep;
 using perturbed::Op;
 using Node = perturbed::Trace::Node;
 
-/// "axis.x of wipers": the member "axis of wipers" and its component 'x'; of a scalar ' '.
-struct Member {
-  std::string name;
-  char component;
-};
-std::optional<Member> member_of(const std::string& name) {
-  const bool is_number = name.empty() || name.find_first_not_of("0123456789.-e+") == std::string::npos;
-  if (is_number || name.find_first_of("(/") != std::string::npos || name.starts_with("-") || name == "row" || name == "column") return {};
-  const std::size_t dot = name.find('.');
-  if (dot == std::string::npos) return Member{name, ' '};
-  if (dot + 1 >= name.size()) return {};
-  return Member{name.substr(0, dot) + name.substr(dot + 2), name[dot + 1]};
-}
-std::string list_of(const std::string& member) {
-  const std::size_t of = member.find(" of ");
-  return of == std::string::npos ? "" : member.substr(of);
-}
-const std::string& name_of(const Probe& p, std::int32_t node) { return p.names[static_cast<std::size_t>(node)]; }
+const std::string& leaf_name(const Probe& p, std::int32_t node) { return p.names[static_cast<std::size_t>(node)]; }
 
 }  // namespace
 
@@ -49,7 +31,7 @@ std::vector<Edit> member_edits_of(const Probe& p, std::int32_t node) {
   std::map<std::string, std::vector<std::pair<Expression*, char>>> used;  // leaves of each vector
   for (Expression* e : all) {
     if (e->is_operation() || e->node < 0 || node_of(p, e->node).op != Op::constant) continue;
-    if (const auto member = member_of(name_of(p, e->node)); member && member->component != ' ')
+    if (const auto member = member_of(leaf_name(p, e->node)); member && member->component != ' ')
       used[member->name].emplace_back(e, member->component);
   }
   if (used.empty()) return out;
@@ -57,7 +39,7 @@ std::vector<Edit> member_edits_of(const Probe& p, std::int32_t node) {
   std::map<std::string, std::map<char, std::int32_t>> others;
   for (std::int32_t at = 0; at < node; ++at)
     if (node_of(p, at).op == Op::constant)
-      if (const auto member = member_of(name_of(p, at))) others[member->name][member->component] = at;
+      if (const auto member = member_of(leaf_name(p, at))) others[member->name][member->component] = at;
   const std::string text = words_for(p, node);
   for (const auto& [right, leaves] : used)
     for (const auto& [wrong, parts_of] : others) {
@@ -72,10 +54,7 @@ std::vector<Edit> member_edits_of(const Probe& p, std::int32_t node) {
         *leaf = elsewhere(p, from, node, {});
         is_had &= can_be_had(*leaf);
       }
-      if (is_had && changes)
-        out.push_back({{made},
-                       fmt::format("another member: {} for {} in {}", wrong, right, text),
-                       fmt::format("in {} {} stands where {} is meant", text, wrong, right)});
+      if (is_had && changes) out.push_back({{made}, {Kind::another_member, {text, wrong, right}}});
       for (std::size_t k = 0; k < leaves.size(); ++k) *leaves[k].first = kept[k];
     }
   return out;
@@ -90,17 +69,16 @@ std::vector<Edit> unit_edits_of(const Probe& p, std::int32_t node) {
   const Expression whole = expression_of(p, node, 1);
   const std::string text = words_for(p, is_angle ? n.of[0] : node);
   constexpr float pi = std::numbers::pi_v<float>;
-  const auto times = [&](float factor, const std::string& name, const std::string& sentence) {
-    Expression made = is_angle ? operation(n.op, {operation(Op::product, {whole.of[0], number_of(factor)})})
-                               : operation(Op::product, {whole, number_of(factor)});
-    out.push_back({{std::move(made)}, name + ": " + text, fmt::format("{} {}", text, sentence)});
+  const auto times = [&](float factor, Kind kind) {
+    out.push_back(
+        {{is_angle ? operation(n.op, {product(whole.of[0], number_of(factor))}) : product(whole, number_of(factor))}, {kind, {text}}});
   };
-  times(1 / (2 * pi), "factor 2 pi left out", "lacks a factor 2 pi: turns are taken for radians");
-  times(2 * pi, "factor 2 pi too many", "has a factor 2 pi too much: radians are taken for turns");
-  times(1 / pi, "factor pi left out", "lacks a factor pi");
-  times(pi, "factor pi too many", "has a factor pi too much");
-  times(180 / pi, "degrees", "is 180 / pi times what it should be: degrees in place of radians");
-  times(pi / 180, "radians", "is pi / 180 of what it should be: an angle in radians is taken for degrees");
+  times(1 / (2 * pi), Kind::factor_2_pi_left_out);
+  times(2 * pi, Kind::factor_2_pi_too_many);
+  times(1 / pi, Kind::factor_pi_left_out);
+  times(pi, Kind::factor_pi_too_many);
+  times(180 / pi, Kind::degrees_there);
+  times(pi / 180, Kind::radians_there);
   return out;
 }
 
@@ -118,27 +96,18 @@ std::vector<Edit> condition_edits_of(const Probe& p, std::int32_t node) {
     const bool is_choice = other.op == Op::choice;
     if ((!is_choice && other.op != Op::comparison) || !done.insert(other.shape).second) continue;
     const bool other_holds = (is_choice ? other.with[2] : other.value) != 0;
-    std::string condition = is_choice ? fmt::format("the condition of {}", words_for(p, at))
-                                      : fmt::format("{} < {}", words_for(p, other.of[0]), words_for(p, other.of[1]));
-    if (condition.find_first_not_of(".<+-*/() ") == std::string::npos) continue;
+    const std::string condition = condition_text(p, at);
+    if (says_nothing(condition)) continue;
     Expression asked = elsewhere(p, at, node, {});
     if (asked.step.kind != FormulaStep::Kind::met) continue;
     if (is_choice) asked.step.kind = FormulaStep::Kind::decided;
-    const auto with = [&](Expression mask, const std::string& name, const std::string& sentence) {
-      out.push_back({{operation(Op::choice, {whole.of[0], whole.of[1], std::move(mask)})}, name, sentence});
+    const auto with = [&](Expression mask, Kind kind) {
+      out.push_back({{operation(Op::choice, {whole.of[0], whole.of[1], std::move(mask)})}, {kind, {text, condition, first, second}}});
     };
     // What is added or taken in its place must show here.
-    if (holds && !other_holds)
-      with(
-          operation(Op::product, {whole.of[2], asked}), fmt::format("condition too many: {} in {}", condition, text),
-          fmt::format("in {} {} stands only where {} holds too, and {} elsewhere: one condition too many", text, first, condition, second));
-    if (holds && other_holds)
-      with(operation(Op::product, {whole.of[2], operation(Op::difference, {number_of(1), asked})}),
-           fmt::format("condition too many: not {} in {}", condition, text),
-           fmt::format("in {} {} stands only where {} does not hold: one condition too many", text, first, condition));
-    if (!holds && other_holds)
-      with(asked, fmt::format("another condition: {} in {}", condition, text),
-           fmt::format("in {} {} decides between {} and {} in place of the condition that is meant", text, condition, first, second));
+    if (holds && !other_holds) with(product(whole.of[2], asked), Kind::condition_too_many);
+    if (holds && other_holds) with(product(whole.of[2], difference(number_of(1), asked)), Kind::no_condition_too_many);
+    if (!holds && other_holds) with(asked, Kind::another_condition);
   }
   return out;
 }
@@ -189,10 +158,9 @@ std::vector<JointEdit> constant_edits_of(const Probe& p) {
         texts.push_back(words_for(p, node_of(p, place.node).of[place.operand]));
         right += (right.empty() ? "" : ", ") + texts.back();
       }
-      const auto add = [&](const std::vector<std::size_t>& from, const std::string& name, const std::string& sentence) {
+      const auto add = [&](const std::vector<std::size_t>& from, Kind kind, const std::string& wrong) {
         JointEdit& one = out.emplace_back();
-        one.edit.name = name;
-        one.edit.sentence = sentence;
+        one.edit.what = {kind, {words_for(p, v[0].node), wrong, right}};
         for (std::size_t k = 0; k < v.size(); ++k) {
           one.nodes.push_back(v[k].node);
           Expression made = expression_of(p, v[k].node, 1);
@@ -200,17 +168,13 @@ std::vector<JointEdit> constant_edits_of(const Probe& p) {
           one.edit.made.push_back(std::move(made));
         }
       };
-      for (std::size_t k = 0; k < count; ++k)
-        add(std::vector<std::size_t>(count, k), fmt::format("one constant for all: {} for {}", texts[k], right),
-            fmt::format("the constants {} of the components, in {} and beside it, are all {}", right, words_for(p, v[0].node), texts[k]));
+      for (std::size_t k = 0; k < count; ++k) add(std::vector<std::size_t>(count, k), Kind::one_constant_for_all, texts[k]);
       std::vector<std::size_t> order(count);
       for (std::size_t k = 0; k < count; ++k) order[k] = k;
       while (std::next_permutation(order.begin(), order.end())) {
         std::string wrong;
         for (const std::size_t k : order) wrong += (wrong.empty() ? "" : ", ") + texts[k];
-        add(order, fmt::format("constants exchanged: {} for {}", wrong, right),
-            fmt::format("the constants {} of the components, in {} and beside it, stand in the order {}", right, words_for(p, v[0].node),
-                        wrong));
+        add(order, Kind::constants_exchanged, wrong);
       }
     }
   return out;
@@ -244,9 +208,7 @@ std::vector<JointEdit> branch_edits_of(const Probe& p) {
         all += (all.empty() ? "" : ", ") + words_for(p, side);
         one.edit.made.push_back(expression_of(p, at, 1).of[holds ? 1 : 0]);
       }
-      one.edit.name = fmt::format("branch left out: {}", all);
-      one.edit.sentence = fmt::format("{} stand where a condition {}; the branch, or the return, that should give others there is left out",
-                                      all, holds ? "holds" : "does not hold");
+      one.edit.what = {holds ? Kind::branch_left_out : Kind::other_branch_left_out, {all}};
     }
   return out;
 }

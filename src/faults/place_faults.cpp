@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <memory>
 #include <set>
@@ -10,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "faults/place_words.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -48,8 +47,7 @@ bool is_literal(const Probe& p, const Node& n, std::size_t k) {
   if (n.op != Op::sum && n.op != Op::difference && n.op != Op::product && n.op != Op::quotient) return false;
   if (n.of[k] < 0 || p.trace.nodes[static_cast<std::size_t>(n.of[k])].op != Op::constant) return false;
   const std::string& name = p.names[static_cast<std::size_t>(n.of[k])];
-  if (name.empty() || name.find_first_not_of("0123456789.-e") != std::string::npos) return false;
-  return n.op == Op::sum || n.op == Op::difference || (name != "2" && name != "0.5" && name != "-1");
+  return is_number(name) && (n.op == Op::sum || n.op == Op::difference || (name != "2" && name != "0.5" && name != "-1"));
 }
 
 /// Groups of two or three first places of different shapes and one text, each met as often, of the operations that `wanted` says.
@@ -69,15 +67,12 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
         by_literal[{n.op, fmt::format("literal {} {}", k, p.names[static_cast<std::size_t>(n.of[k])])}][n.shape] = at;
     if (text == "...") continue;
     // Where the first operand is a component by name, whatever the second is made of: in (-y, x), turned, of other operations.
-    if (const std::string near = p.text(static_cast<std::int32_t>(at), 1);
-        near.find("...") != std::string::npos && near.find('.') != near.find("..."))
+    if (const std::string near = p.text(static_cast<std::int32_t>(at), 1); names_component_before_gap(near))
       by_leaf[{n.op, "leaf " + of_any_component(near)}][n.shape] = at;
     by_text[{n.op, of_any_component(with_columns(text))}][n.shape] = at;
     by_axis[{n.op, "axis " + of_any_component(text, 'u', 'v')}][n.shape] = at;
     // What lies on both sides of something: x - shift and x + shift.
-    std::string both = text;
-    for (std::size_t k = both.find(" - "); k != std::string::npos; k = both.find(" - ", k)) both[k + 1] = '+';
-    if (is_bent(n.op)) by_side[{n.op, "side " + both}][n.shape] = at;
+    if (is_bent(n.op)) by_side[{n.op, "side " + of_either_side(text)}][n.shape] = at;
   }
   by_text.merge(by_literal);
   by_text.merge(by_leaf);
@@ -113,26 +108,6 @@ std::vector<std::vector<std::size_t>> arguments_of(const Probe& p) {
 
 }  // namespace
 
-std::string with_columns(const std::string& text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t n = text.compare(at, 14, "(column + 0.5)") == 0 ? 14
-                          : text.compare(at, 12, "column + 0.5") == 0 ? 12
-                          : text.compare(at, 6, "column") == 0        ? 6
-                          : text.compare(at, 3, "row") == 0           ? 3
-                                                                      : 0;
-    out.push_back(n > 0 ? 'x' : text[at]);
-    at += n > 0 ? n : 1;
-  }
-  return out;
-}
-std::string of_any_component(std::string text, char first, char last) {
-  const auto is_part = [&](std::size_t at) { return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])); };
-  for (std::size_t at = 0; at < text.size(); ++at)
-    if (text[at] >= first && text[at] <= last && !(at > 0 && is_part(at - 1)) && !is_part(at + 1)) text[at] = first;
-  return text;
-}
-
 std::vector<std::vector<std::size_t>> vectors_of(const Probe& p) {
   std::vector<std::vector<std::size_t>> out = arguments_of(p);
   for (std::vector<std::size_t>& v : groups_of(p, [](Op op) {
@@ -148,15 +123,12 @@ std::vector<std::vector<std::size_t>> vector_values_of(const Probe& p) {
 
 void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, PlaceKind kind) {
   const auto shared = std::make_shared<const std::vector<float>>(known);
-  const auto add = [&](const Words& w, std::array<perturbed::Place, 4> places, std::string remark) {
-    Fault d;
-    d.name = w.name;
-    if (remark.starts_with(", and so")) d.name.append(remark.ends_with("s") ? ", in all components" : ", in both components");
-    d.sentence = w.sentence + remark;
+  const auto add = [&](const Mistake& m, std::array<perturbed::Place, 4> places, Reach reach, std::vector<std::string> where = {}) {
+    Fault& d = out.emplace_back(m.what);
+    d.reach = reach;
+    d.where = std::move(where);
     d.behaviour.places = places;
-    d.at_texel = [shared](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = shared.get(); };
-    d.for_diagnosis = true;
-    out.push_back(std::move(d));
+    tell_places_by(d, shared);
   };
   constexpr std::int32_t most = 6;  // of one shape that are tried one by one: components, neighbours
   std::set<std::pair<std::uint32_t, std::int32_t>> done;
@@ -165,22 +137,23 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
     for (const std::vector<std::size_t>& at : kind == PlaceKind::plain ? vectors_of(p) : std::vector<std::vector<std::size_t>>()) {
       std::array<perturbed::Place, 4> places{};
       std::uint32_t key = 0;
-      std::vector<std::vector<Words>> words;
+      std::vector<std::vector<Mistake>> mistakes;
       for (std::size_t k = 0; k < at.size(); ++k) {
         const Node& n = p.trace.nodes[at[k]];
         places[k].shape = n.shape;
         // Of the arguments of one call each is a place of its own.
         if ((n.op == Op::argument || n.op == Op::bent) && p.trace.met.at(n.shape) > 1) places[k].occurrence = n.occurrence;
         key = (key * 5 ^ n.shape) + static_cast<std::uint32_t>(places[k].occurrence + 1);
-        words.push_back(words_of(p, at[k]));
+        mistakes.push_back(mistakes_at(p, at[k]));
       }
       if (!done.insert({key, 0}).second) continue;
-      for (std::size_t w = 0; w < words[0].size(); ++w) {
-        const PlaceFault fault = words[0][w].fault;
-        const bool is_of_all = std::all_of(words.begin(), words.end(), [&](const auto& o) { return o.size() > w && o[w].fault == fault; });
+      for (std::size_t m = 0; m < mistakes[0].size(); ++m) {
+        const PlaceFault fault = mistakes[0][m].fault;
+        const bool is_of_all =
+            std::all_of(mistakes.begin(), mistakes.end(), [&](const auto& o) { return o.size() > m && o[m].fault == fault; });
         if (!is_of_all || is_multiple(fault, p.trace.nodes[at[0]].op)) continue;
         for (std::size_t k = 0; k < at.size(); ++k) places[k].fault = fault;
-        add(words[0][w], places, at.size() == 2 ? ", and so in the other component" : ", and so in the other components");
+        add(mistakes[0][m], places, at.size() == 2 ? Reach::both : Reach::all);
       }
     }
     // From the results to what they are made of: a whole term left out is a plainer mistake than one in its depths.
@@ -190,10 +163,14 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
       for (const std::int32_t occurrence : {-1, n.occurrence}) {
         if (occurrence >= 0 && (count == 1 || count > most)) continue;
         if (!done.insert({n.shape, occurrence}).second) continue;
-        for (const Words& w : words_of(p, at))
-          if ((kind == PlaceKind::multiple) == is_multiple(w.fault, n.op))
-            add(w, {perturbed::Place{n.shape, occurrence, w.fault}},
-                occurrence < 0 ? "" : fmt::format(" (one of {} alike, number {})", count, occurrence + 1));
+        for (const Mistake& m : mistakes_at(p, at)) {
+          if ((kind == PlaceKind::multiple) != is_multiple(m.fault, n.op)) continue;
+          const std::array<perturbed::Place, 4> place{perturbed::Place{n.shape, occurrence, m.fault}};
+          if (occurrence < 0)
+            add(m, place, Reach::one);
+          else
+            add(m, place, Reach::one_alike, {std::to_string(count), std::to_string(occurrence + 1)});
+        }
       }
       if (n.op != Op::lookup || kind == PlaceKind::multiple) continue;
       // Both coordinates of a lookup: fx and fy of a blend are what a coordinate has beyond its floor.
@@ -206,8 +183,8 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
       if (x < 0 || y < 0) continue;
       const Node &u = p.trace.nodes[static_cast<std::size_t>(x)], &v = p.trace.nodes[static_cast<std::size_t>(y)];
       if (!done.insert({u.shape ^ v.shape * 3, u.occurrence}).second) continue;
-      for (const Words& w : words_of(p, static_cast<std::size_t>(x)))
-        add(w, {perturbed::Place{u.shape, u.occurrence, w.fault}, perturbed::Place{v.shape, v.occurrence, w.fault}}, ", in u and v");
+      for (const Mistake& m : mistakes_at(p, static_cast<std::size_t>(x)))
+        add(m, {perturbed::Place{u.shape, u.occurrence, m.fault}, perturbed::Place{v.shape, v.occurrence, m.fault}}, Reach::in_u_and_v);
     }
   }
 }

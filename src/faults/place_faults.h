@@ -9,6 +9,14 @@
 
 namespace rainref::faults {
 
+/// A mistake at a place.
+struct Mistake {
+  perturbed::PlaceFault fault;
+  What what;
+};
+/// All that can be made at a node of a probe.
+std::vector<Mistake> mistakes_at(const Probe& p, std::size_t at);
+
 /// What is wrong at a place.
 enum class PlaceKind {
   plain,    ///< something left out, exchanged, of another sign
@@ -29,8 +37,8 @@ struct SharedPlace {
 };
 /// By what it is known there.
 std::uint32_t shape_of(const perturbed::Trace::Node& n, const SharedPlace& place);
-/// What is said of a mistake there after that of one place.
-std::string words_for_all(const SharedPlace& place);
+/// Says of a mistake at one place that it is made at all of them.
+void reach_all(What& what, const SharedPlace& place);
 std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes);
 
 /// The places of the components of vectors, two or three of one operation and one text but for the components: nodes of the probe.
@@ -38,11 +46,8 @@ std::vector<std::vector<std::size_t>> vectors_of(const Probe& p);
 /// The same of any values, leaves too.
 std::vector<std::vector<std::size_t>> vector_values_of(const Probe& p);
 
-/// A text in which column and row are named as a component, as those of a texel's place.
-std::string with_columns(const std::string& text);
-/// A text in which the components of vectors, which are letters from `first` to `last`, have one name.
-std::string of_any_component(std::string text, char first = 'x', char last = 'z');
-
+/// A constant that has another value in the port, about the one that is said.
+Fault another_value(Kind kind, const Constant& constant, float said, float replacement);
 /// Adds, for each constant, the value that it would need to have for what the port stored at some failing texels, where there
 /// is one. `wanted`: texels and what the port stored there, one number for each slot.
 struct Wanted {

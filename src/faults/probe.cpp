@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,7 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "faults/operation_names.h"
+#include "faults/members.h"
+#include "faults/targets.h"
+#include "faults/text.h"
 #include "judge/rearrange.h"
 #include "rainref/error.h"
 
@@ -23,8 +24,6 @@ using capture::PassCase;
 using perturbed::Op;
 using perturbed::Trace;
 using Node = Trace::Node;
-
-bool is_leaf(Op op) { return op == Op::constant || op == Op::load || op == Op::fetch || op == Op::index; }
 
 /// What is probed of a model: a texel, or a whole list.
 struct Evaluation {
@@ -70,42 +69,31 @@ struct Touched {
 };
 
 void touch_float(std::byte* at) {
-  float value;
-  std::memcpy(&value, at, 4);
-  value = value == 0 ? 0x1p-20f : value * (1 + 0x1p-18f);
-  std::memcpy(at, &value, 4);
+  const auto value = number_at<float>(at, 0);
+  put_number(at, 0, value == 0 ? 0x1p-20f : value * (1 + 0x1p-18f));
 }
 void add_uniforms(std::vector<Touched>& out, const capture::PackPass& pass, const PassCase& c) {
-  for (const scene::Member& m : pass.block.members) {
-    if (m.scalar != scene::Scalar::float32 || m.name.starts_with("padding")) continue;
-    for (int k = 0; k < m.components; ++k) {
-      const std::size_t offset = m.offset + 4 * static_cast<std::size_t>(k);
-      float value;
-      std::memcpy(&value, c.uniforms.data() + offset, 4);
-      out.push_back({m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), false, value,
-                     [offset](PassCase& altered) { touch_float(altered.uniforms.data() + offset); }});
-    }
-  }
+  for (const Part& part : float_parts(pass.block))
+    out.push_back({part.name, false, number_at<float>(c.uniforms.data(), part.offset),
+                   [at = part.offset](PassCase& altered) { touch_float(altered.uniforms.data() + at); }});
 }
 void add_inputs(std::vector<Touched>& out, const PassCase& c) {
   for (std::size_t i = 0; i < c.inputs.size(); ++i) {
     const Array& a = c.inputs[i].array;
     if (a.is_records) {
       for (const scene::Member& m : a.record.members)
-        for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k) {
-          const std::size_t offset = m.offset + 4 * static_cast<std::size_t>(k), size = a.record.size;
-          const std::string part = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
-          out.push_back({fmt::format("{} of {}", part, c.inputs[i].name), false, std::nullopt, [i, offset, size](PassCase& altered) {
+        for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k)
+          out.push_back({fmt::format("{} of {}", part_name(m, k), c.inputs[i].name), false, std::nullopt,
+                         [i, at = offset_of(m, k), size = a.record.size](PassCase& altered) {
                            std::vector<std::byte>& records = altered.inputs[i].array.levels[0];
-                           for (std::size_t r = 0; r + size <= records.size(); r += size) touch_float(records.data() + r + offset);
+                           for (std::size_t r = 0; r + size <= records.size(); r += size) touch_float(records.data() + r + at);
                          }});
-        }
       continue;
     }
     const FormatInfo& f = info(a.format);
     for (int k = 0; k < f.channels; ++k) {
       const int byte = k * f.channel_bytes;  // little endian: the lowest
-      out.push_back({f.channels == 1 ? c.inputs[i].name : fmt::format("{}.{}", c.inputs[i].name, "xyzw"[k]), true, std::nullopt,
+      out.push_back({f.channels == 1 ? c.inputs[i].name : c.inputs[i].name + "." + component_name(k), true, std::nullopt,
                      [i, byte](PassCase& altered) {
                        judge::each_texel(altered.inputs[i].array, [byte](std::byte* t) { t[byte] ^= std::byte{1}; });
                      }});
@@ -133,8 +121,7 @@ void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed
     std::string& name = probe.names[n];
     if (!touched.is_input && !name.empty()) {
       // Of several numbers: named after all of them, the second time and on.
-      if (!name.starts_with("f(")) name = "f(" + name + ")";
-      name.insert(name.size() - 1, ", " + touched.name);
+      name = made_of_too(name, touched.name);
       continue;
     }
     if (by >= least[n]) continue;
@@ -152,51 +139,43 @@ void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed
 
 }  // namespace
 
-bool Probe::is_of_column(const perturbed::Trace::Node& n) const {
-  const auto op = [&](std::int32_t i) { return i < 0 ? Op::lookup : trace.nodes[static_cast<std::size_t>(i)].op; };
-  return op(n.of[0]) == Op::index && op(n.of[1]) == Op::constant && n.with[1] == 0.5f;
+std::vector<Texel> failing_texels(const judge::CaseJudgement& j) {
+  std::vector<Texel> all;
+  for (const judge::OutputJudgement& o : j.outputs)
+    for (std::size_t i = 0; i < o.map.size(); ++i)
+      if (o.map[i] == 3) all.push_back({static_cast<int>(i) % o.width, static_cast<int>(i) / o.width});
+  std::sort(all.begin(), all.end(), [](Texel a, Texel b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  all.erase(std::unique(all.begin(), all.end(), [](Texel a, Texel b) { return a.x == b.x && a.y == b.y; }), all.end());
+  return all;
 }
-std::string Probe::text(std::int32_t node, int depth) const {
-  if (node < 0) return "...";
-  const Node& n = trace.nodes[static_cast<std::size_t>(node)];
-  if (is_leaf(n.op)) return names[static_cast<std::size_t>(node)];
-  if (n.op == Op::lookup) return text(n.of[2], depth);
-  if (n.op == Op::level || n.op == Op::coordinate || n.op == Op::argument || n.op == Op::bent || n.op == Op::stored)
-    return text(n.of[0], depth);
-  if (depth == 0) return n.op == Op::sum && is_of_column(n) ? text(n.of[0], depth) + " + 0.5" : "...";
-  // HLSL's int(): toward zero.
-  if (n.op == Op::choice) {
-    const auto below = [&](std::int32_t i, Op op) {
-      return i >= 0 && trace.nodes[static_cast<std::size_t>(i)].op == op ? trace.nodes[static_cast<std::size_t>(i)].of[0] : -1;
-    };
-    const std::int32_t up = below(n.of[1], Op::floor);
-    if (up >= 0 && below(below(below(n.of[0], Op::negation), Op::floor), Op::negation) == up)
-      return fmt::format("trunc({})", text(up, depth - 1));
-  }
-  // One deeper with each choice too: the steps of a march choose between each other, and twice as many texts with each step.
-  if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth - 1), text(n.of[1], depth - 1));
-  if (n.op == Op::negation) return "-" + text(n.of[0], depth);
-  // The pixel's centre is as deep as its row, which is one number.
-  if (n.op == Op::sum && is_of_column(n)) return text(n.of[0], depth) + " + 0.5";
-  if (const char* sign = sign_of(n.op); *sign) {
-    const auto side = [&](std::int32_t of) {
-      const Node* const below = of < 0 ? nullptr : &trace.nodes[static_cast<std::size_t>(of)];
-      const bool is_compound = below && *sign_of(below->op) && (depth > 1 || is_of_column(*below));
-      return is_compound ? fmt::format("({})", text(of, depth - 1)) : text(of, depth - 1);
-    };
-    return side(n.of[0]) + sign + side(n.of[1]);
-  }
-  std::string out = function_of(n.op);
-  if (out.empty()) return "...";
-  out += "(";
-  for (std::size_t k = 0; k < n.of.size() && n.of[k] >= 0; ++k) out += (k == 0 ? "" : ", ") + text(n.of[k], depth - 1);
-  return out + ")";
+std::vector<Texel> spread(const std::vector<Texel>& all, std::size_t most) {
+  if (all.size() <= most) return all;
+  std::vector<Texel> some;
+  for (std::size_t k = 0; k < most; ++k) some.push_back(all[k * all.size() / most]);
+  return some;
 }
 
-std::vector<float> constants_everywhere(const capture::PassModel& model) {
-  if (model.width() == 0) return {};
+Trace trace_of(const capture::PassModel& model, Texel at) {
+  Trace trace;
+  perturbed::Behaviour following;
+  following.trace = &trace;
+  const perturbed::Scope scope(following);
+  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
+  model.evaluate(at.x, at.y, unused.data());
+  return trace;
+}
+std::vector<int> uses_of(const Trace& trace) {
+  std::vector<int> out(trace.nodes.size());
+  for (const Node& n : trace.nodes)
+    for (const std::int32_t of : n.of)
+      if (of >= 0) ++out[static_cast<std::size_t>(of)];
+  return out;
+}
+
+std::map<float, int> constants_met(const capture::PassModel& model) {
   constexpr int probes = 8;
   std::map<float, int> places;
+  if (model.width() == 0) return places;
   std::vector<float> met;
   perturbed::Behaviour collecting;
   collecting.constants = &met;
@@ -208,9 +187,13 @@ std::vector<float> constants_everywhere(const capture::PassModel& model) {
       model.evaluate(i * (model.width() - 1) / (probes - 1), j * (model.height() - 1) / (probes - 1), unused.data());
       for (const float v : std::set<float>(met.begin(), met.end())) ++places[v];
     }
+  return places;
+}
+std::vector<float> constants_everywhere(const capture::PassModel& model) {
+  constexpr int of_two_rows = 16;  // a row's own is met by one row of eight
   std::vector<float> out;
-  for (const auto& [value, count] : places)
-    if (count > probes * 2 && value > -1e30f && value < 1e30f) out.push_back(value);  // a row's own is met by one row of eight
+  for (const auto& [value, count] : constants_met(model))
+    if (count > of_two_rows && value > -1e30f && value < 1e30f) out.push_back(value);
   return out;
 }
 
@@ -283,18 +266,14 @@ Constants names_of_constants(const std::vector<Probe>& probes, const std::vector
     for (std::size_t n = 0; n < probe.names.size(); ++n) {
       const Node& node = probe.trace.nodes[n];
       if (node.op != Op::constant || !std::binary_search(known.begin(), known.end(), node.value)) continue;
-      if (probe.names[n].find(" of ") == std::string::npos) all[node.value].insert(probe.names[n]);
+      if (!is_of_list(probe.names[n])) all[node.value].insert(probe.names[n]);
     }
   Constants out;
   for (const auto& [value, names] : all) {
-    std::string text;
-    bool is_literal = false;
-    for (const std::string& name : names) {
-      const bool is_number = name == fmt::format("{}", value);
-      is_literal |= is_number;
-      text += (text.empty() ? "" : " or ") + (is_number ? "the literal " + name : name);
-    }
-    out.push_back({value, text, is_literal});
+    const std::string literal = fmt::format("{}", value), &first = *names.begin();
+    Constant& c = out.emplace_back(Constant{value, "", names.contains(literal), first == literal, is_made(first), first_word(first)});
+    for (const std::string& name : names) c.name += (c.name.empty() ? "" : " or ") + (name == literal ? "the literal " + name : name);
+    if (c.begins_as_literal) c.head = "the";
   }
   return out;
 }
@@ -304,10 +283,7 @@ std::set<std::string> uniforms_met(const std::vector<Probe>& probes, const captu
   for (const Probe& probe : probes)
     for (const std::string& name : probe.names)
       for (const scene::Member& m : pass.block.members)
-        if (const std::size_t at = name.find(m.name); at != std::string::npos) {
-          const std::size_t end = at + m.name.size();
-          if (end == name.size() || name[end] == '.' || name[end] == ')') out.insert(m.name);
-        }
+        if (names_member(name, m.name)) out.insert(m.name);
   return out;
 }
 

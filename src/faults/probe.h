@@ -33,6 +33,18 @@ struct Probe {
   bool is_of_column(const perturbed::Trace::Node& n) const;
 };
 
+/// The texels of a run that no alternative accepts, row by row.
+std::vector<Texel> failing_texels(const judge::CaseJudgement& judgement);
+/// At most so many of them, spread evenly.
+std::vector<Texel> spread(const std::vector<Texel>& all, std::size_t most);
+
+/// What an invocation does.
+perturbed::Trace trace_of(const capture::PassModel& model, Texel at);
+/// How often each node of an invocation is used by others.
+std::vector<int> uses_of(const perturbed::Trace& trace);
+
+/// Literals and uniforms that a pass meets at 8 x 8 texels, and at how many.
+std::map<float, int> constants_met(const capture::PassModel& model);
 /// The numbers that a pass is given anywhere: the same at every texel. Sorted.
 std::vector<float> constants_everywhere(const capture::PassModel& model);
 
@@ -49,8 +61,11 @@ std::vector<Probe> probes_again(const capture::PassModel& model, const std::vect
 /// A number that is met everywhere.
 struct Constant {
   float value;
-  std::string name;  ///< "damping", "pixel_scale or up.y", "the literal 4"
-  bool is_literal;
+  std::string name;        ///< "damping", "pixel_scale or up.y", "the literal 4"
+  bool is_literal;         ///< the number itself is one of its names
+  bool begins_as_literal;  ///< the first of them
+  bool is_made;            ///< the first of them is a function of several numbers
+  std::string head;        ///< the first word of its name
 };
 using Constants = std::vector<Constant>;
 /// Constants that the probes met and that are `known`; those of records are none.

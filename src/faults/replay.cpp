@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "faults/diagnose.h"
+#include "faults/members.h"
 #include "rainref/error.h"
 
 namespace rainref::faults {
@@ -20,43 +24,49 @@ bool is_explained(const std::vector<Tried>& causes) {
   // What is fitted to the records that a port lost, or says that nothing was done, may have a reason in the text; and so has a
   // number that is not set, of which a few records say little.
   constexpr std::int64_t few = 8;
-  const auto is_symptom = [](const Tried& c) {
-    return c.name.ends_with("without a record") || c.name.ends_with("one step late") || (c.name.ends_with(" is zero") && c.of < few);
-  };
+  const auto is_symptom = [](const Tried& c) { return c.what.is(trait::lost | trait::late) || (c.what.is(trait::unset) && c.of < few); };
   return std::any_of(causes.begin(), causes.end(),
-                     [&](const Tried& c) { return c.is_likely && score(c) >= 1.9 && !is_symptom(c) && !is_fitted(c.name); });
+                     [&](const Tried& c) { return c.is_likely && score(c) >= 1.9 && !is_symptom(c) && !is_fitted(c); });
 }
 
-/// Those of these names that a run may have.
-std::vector<Fault> named(Replay& run, const std::set<std::string>& names) {
-  std::vector<Fault> all = run.plain();
-  const auto take_named = [&] { std::erase_if(all, [&](const Fault& d) { return !names.contains(d.name); }); };
-  take_named();
-  const auto has = [&](const std::string& name) {
-    return std::any_of(all.begin(), all.end(), [&](const Fault& d) { return d.name == name; });
+using Names = std::set<std::string>;
+/// Names of what was found by solving.
+Names solved_of(const std::vector<Tried>& causes) {
+  Names out;
+  for (const Tried& c : causes)
+    if (is_solved(c)) out.insert(c.name);
+  return out;
+}
+/// Those of these names that a run may have. `solved`: what is found by solving alone.
+std::vector<Fault> named(Replay& run, const Names& names, const Names& solved) {
+  Names found;
+  std::vector<Fault> out;
+  const auto take_named = [&](std::vector<Fault> all) {
+    for (Fault& d : all)
+      if (std::string name = name_of(d); names.contains(name)) out.push_back(std::move(d)), found.insert(std::move(name));
   };
-  if (std::all_of(names.begin(), names.end(), has)) return all;
-  for (Fault& d : run.deeper()) all.push_back(std::move(d));
-  if (std::any_of(names.begin(), names.end(), is_solved))
-    for (Fault& d : run.solved()) all.push_back(std::move(d));
-  take_named();
-  return all;
+  take_named(run.plain());
+  if (found.size() == names.size()) return out;
+  take_named(run.deeper());
+  const auto is_found_by_solving = [&](const std::string& name) { return solved.contains(name); };
+  if (std::any_of(names.begin(), names.end(), is_found_by_solving)) take_named(run.solved());
+  return out;
 }
 
 /// Adds how well the causes that explain something explain another run.
 void check_in(Replay& other, std::vector<Tried>& causes) {
-  std::set<std::string> names;
+  Names names;
   bool is_any_fitted = false;
-  for (const Cause& c : causes) {
+  for (const Tried& c : causes) {
     if (c.inside * 2 < c.of && c.explained * 4 < c.of) continue;
     names.insert(c.name);
-    is_any_fitted |= is_fitted(c.name);
+    is_any_fitted |= is_fitted(c);
   }
   if (names.empty()) return;
-  std::vector<Fault> all = named(other, names);
+  std::vector<Fault> all = named(other, names, solved_of(causes));
   if (is_any_fitted)
     for (Fault& d : other.fitted())
-      if (names.contains(d.name)) all.push_back(std::move(d));
+      if (names.contains(name_of(d))) all.push_back(std::move(d));
   std::map<std::string, Tried> there;
   for (Tried& c : other.causes(all)) {
     const auto [at, is_new] = there.emplace(c.name, c);
@@ -70,7 +80,7 @@ void check_in(Replay& other, std::vector<Tried>& causes) {
     if (found == there.end()) {
       c.is_likely = false;
       c.is_untested = true;
-      if (is_solved(c.name)) c.of += there.begin()->second.of;  // it was looked for there, and not found
+      if (is_solved(c)) c.of += there.begin()->second.of;  // it was looked for there, and not found
       continue;
     }
     c.explained += found->second.explained;
@@ -99,27 +109,28 @@ bool alike(const std::vector<float>& a, const std::vector<float>& b, const std::
 }
 
 /// What mistakes of these names give in a run.
-std::map<std::string, std::vector<std::vector<float>>> given_by(Replay& run, const std::set<std::string>& names) {
+std::map<std::string, std::vector<std::vector<float>>> given_by(Replay& run, const Names& names, const Names& solved) {
   std::map<std::string, std::vector<std::vector<float>>> given;
-  for (const Fault& d : named(run, names))
-    if (std::vector<float> numbers = run.given(d); !numbers.empty()) given[d.name].push_back(std::move(numbers));
+  for (const Fault& d : named(run, names, solved))
+    if (std::vector<float> numbers = run.given(d); !numbers.empty()) given[name_of(d)].push_back(std::move(numbers));
   return given;
 }
 /// How others compare with the first, here and elsewhere, on other numbers.
 struct Compared {
-  bool has_rival = false;       ///< one of them is another mistake elsewhere
-  std::set<std::string> alike;  ///< those that give the same, here and there
+  bool has_rival = false;  ///< one of them is another mistake elsewhere
+  Names alike;             ///< those that give the same, here and there
 };
-Compared compared(Replay& run, const std::string& first, const std::set<std::string>& others) {
+Compared compared(Replay& run, const Tried& best, const Names& others, const Names& solved) {
+  const std::string& first = best.name;
   Compared out;
   if (others.empty()) return out;
   const std::unique_ptr<Replay> elsewhere = run.elsewhere();
   if (!elsewhere) return out;
-  std::set<std::string> names = others;
+  Names names = others;
   names.insert(first);
-  const auto alike_in = [&](Replay& where, const std::set<std::string>& asked, std::set<std::string>& unknown) {
-    std::set<std::string> same;
-    const auto given = given_by(where, asked);
+  const auto alike_in = [&](Replay& where, const Names& asked, Names& unknown) {
+    Names same;
+    const auto given = given_by(where, asked, solved);
     const std::vector<float> right = where.given(Fault{});
     const auto own = given.find(first);
     for (const std::string& name : asked) {
@@ -134,61 +145,76 @@ Compared compared(Replay& run, const std::string& first, const std::set<std::str
     }
     return same;
   };
-  std::set<std::string> unknown;
+  Names unknown;
   out.alike = alike_in(*elsewhere, names, unknown);
   // What was solved for cannot be asked elsewhere.
   if (unknown.contains(first)) {
     out.alike.clear();
-    out.has_rival = is_solved(first);
+    out.has_rival = is_solved(best);
     return out;
   }
   out.alike.erase(first);
   for (const std::string& name : others) out.has_rival |= !out.alike.contains(name) && !unknown.contains(name);
   if (out.has_rival || out.alike.empty()) return out;
   // On other numbers both may be held to the same bounds: what differs here does not give the same.
-  std::set<std::string> here = out.alike, unused;
+  Names here = out.alike, unused;
   here.insert(first);
-  const std::set<std::string> same = alike_in(run, here, unused);
+  const Names same = alike_in(run, here, unused);
   std::erase_if(out.alike, [&](const std::string& name) { return !same.contains(name) && !unused.contains(name); });
   return out;
 }
 
 /// Mistakes that give the same wherever it was looked, in the order in which they are to be believed: the port has one of them.
-void say_one_of(Cause& first, std::vector<Tried> causes, std::set<std::string> others, int most = 2,
-                const char* word = "; or, which gives the same, ", std::string own = "") {
+void say_one_of(Tried& first, std::vector<Tried> causes, Names others, int most = 2, const char* word = "; or, which gives the same, ",
+                std::string own = "") {
   std::stable_sort(causes.begin(), causes.end(), [](const Tried& a, const Tried& b) { return far_fetched(a) < far_fetched(b); });
-  // One of each kind, which is what its name begins with.
-  const auto kind = [](const std::string& name) { return name.substr(0, name.find_first_of(name.find(':') == name.npos ? " " : ":")); };
   int said = 0;
   if (own.empty()) own = first.sentence;
-  std::set<std::string> kinds{kind(first.name)};
-  for (const bool is_new_kind : {true, false})
+  Names heads{head_of(first.what)};
+  for (const bool is_new_sort : {true, false})
     for (const Tried& c : causes) {
-      if (said >= most || c.sentence == own || !others.contains(c.name) || (is_new_kind && !kinds.insert(kind(c.name)).second)) continue;
+      if (said >= most || c.sentence == own || !others.contains(c.name) || (is_new_sort && !heads.insert(head_of(c.what)).second)) continue;
       others.erase(c.name);
       first.sentence += (said == 0 ? word : "; or ") + c.sentence;
       ++said;
     }
 }
 
+/// How draws are ranked, whose words stand in a list of their own.
+Kind kind_of(const random::Draws& d) {
+  const random::Draws right;
+  const auto is_one = [](int off) { return off == 1 || off == -1; };
+  const bool is_one_off = (is_one(d.counters_off[0]) && d.counters_off[1] == 0) || (is_one(d.counters_off[1]) && d.counters_off[0] == 0) ||
+                          is_one(d.purpose_off);
+  if (d.moved != right.moved) return Kind::drawn_with_factor_moved;
+  if (is_one_off && d.only == right.only) return Kind::drawn_by_one;
+  return d.mixing ? Kind::drawn_otherwise : Kind::drawn;
+}
+
+/// Whether a kind is not tried: one of those that RAINREF_LEAVE_OUT numbers, "17-23", for scripts/full/ablation.
+bool is_left_out(Kind kind) {
+  static const std::pair<int, int> range = [] {
+    std::pair<int, int> out{0, -1};
+    char dash;
+    if (const char* const text = std::getenv("RAINREF_LEAVE_OUT")) std::istringstream(text) >> out.first >> dash >> out.second;
+    return out;
+  }();
+  return range.first <= static_cast<int>(kind) && static_cast<int>(kind) <= range.second;
+}
+
 }  // namespace
 
-bool is_solved(const std::string& name) {
-  for (const char* const start : {"wrong value: ", "wrong texel: ", "factor too many: ", "term too many: ", "max too many: ",
-                                  "min too many: ", "precision: ", "rounded: ", "clamp too many: "})
-    if (name.starts_with(start)) return true;
-  return false;
+Tried::Tried(What made, Cause figures, double how_far) : Cause(std::move(figures)), what(std::move(made)), misfit(how_far) {
+  name = name_of(what);
+  sentence = sentence_of(what);
 }
-bool is_odd_number(const std::string& name) {
-  for (const char* const end : {" one more", " one less", " taken from 1", " times pi", " without pi", " times the aspect ratio",
-                                " without the aspect ratio", " a quarter of itself", " four times as large", " cubed", " as its logarithm",
-                                " as an exponent of e", " cut to a whole number", " rounded to a whole number"})
-    if (name.ends_with(end)) return true;
-  return false;
-}
-bool is_fitted(const std::string& name) { return name.starts_with("another value of ") || name.starts_with("another scale of "); }
 
-std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, const Cause& none,
+Tried untried(const Fault& d, std::size_t of, bool of_records, double misfit) {
+  What what = d;
+  if (d.draws) what.kind = kind_of(*d.draws);
+  return {std::move(what), {"", "", 0, static_cast<std::int64_t>(of), 0, of_records}, misfit};
+}
+std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, std::size_t of, bool of_records,
                          const std::function<Tried(const Fault&)>& try_one) {
   std::vector<Tried> out(all.size());
   executor.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -196,11 +222,9 @@ std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<F
       const Fault& d = all[static_cast<std::size_t>(k)];
       Tried& made = out[static_cast<std::size_t>(k)];
       try {
-        made = try_one(d);
+        made = is_left_out(d.kind) ? untried(d, of, of_records) : try_one(d);
       } catch (const Error&) {
-        made = none;  // the altered case is none that the pass can run
-        made.name = d.name;
-        made.sentence = d.sentence;
+        made = untried(d, of, of_records);  // the altered case is none that the pass can run
       }
     }
   });
@@ -210,7 +234,7 @@ std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<F
 std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   std::vector<Tried> causes = run.causes(run.plain());
   // Where nearly all of it is explained by what is plain, what is less so is not needed.
-  std::set<std::string> sought;
+  Names sought;
   const auto explains_little = [&] { return std::none_of(causes.begin(), causes.end(), [](const Tried& c) { return score(c) >= 1.5; }); };
   for (const auto more : {&Replay::deeper, &Replay::solved, &Replay::fitted}) {
     if (is_plain || is_explained(causes)) continue;
@@ -225,8 +249,10 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
       for (Tried& c : run.causes((run.*again)())) causes.push_back(std::move(c));
   }
   if (other) check_in(*other, causes);
-  std::vector<Cause> best = best_causes(causes);
-  if (best.empty()) return best;
+  std::vector<Tried> best = best_causes(causes);
+  if (best.empty()) return {};
+  const Names solved = solved_of(causes);
+  const auto said = [&] { return std::vector<Cause>(best.begin(), best.end()); };
   static constexpr const char* as_much = "; or, which explains as much here, ";
   // What leaves clearly more unexplained, or would have made more fail, is none.
   const double least_against = [&] {
@@ -238,38 +264,38 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   const auto is_rival = [&](const Tried& c) { return c.of_records || against(c) <= 1.4 * least_against + 1.5; };
   if (!best.front().is_likely) {
     // What cannot be told apart here is said beside it.
-    std::set<std::string> same;
+    Names same;
     for (const Tried& c : causes)
-      if (c.of > 0 && score(c) >= score(best.front()) - 0.005 && is_rival(c) && c.name != best.front().name && !is_fitted(c.name))
+      if (c.of > 0 && score(c) >= score(best.front()) - 0.005 && is_rival(c) && c.name != best.front().name && !is_fitted(c))
         same.insert(c.name);
     // Those that would give the same on other numbers too are other words for it; of the rest only what is no more far-fetched.
     const bool explains_most = score(best.front()) >= 1.8;
-    const std::set<std::string> alike = explains_most ? compared(run, best.front().name, same).alike : std::set<std::string>();
+    const Names alike = explains_most ? compared(run, best.front(), same, solved).alike : Names();
     for (const Tried& c : causes)
       if (alike.contains(c.name) || far_fetched(c) > far_fetched(best.front())) same.erase(c.name);
     const std::string own = best.front().sentence;
     say_one_of(best.front(), causes, alike);
     say_one_of(best.front(), causes, same, 2, as_much, own);
-    return best;
+    return said();
   }
-  std::set<std::string> others;
+  Names others;
   const double least = score(best.front()) - (best.front().of_records ? 0 : 0.02);
   for (const Tried& c : causes)
-    if (c.of > 0 && score(c) >= least && c.misfit <= 0.05 && is_rival(c) && c.name != best.front().name && !is_fitted(c.name))
+    if (c.of > 0 && score(c) >= least && c.misfit <= 0.05 && is_rival(c) && c.name != best.front().name && !is_fitted(c))
       others.insert(c.name);
-  const Compared there = compared(run, best.front().name, others);
+  const Compared there = compared(run, best.front(), others, solved);
   best.front().is_likely = !there.has_rival;
   // Of thousands that are tried one or another comes within an envelope by chance: what was sought must have the port's own bits.
   if (sought.contains(best.front().name) && best.front().explained * 10 < best.front().of * 9) best.front().is_likely = false;
   // A number that fits must fit all but exactly: near a wrong one the port's bits are met often.
-  if ((is_fitted(best.front().name) || is_odd_number(best.front().name)) && best.front().explained * 50 < best.front().of * 49)
+  if ((is_fitted(best.front()) || best.front().what.is_odd_number()) && best.front().explained * 50 < best.front().of * 49)
     best.front().is_likely = false;
   // What could not be asked elsewhere is not said to give the same.
   if (best.front().is_likely)
     say_one_of(best.front(), causes, there.alike);
   else
     say_one_of(best.front(), causes, others, 2, as_much);
-  return best;
+  return said();
 }
 
 capture::PassCase varied(const capture::PackPass& pass, const capture::PassCase& c) {
@@ -289,7 +315,7 @@ capture::PassCase varied(const capture::PackPass& pass, const capture::PassCase&
       std::vector<std::byte>& all = in.array.levels[0];
       for (std::size_t r = 0; r + in.array.record.size <= all.size(); r += in.array.record.size)
         for (const scene::Member& m : in.array.record.members)
-          for (int k = 0; m.scalar == scene::Scalar::float32 && !m.name.starts_with("padding") && k < m.components; ++k)
+          for (int k = 0; m.scalar == scene::Scalar::float32 && !is_padding(m) && k < m.components; ++k)
             vary(all.data() + r + m.offset + 4 * static_cast<std::size_t>(k), number++);
       continue;
     }

@@ -14,7 +14,9 @@ namespace rainref::faults {
 /// A mistake that was tried on a run.
 struct Tried : judge::Cause {
   Tried() = default;
-  Tried(judge::Cause cause, double how_far = 0) : Cause(std::move(cause)), misfit(how_far) {}
+  /// With its words.
+  Tried(What made, judge::Cause figures, double how_far = 0);
+  What what;                 ///< by which it is ranked
   double misfit = 0;         ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
   bool is_untested = false;  ///< another run could not be asked about it
   std::int64_t bad = 0;      ///< texels that passed and that the mistake moves away from where the port is
@@ -46,12 +48,10 @@ class Replay {
   virtual std::vector<float> given(const Fault& d) const = 0;
 };
 
-/// Whether a cause of this name was found by solving.
-bool is_solved(const std::string& name);
-/// Whether a cause of this name is a number fitted to what the port stored.
-bool is_fitted(const std::string& name);
-/// Whether it says of a number that it has another value for which there is no plain reason.
-bool is_odd_number(const std::string& name);
+/// Whether it was found by solving.
+inline bool is_solved(const Tried& c) { return c.what.is(trait::solved); }
+/// Whether it is a number fitted to what the port stored.
+inline bool is_fitted(const Tried& c) { return c.what.is(trait::fitted); }
 
 /// A replay of a case that nobody else holds, from R(of, case, model).
 template <class R>
@@ -65,9 +65,18 @@ class OwnReplay : public R {
   std::unique_ptr<capture::PassModel> model_;
 };
 
-/// try_one(fault) of each, in parallel. A mistake in what the pass is given may make it none that the pass can run: then `none` of it.
-std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, const judge::Cause& none,
+/// A mistake that explains nothing of so many failing elements.
+Tried untried(const Fault& d, std::size_t of, bool of_records, double misfit = 0);
+/// try_one(fault) of each, in parallel. A mistake in what the pass is given may make it none that the pass can run: then it explains
+/// nothing of `of`.
+std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, std::size_t of, bool of_records,
                          const std::function<Tried(const Fault&)>& try_one);
+
+/// Of a pass without one.
+inline const capture::PassModel& no_model() {
+  static const capture::ListPass none("", nullptr);
+  return none;
+}
 
 /// What explains a run, best first. `other`: another failing run of the pass, or null: what explains both is believed. A cause is
 /// likely where no rival, which would be another mistake elsewhere, explains as much.

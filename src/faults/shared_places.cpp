@@ -3,12 +3,10 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "faults/place_faults.h"
-#include "faults/place_words.h"
 
 namespace rainref::faults {
 
@@ -107,11 +105,9 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
 std::uint32_t shape_of(const Node& n, const SharedPlace& place) {
   return place.depth == perturbed::by_sequence ? n.sequence : n.shallow[static_cast<std::size_t>(place.depth - 1)];
 }
-std::string words_for_all(const SharedPlace& place) {
-  if (place.depth == perturbed::by_sequence) return ", in every round of a loop";
-  return place.shapes > 1
-             ? fmt::format(", and so in all {} places that are made alike: a function that is called several times", place.shapes)
-             : ", wherever it is made alike: a function that is called several times";
+void reach_all(What& what, const SharedPlace& place) {
+  what.reach = place.depth == perturbed::by_sequence ? Reach::each_round : place.shapes > 1 ? Reach::each_call : Reach::wherever;
+  what.where = {std::to_string(place.shapes)};
 }
 
 void add_shared_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known) {
@@ -119,15 +115,12 @@ void add_shared_place_faults(std::vector<Fault>& out, const std::vector<Probe>& 
   for (const SharedPlace& place : shared_places_of(probes)) {
     const Probe& p = probes[place.probe];
     const Node& n = p.trace.nodes[static_cast<std::size_t>(place.node)];
-    for (const Words& w : words_of(p, static_cast<std::size_t>(place.node))) {
-      Fault d;
-      d.name = w.name + ", in each such place";
-      d.sentence = w.sentence + words_for_all(place);
-      d.behaviour.places[0] = {shape_of(n, place), -1, w.fault, 0, place.depth};
-      d.at_texel = [shared](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = shared.get(); };
-      d.for_diagnosis = true;
+    for (const Mistake& m : mistakes_at(p, static_cast<std::size_t>(place.node))) {
+      Fault& d = out.emplace_back(m.what);
+      reach_all(d, place);
+      d.behaviour.places[0] = {shape_of(n, place), -1, m.fault, 0, place.depth};
+      tell_places_by(d, shared);
       d.is_one_of_many = true;
-      out.push_back(std::move(d));
     }
   }
 }

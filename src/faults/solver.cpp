@@ -140,19 +140,7 @@ std::vector<Solution> Solver::of_one(std::vector<Substitution> places, float now
   double before = off(tried[0]);
   for (std::size_t k = 1; k < tried.size() && out.size() < 4; ++k) {
     const double at = off(tried[k]);
-    if (std::isfinite(before) && std::isfinite(at) && (before < 0) != (at < 0)) {
-      float low = tried[k - 1], high = tried[k];
-      double at_low = before;
-      for (int round = 0; round < 26; ++round) {
-        const float middle = low + (high - low) / 2;
-        const double there = off(middle);
-        if ((there < 0) == (at_low < 0))
-          low = middle, at_low = there;
-        else
-          high = middle;
-      }
-      keep(low + (high - low) / 2);
-    }
+    if (std::isfinite(before) && std::isfinite(at) && (before < 0) != (at < 0)) keep(bisected(tried[k - 1], tried[k], before, 26, off));
     before = at;
   }
   return out;

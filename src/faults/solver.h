@@ -23,6 +23,20 @@ struct Solution {
   std::vector<std::vector<double>> slope;  ///< of each slot by each place
 };
 
+/// A value between two at which off(value) changes its sign, which is that of `at_low` at the lower one.
+template <class Off>
+float bisected(float low, float high, double at_low, int rounds, const Off& off) {
+  for (int round = 0; round < rounds; ++round) {
+    const float middle = low + (high - low) / 2;
+    const double at = off(middle);
+    if ((at < 0) == (at_low < 0))
+      low = middle, at_low = at;
+    else
+      high = middle;
+  }
+  return low + (high - low) / 2;
+}
+
 class Solver {
  public:
   /// What is given must outlive it.

@@ -10,8 +10,11 @@
 #include <fmt/format.h>
 
 #include "base/number_text.h"
-#include "faults/substitution_faults.h"
+#include "faults/generators.h"
+#include "faults/place_faults.h"
+#include "faults/solver.h"
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -90,19 +93,12 @@ class Search {
       if (!at.is_near(places) && ++misses * 8 > solvers_.size()) return false;
     return true;
   }
-  void keep(int effort, std::vector<Substitution> places, Said words) {
-    if (words.name.find("...") != std::string::npos) effort += 2;  // what cannot be said in full is rather something else
-    if (places.size() > 1) {
-      const bool three = places.size() > 2;
-      words.name += three ? ", in all components" : ", in both components";
-      words.sentence += three ? ", and so in the other components" : ", and so in the other component";
-    }
-    Fault d;
-    d.name = std::move(words.name);
-    d.sentence = std::move(words.sentence);
+  void keep(int effort, std::vector<Substitution> places, What what) {
+    if (gaps_in_name(what) > 0) effort += 2;  // what cannot be said in full is rather something else
+    if (places.size() > 1) what.reach = places.size() > 2 ? Reach::all : Reach::both;
+    Fault d(std::move(what));
     d.substitutions = std::move(places);
-    d.at_texel = [known = known_](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = known.get(); };
-    d.for_diagnosis = true;
+    tell_places_by(d, known_);
     found_.emplace_back(effort, std::move(d));
   }
 
@@ -115,7 +111,7 @@ class Search {
     std::set<std::pair<std::string, std::pair<Put, Change>>> done;
     for (const Source& s : sources_for(first_, t, groups_, numbers_.at(n))) {
       if (s.text == "...") continue;
-      const bool is_number = s.nodes.empty(), is_ratio = is_number && s.text.find(" / ") != std::string::npos;
+      const bool is_number = s.nodes.empty(), is_ratio = is_number && is_quotient(s.text);
       for (const Put how : puts)
         for (const Change change : changes) {
           const bool is_itself = how == Put::instead && !s.nodes.empty() && s.nodes[0] == t.value_at(first_, 0);
@@ -172,12 +168,12 @@ class Search {
       std::vector<Substitution> places = one.substitutions;
       for (std::size_t k = 1; k < of_slots.size(); ++k) {
         const auto like = std::find_if(of_slots[k].begin(), of_slots[k].end(), [&, &effort = effort, &one = one](const auto& other) {
-          return other.first == effort && of_any_axis(other.second.name) == of_any_axis(one.name);
+          return other.first == effort && of_any_axis(name_of(other.second)) == of_any_axis(name_of(one));
         });
         if (like == of_slots[k].end()) break;
         places.push_back(like->second.substitutions[0]);
       }
-      if (places.size() == of_slots.size() && suits(places)) keep(effort, places, {one.name, one.sentence});
+      if (places.size() == of_slots.size() && suits(places)) keep(effort, places, one);
     }
   }
 
@@ -203,10 +199,7 @@ class Search {
     const std::size_t most_asked = nodes > 1000 ? 1 : 4;
     std::vector<std::vector<float>> right;
     for (std::size_t k = 0; k < std::min(most_asked, solvers_.size()); ++k) right.push_back(solvers_[k].values({}));
-    std::vector<int> uses(first_.trace.nodes.size());
-    for (const Node& n : first_.trace.nodes)
-      for (const std::int32_t of : n.of)
-        if (of >= 0) ++uses[static_cast<std::size_t>(of)];
+    const std::vector<int> uses = uses_of(first_.trace);
     const std::vector<Source> none;
     for (const Target& t : all) {
       std::vector<Substitution> places = t.places(first_);
@@ -243,10 +236,7 @@ class Search {
           if (left == 0) break;
           --left;
           const std::string own = words_for(first_, value), where = words_for(first_, t.nodes[0]);
-          if (suits(places))
-            keep(6, places,
-                 {fmt::format("another value of {} in {}", own, where),
-                  fmt::format("in {} stands {:.6g} in place of {}", where, number, own)});
+          if (suits(places)) keep(6, places, {Kind::another_value_there, {where, own, fmt::format("{:.6g}", number)}});
         }
       std::size_t tried = 0;
       for (const Source& s : sources_for(first_, t, groups_, none)) {
@@ -261,7 +251,7 @@ class Search {
         }
         // A value that counts at several places, as a weight, with one factor more.
         const bool is_shared = t.operand == Substitution::result && uses[static_cast<std::size_t>(t.nodes[0])] > 1;
-        if (!is_shared || s.text.find("...") != std::string::npos || tried > 60) continue;
+        if (!is_shared || gaps(s.text) > 0 || tried > 60) continue;
         for (Substitution& place : places) place.how = Put::times, place.change = Change::none;
         --left;
         if (suits(places)) keep(s.effort + effort_of(Put::times, Change::none), places, said(first_, t, s, Put::times, Change::none));
@@ -299,9 +289,7 @@ class Search {
         --left;
         if (!suits(places)) continue;
         const std::string right = words_for(first_, t.value_at(first_, 0));
-        keep(s.effort, places,
-             {fmt::format("wrong value: {} for {}", s.text, right),
-              fmt::format("of one texel that is read the column or row is {} where {} is meant", s.text, right)});
+        keep(s.effort, places, {Kind::wrong_column_or_row, {"", s.text, right}});
       }
     }
   }
@@ -319,7 +307,7 @@ class Search {
     std::vector<Source> sources;
     for (Source& s : sources_for(first_, t, groups_, {})) {
       const bool is_before = !s.nodes.empty() && s.nodes[0] < t.nodes[0];
-      if (is_before && s.text.find("...") == std::string::npos && sources.size() < 60) sources.push_back(std::move(s));
+      if (is_before && gaps(s.text) == 0 && sources.size() < 60) sources.push_back(std::move(s));
     }
     std::vector<float> now, numbers(n);
     for (std::size_t c = 0; c < n; ++c) now.push_back(t.now(first_, c));
@@ -343,9 +331,7 @@ class Search {
                                       : then == Put::smaller ? fmt::format("min({}, {})", first, b.text)
                                                              : fmt::format("({}) {} {}", first, sign(then), b.text);
             keep(8 + a.effort + b.effort + effort_of(how, Change::none), places,
-                 {fmt::format("wrong value: {} for {}", wrong, right),
-                  fmt::format("{} stands {} where {} is meant", t.operand < 0 ? "there" : "in " + words_for(first_, t.nodes[0]), wrong,
-                              right)});
+                 {Kind::wrong_value, {t.operand < 0 ? "there" : place_text(first_, t), wrong, right}});
           }
   }
   static const char* sign(Put how) { return how == Put::times ? "*" : how == Put::divided_by ? "/" : how == Put::plus ? "+" : "-"; }
@@ -375,11 +361,8 @@ class Search {
         }
       }
       const std::string right = words_for(first_, value), where = words_for(first_, t.nodes[0]);
-      keep(20, places,
-           {fmt::format("another value of {}", right),
-            how == Put::instead ? fmt::format("in {} stands about {:.5g} in place of {}", where, places[0].number, right)
-            : how == Put::times ? fmt::format("in {} the term {} counts about {:.5g} times", where, right, places[0].number)
-                                : fmt::format("in {} about {:.5g} is added to {}", where, places[0].number, right)});
+      const Kind kind = how == Put::instead ? Kind::another_value_about : how == Put::times ? Kind::another_share : Kind::another_summand;
+      keep(20, places, {kind, {where, right, fmt::format("{:.5g}", places[0].number)}});
     }
   }
 

@@ -1,17 +1,19 @@
 // What is read when a port takes texels loaded by integers from elsewhere.
 #include <algorithm>
-#include <cmath>
-#include <cstring>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
+#include "faults/generators.h"
+#include "faults/members.h"
 #include "faults/taps.h"
-#include "faults/whole_faults.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -29,10 +31,9 @@ class Adder {
                    taps.all,
                    {taps.scale_x, taps.scale_y}});
   }
-  const std::string& name() const { return name_; }
 
-  /// change(tap): what is read in place of it.
-  void operator()(const std::string& what, std::string sentence, const std::function<Tap(Tap)>& change,
+  /// change(tap): what is read in place of it; `more`: what its words speak of behind the name.
+  void operator()(Kind kind, std::vector<std::string> more, const std::function<Tap(Tap)>& change,
                   std::optional<Address> address = {}) const {
     std::vector<Read> reads = of_;
     std::size_t count = 0;
@@ -45,9 +46,9 @@ class Adder {
         count = std::max(count, t.load + 1);
       }
     if (!changes) return;
-    Fault d;
-    d.name = fmt::format("{} {}", name_, what);
-    d.sentence = std::move(sentence);
+    more.insert(more.begin(), name_);
+    Fault& d = out_.emplace_back(What{kind, std::move(more)});
+    d.head = of_.front().input->name;
     d.at_texel = [reads, count, address](Texel at, perturbed::Behaviour& b, std::vector<float>& loads) {
       loads.assign(count, std::numeric_limits<float>::quiet_NaN());
       for (const Read& from : reads)
@@ -64,8 +65,6 @@ class Adder {
         }
       b.loads = &loads;
     };
-    d.for_diagnosis = true;
-    out_.push_back(std::move(d));
   }
 
  private:
@@ -80,46 +79,36 @@ class Adder {
   std::vector<Read> of_;
 };
 
+std::string plain(int dx, int dy) { return fmt::format("({}, {})", dx, dy); }
+
 void add_neighbours(const Adder& add, const Taps& taps) {
-  const std::string& in = add.name();
-  const auto all = [&](const char* name, const char* sentence, auto move) {
-    add(name, fmt::format("{} {}", in, sentence), [move](Tap t) {
+  const auto all = [&](Kind kind, auto move) {
+    add(kind, {}, [move](Tap t) {
       const auto [dx, dy] = move(t.dx, t.dy);
       return Tap{t.load, dx, dy, t.channel};
     });
   };
-  all("neighbours two texels away", "is read at twice the distance", [](int x, int y) { return std::pair(2 * x, 2 * y); });
-  all("diagonal neighbours", "is read at the diagonal neighbours", [](int x, int y) { return std::pair(x - y, x + y); });
-  all("neighbours with x and y exchanged", "is read with columns and rows exchanged", [](int x, int y) { return std::pair(y, x); });
-  all("neighbours mirrored in x", "is read to the left where it should be to the right", [](int x, int y) { return std::pair(-x, y); });
-  all("neighbours mirrored in y", "is read above where it should be below", [](int x, int y) { return std::pair(x, -y); });
-  all("neighbours on both sides mirrored", "is read on the opposite sides", [](int x, int y) { return std::pair(-x, -y); });
-  all("neighbours on one side alone", "is read at the texel itself in place of the neighbours to the left and below: one-sided differences",
-      [](int x, int y) { return std::pair(std::max(x, 0), std::max(y, 0)); });
-  all("neighbours on the other side alone", "is read at the texel itself in place of the neighbours to the right and above",
-      [](int x, int y) { return std::pair(std::min(x, 0), std::min(y, 0)); });
-  for (const int way : {1, -1}) {
-    const char* const sides = way > 0 ? "to the right and above" : "to the left and below";
-    add(fmt::format("differences on one side, twice, {}", sides),
-        fmt::format(
-            "{} is not read on both sides: in place of central differences stands twice the difference between the texel itself and "
-            "its neighbours {}",
-            in, sides),
-        [way](Tap t) {
-          const bool is_left_out = way * (t.dx + t.dy) < 0;
-          return is_left_out ? Tap{t.load, -t.dx, -t.dy, t.channel, true} : t;
-        });
-  }
-  all("neighbours not reached", "is read at the texel itself in place of its neighbours", [](int, int) { return std::pair(0, 0); });
-  for (const auto& [dx, dy, way] : {std::tuple(1, 0, "one column to the right"),
-                                    {-1, 0, "one column to the left"},
-                                    {0, 1, "one row up"},
-                                    {0, -1, "one row down"},
-                                    {-1, -1, "one column to the left and one row down"},
-                                    {1, 1, "one column to the right and one row up"}}) {
-    all(fmt::format("read {}", way).c_str(), fmt::format("is read {}", way).c_str(),
-        [dx = dx, dy = dy](int x, int y) { return std::pair(x + dx, y + dy); });
-  }
+  all(Kind::taps_twice_as_far, [](int x, int y) { return std::pair(2 * x, 2 * y); });
+  all(Kind::taps_diagonal, [](int x, int y) { return std::pair(x - y, x + y); });
+  all(Kind::taps_axes_exchanged, [](int x, int y) { return std::pair(y, x); });
+  all(Kind::taps_mirrored_in_x, [](int x, int y) { return std::pair(-x, y); });
+  all(Kind::taps_mirrored_in_y, [](int x, int y) { return std::pair(x, -y); });
+  all(Kind::taps_mirrored, [](int x, int y) { return std::pair(-x, -y); });
+  all(Kind::taps_on_one_side, [](int x, int y) { return std::pair(std::max(x, 0), std::max(y, 0)); });
+  all(Kind::taps_on_other_side, [](int x, int y) { return std::pair(std::min(x, 0), std::min(y, 0)); });
+  for (const int way : {1, -1})
+    add(way > 0 ? Kind::taps_doubled_right : Kind::taps_doubled_left, {}, [way](Tap t) {
+      const bool is_left_out = way * (t.dx + t.dy) < 0;
+      return is_left_out ? Tap{t.load, -t.dx, -t.dy, t.channel, true} : t;
+    });
+  all(Kind::taps_not_reached, [](int, int) { return std::pair(0, 0); });
+  for (const auto& [dx, dy, kind] : {std::tuple(1, 0, Kind::taps_right),
+                                     {-1, 0, Kind::taps_left},
+                                     {0, 1, Kind::taps_up},
+                                     {0, -1, Kind::taps_down},
+                                     {-1, -1, Kind::taps_left_down},
+                                     {1, 1, Kind::taps_right_up}})
+    all(kind, [dx = dx, dy = dy](int x, int y) { return std::pair(x + dx, y + dy); });
   // One of them alone.
   std::set<std::pair<int, int>> places;
   for (const Tap& one : taps.all) places.insert({one.dx, one.dy});
@@ -128,14 +117,9 @@ void add_neighbours(const Adder& add, const Taps& taps) {
     for (const auto& from : places)
       for (const auto& to : places) {
         if (from == to) continue;
-        const auto place = [](const std::pair<int, int>& at) {
-          return at.first == 0 && at.second == 0 ? std::string("the texel itself") : fmt::format("({}, {})", at.first, at.second);
-        };
-        add(fmt::format("tap {} at {}", place(from), place(to)),
-            fmt::format("{} is read at {} where {} is meant, columns and rows from the texel itself", in, place(to), place(from)),
-            [from, to](Tap t) {
-              return t.dx == from.first && t.dy == from.second ? Tap{t.load, to.first, to.second, t.channel} : t;
-            });
+        add(Kind::tap_elsewhere, {offset_text(from.first, from.second), offset_text(to.first, to.second)}, [from, to](Tap t) {
+          return t.dx == from.first && t.dy == from.second ? Tap{t.load, to.first, to.second, t.channel} : t;
+        });
       }
   // Of a texel that is read several times one read alone.
   constexpr std::size_t most_loads = 16;
@@ -148,9 +132,7 @@ void add_neighbours(const Adder& add, const Taps& taps) {
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
           if (dx == one.dx && dy == one.dy) continue;
-          add(fmt::format("read {} of ({}, {}) at ({}, {})", number, one.dx, one.dy, dx, dy),
-              fmt::format("{} is read at ({}, {}) where ({}, {}) is meant, columns and rows from the texel itself, in read {} of {} of it",
-                          in, dx, dy, one.dx, one.dy, number, reads),
+          add(Kind::one_read_elsewhere, {std::to_string(number), plain(one.dx, one.dy), plain(dx, dy), std::to_string(reads)},
               [load = one.load, dx, dy](Tap t) {
                 return t.load == load ? Tap{t.load, dx, dy, t.channel} : t;
               });
@@ -165,49 +147,44 @@ void add_neighbours(const Adder& add, const Taps& taps) {
       const auto count = std::count_if(taps.all.begin(), taps.all.end(), is_in);
       if (count < 2 || count == static_cast<std::ptrdiff_t>(taps.all.size()) || !lines.insert({is_row, line}).second || lines.size() > 10)
         continue;
-      const std::string which = fmt::format("neighbours in {} {}", is_row ? "row" : "column", line);
-      const auto moved = [&](const std::string& words, auto move) {
-        add(fmt::format("{} {}", which, words),
-            fmt::format("the texels of {} in {} {} from here are {}", in, is_row ? "row" : "column", line, words),
-            [is_in, move](Tap t) { return is_in(t) ? move(t) : t; });
+      const auto moved = [&](Kind kind, const std::string& to, auto move) {
+        add(kind, {std::to_string(line), to}, [is_in, move](Tap t) { return is_in(t) ? move(t) : t; });
       };
       for (const int to : {line - 1, line + 1, -line, 0})
         if (to != line)
-          moved(fmt::format("read in {} {}", is_row ? "row" : "column", to), [is_row, to](Tap t) {
+          moved(is_row ? Kind::taps_of_row : Kind::taps_of_column, std::to_string(to), [is_row, to](Tap t) {
             return Tap{t.load, is_row ? t.dx : to, is_row ? to : t.dy, t.channel};
           });
-      moved("read along the other axis", [is_row, line](Tap t) {
+      moved(is_row ? Kind::taps_across_row : Kind::taps_across_column, "", [is_row, line](Tap t) {
         return is_row ? Tap{t.load, t.dx + line, t.dy - line, t.channel} : Tap{t.load, t.dx - line, t.dy + line, t.channel};
       });
     }
   std::set<std::pair<int, int>> done;
   for (const Tap& one : taps.all) {
     if (!done.insert({one.dx, one.dy}).second || done.size() > 9 || taps.all.size() < 2) continue;
-    const auto alone = [&](int dx, int dy, const std::string& words) {
-      add(fmt::format("neighbour ({}, {}) {}", one.dx, one.dy, words),
-          fmt::format("the texel ({}, {}) away of {} is {}", one.dx, one.dy, in, words), [one, dx, dy](Tap t) {
-            return t.dx == one.dx && t.dy == one.dy ? Tap{t.load, dx, dy, t.channel} : t;
-          });
+    const auto alone = [&](int dx, int dy, Kind kind) {
+      add(kind, {plain(one.dx, one.dy), plain(dx, dy)}, [one, dx, dy](Tap t) {
+        return t.dx == one.dx && t.dy == one.dy ? Tap{t.load, dx, dy, t.channel} : t;
+      });
     };
     if (taps.is_neighbour(one)) {
-      alone(0, 0, "the texel itself");
-      alone(-one.dx, -one.dy, "the one opposite");
-      alone(2 * one.dx, 2 * one.dy, "read one too far");
-      alone(one.dy, one.dx, "read along the other axis");
+      alone(0, 0, Kind::neighbour_itself);
+      alone(-one.dx, -one.dy, Kind::neighbour_opposite);
+      alone(2 * one.dx, 2 * one.dy, Kind::neighbour_too_far);
+      alone(one.dy, one.dx, Kind::neighbour_across);
     }
     for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
-      alone(one.dx + dx, one.dy + dy, fmt::format("read at ({}, {})", one.dx + dx, one.dy + dy));
+      alone(one.dx + dx, one.dy + dy, Kind::neighbour_at);
   }
 }
 
-void add_channels(const Adder& add, const Taps& taps, int channels) {
+void add_channels(const Adder& add, int channels) {
   for (int from = 0; from < channels; ++from)
     for (int to = 0; to < channels; ++to)
       if (from != to)
-        add(fmt::format("read in {} for {}", "xyzw"[to], "xyzw"[from]),
-            fmt::format("{}.{} is read where {}.{} is meant", taps.input, "xyzw"[to], taps.input, "xyzw"[from]), [from, to](Tap t) {
-              return Tap{t.load, t.dx, t.dy, t.channel == from ? to : t.channel};
-            });
+        add(Kind::taps_in_channel, {component_name(to), component_name(from)}, [from, to](Tap t) {
+          return Tap{t.load, t.dx, t.dy, t.channel == from ? to : t.channel};
+        });
 }
 
 }  // namespace
@@ -222,15 +199,12 @@ void add_tap_faults(std::vector<Fault>& out, const Probed& p) {
     Adder add(out, input.name);
     add.take(input, taps);
     add_neighbours(add, taps);
-    add_channels(add, taps, channels);
+    add_channels(add, channels);
     if (std::none_of(taps.all.begin(), taps.all.end(), [&](const Tap& t) { return taps.is_neighbour(t); })) continue;
-    for (const auto& [address, words] : {std::pair(Address::clamp, "clamped"), std::pair(Address::repeat, "repeated"),
-                                         std::pair(Address::mirror, "mirrored"), std::pair(Address::border, "0")}) {
-      if (input.address_u == address && input.address_v == address) continue;
-      add(
-          fmt::format("{} beyond its edge", words), fmt::format("beyond its edge {} is {}: another address mode", input.name, words),
-          [](Tap t) { return t; }, address);
-    }
+    for (const Address address : {Address::clamp, Address::repeat, Address::mirror, Address::border})
+      if (input.address_u != address || input.address_v != address)
+        add(
+            Kind::taps_beyond_edge, {address_words(address)}, [](Tap t) { return t; }, address);
     neighbours.emplace_back(&input, taps);
   }
   if (neighbours.size() < 2) return;

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 
-#include "math/half.h"
+#include "faults/image_faults.h"
 #include "rainref/error.h"
 
 namespace rainref::faults {
@@ -17,27 +16,17 @@ using capture::PassCase;
 /// Writes a whole number so that whole_of() finds it: up to 255 of codes, 2000 of halves.
 void write_whole(const Array& a, std::byte* at, int number) {
   const FormatInfo& f = info(a.format);
-  if (f.kind == FormatInfo::float32) {
-    const float v = static_cast<float>(number);
-    std::memcpy(at, &v, 4);
-  } else if (f.kind == FormatInfo::float16) {
-    const Half h = to_half(static_cast<float>(number));
-    std::memcpy(at, &h, 2);
-  } else {
+  if (f.kind == FormatInfo::float32 || f.kind == FormatInfo::float16)
+    put_channel(f, at, static_cast<float>(number));
+  else
     *at = static_cast<std::byte>(number);
-  }
 }
 int whole_of(const Array& a, float v) { return static_cast<int>(std::lround(info(a.format).kind == FormatInfo::unorm8 ? v * 255 : v)); }
 /// Numbers around the probe, so that they fit.
 constexpr int middle = 100, reach = 90;
 
 std::vector<float> loads_of(const capture::PassModel& model, Texel at) {
-  perturbed::Trace trace;
-  perturbed::Behaviour following;
-  following.trace = &trace;
-  const perturbed::Scope scope(following);
-  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
-  model.evaluate(at.x, at.y, unused.data());
+  const perturbed::Trace trace = trace_of(model, at);
   std::vector<float> out;
   for (const auto& n : trace.nodes)
     if (n.op == perturbed::Op::load) out.push_back(n.value);

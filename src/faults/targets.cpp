@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "faults/members.h"
 #include "faults/place_faults.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -57,12 +59,6 @@ std::int32_t steps_back(const Probe& p, std::int32_t source, std::int32_t target
 
 bool is_leaf(Op op) { return op == Op::constant || op == Op::load || op == Op::fetch || op == Op::index; }
 
-/// A text in which all components and axes have one name.
-std::string of_any_axis(const std::string& text) {
-  std::string out = of_any_component(with_columns(text), 'u', 'z');
-  std::erase(out, '-');  // a turned vector has another sign in one component
-  return out;
-}
 /// The components of vectors: of different shapes and one text, or two or three of one shape.
 std::vector<std::vector<std::int32_t>> vectors_in(const Probe& p) {
   std::vector<std::vector<std::int32_t>> out;
@@ -79,10 +75,7 @@ std::vector<std::vector<std::int32_t>> vectors_in(const Probe& p) {
 
 std::vector<Target> targets_of(const Probe& p) {
   std::vector<Target> out;
-  std::vector<int> uses(p.trace.nodes.size());
-  for (const Node& n : p.trace.nodes)
-    for (const std::int32_t of : n.of)
-      if (of >= 0) ++uses[static_cast<std::size_t>(of)];
+  const std::vector<int> uses = uses_of(p.trace);
   const auto add = [&](const std::vector<std::int32_t>& nodes) {
     const Node& n = node_of(p, nodes[0]);
     if (is_leaf(n.op)) return;
@@ -110,7 +103,7 @@ std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
   // Whole numbers after the others.
   for (const bool is_whole : {false, true})
     for (const scene::Member& m : p.pass.block.members) {
-      if (m.name.starts_with("padding") || (m.scalar != scene::Scalar::float32) != is_whole) continue;
+      if (is_padding(m) || (m.scalar != scene::Scalar::float32) != is_whole) continue;
       std::vector<float> all(static_cast<std::size_t>(m.components));
       std::memcpy(all.data(), p.c.uniforms.data() + m.offset, 4 * all.size());
       if (is_whole)
@@ -119,21 +112,17 @@ std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
       if (components > 1 && all.size() >= components)
         out.push_back({{}, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(components)}, m.name, effort});
       for (std::size_t k = 0; k < all.size() && all.size() <= 4; ++k)
-        out.push_back({{}, {all[k]}, all.size() == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), effort});
+        out.push_back({{}, {all[k]}, part_name(m, static_cast<int>(k)), effort});
     }
   // The same component of two uniforms that differ by their axis: e_u.y and e_v.y.
   if (components == 2)
     for (const scene::Member& a : p.pass.block.members)
       for (const scene::Member& b : p.pass.block.members) {
-        if (a.scalar != scene::Scalar::float32 || b.scalar != a.scalar || a.components != b.components || !a.name.ends_with("_u") ||
-            b.name != a.name.substr(0, a.name.size() - 1) + "v")
-          continue;
-        for (int k = 0; k < a.components; ++k) {
-          std::vector<float> both(2);
-          std::memcpy(&both[0], p.c.uniforms.data() + a.offset + 4 * static_cast<std::size_t>(k), 4);
-          std::memcpy(&both[1], p.c.uniforms.data() + b.offset + 4 * static_cast<std::size_t>(k), 4);
-          out.push_back({{}, both, fmt::format("{}.{}", a.name, "xyzw"[k & 3]), 0});
-        }
+        if (a.scalar != scene::Scalar::float32 || b.scalar != a.scalar || a.components != b.components || !are_axes(a, b)) continue;
+        const std::byte* const all = p.c.uniforms.data();
+        for (int k = 0; k < a.components; ++k)
+          out.push_back(
+              {{}, {number_at<float>(all, offset_of(a, k)), number_at<float>(all, offset_of(b, k))}, a.name + "." + component_name(k), 0});
       }
   // A length in heights where it should be in widths, or the reverse.
   if (p.model.height() > 0 && p.model.width() != p.model.height()) {
@@ -167,9 +156,9 @@ void add_later(const Probe& p, const Target& t, std::vector<Source>& out) {
     if (follows || n.op == Op::comparison || n.op == Op::coordinate || n.op == Op::level || n.op == Op::argument || n.op == Op::stored)
       continue;
     const std::string text = words_for(p, at);
-    if (text.find_first_not_of(".+-*/ ()") == std::string::npos || !names.insert({text, n.value}).second) continue;
+    if (says_nothing(text) || !names.insert({text, n.value}).second) continue;
     if (n.op == Op::constant) {
-      if (text.find(" of ") == std::string::npos && text != "row") out.push_back({{}, {n.value}, text, 1}), ++added;
+      if (!is_of_list(text) && text != "row") out.push_back({{}, {n.value}, text, 1}), ++added;
     } else if (p.trace.met.at(n.shape) <= most_alike_later) {
       out.push_back({{at}, {}, text, 2}), ++added;
     }

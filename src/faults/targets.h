@@ -12,8 +12,6 @@ namespace rainref::faults {
 inline const perturbed::Trace::Node& node_of(const Probe& p, std::int32_t i) { return p.trace.nodes[static_cast<std::size_t>(i)]; }
 /// A leaf: a constant, a texel, the column.
 bool is_leaf(perturbed::Op op);
-/// What a node computes, in at most 80 letters.
-std::string words_for(const Probe& p, std::int32_t node);
 
 /// Operations that a search may do, about, so that a diagnosis takes seconds: a number of them, not a time, so that it says the same
 /// everywhere.
@@ -48,6 +46,18 @@ struct Target {
   }
 };
 
+using Nodes = std::vector<std::int32_t>;
+
+/// Whether some of them have one shape.
+bool are_alike(const Probe& p, const Nodes& v);
+/// In a loop that meets the components, all of one shape, round by round: how many there are; else 0.
+std::int32_t period_of(const Probe& p, const Nodes& v);
+/// What belongs together as a vector: what a length is taken of, the arguments of named functions, what is alike but for the
+/// component, what the outputs are made of side by side, and pairs of one operation beside each other. Two or three nodes each.
+std::vector<Nodes> vector_groups_of(const Probe& p);
+/// Channels that one lookup gives, two or three.
+std::vector<Nodes> lookups_of(const Probe& p);
+
 /// A value, or one for each component, that may stand there.
 struct Source {
   std::vector<std::int32_t> nodes;  ///< one for all components, or one for each; none: the numbers
@@ -71,15 +81,9 @@ float number_of(const Probe& p, const Source& s, std::size_t c);
 void take(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
 void take_second(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
 
-/// A text in which all components and axes have one name.
-std::string of_any_axis(const std::string& text);
-
-/// Of what is wrong: a name and a sentence.
-struct Said {
-  std::string name, sentence;
-};
-std::string changed_words(perturbed::Change change, const std::string& text);
-/// What it is called when a source stands at a target.
-Said said(const Probe& p, const Target& t, const Source& s, perturbed::Put how, perturbed::Change change);
+/// What is wrong when a source stands at a target.
+What said(const Probe& p, const Target& t, const Source& s, perturbed::Put how, perturbed::Change change);
+/// Where it stands: "for damping" of a result, "in damping * x" of an operand.
+std::string place_text(const Probe& p, const Target& t);
 
 }  // namespace rainref::faults

@@ -6,12 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "faults/alternative_formulas.h"
-#include "faults/decidable_faults.h"
-#include "faults/failing_texels.h"
+#include "faults/generators.h"
 #include "faults/hypotheses.h"
-#include "faults/output_faults.h"
-#include "faults/substitution_faults.h"
+#include "faults/solver.h"
 #include "image/code_range.h"
 #include "judge/reference_outputs.h"
 #include "math/path_enumeration.h"
@@ -252,7 +249,7 @@ Tried TexelReplay::cause(const Fault& given) const {
   std::optional<Fault> wide;
   if (is_wide_ && given.is_evaluated()) wide.emplace(given).behaviour.reaches_all = true;
   const Fault& d = wide ? *wide : given;
-  Tried cause{{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size())}, 1};
+  Tried cause = untried(d, failing_.size(), false, 1);
   const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
   if (!faulty.applies()) return cause;
   std::vector<Array> stored = reference_;
@@ -291,7 +288,7 @@ Tried TexelReplay::cause(const Fault& given) const {
 }
 
 std::vector<Tried> TexelReplay::causes(const std::vector<Fault>& all) const {
-  return tried(executor_, all, {"", "", 0, static_cast<std::int64_t>(failing_.size())}, [&](const Fault& d) { return cause(d); });
+  return tried(executor_, all, failing_.size(), false, [&](const Fault& d) { return cause(d); });
 }
 
 TexelReplay::TexelReplay(const TexelReplay& of, const capture::PassCase& c, const capture::PassModel& model)

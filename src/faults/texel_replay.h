@@ -18,6 +18,12 @@ struct Leeway {
   std::vector<std::vector<double>> values;  // of each texel and slot
 };
 
+/// The first of the pass's alternative formulas (capture::AlternativeFormula) whose envelopes hold nine in ten of the failing texels and
+/// of the passing ones; nothing where there is none. No bits are compared: `explained` is 0.
+std::optional<judge::Cause> alternative_formula(const capture::PassCase& c, const std::vector<capture::Array>& port,
+                                                const enclosed::Profile& profile, judge::HalfMode mode, const std::vector<Texel>& failing,
+                                                const std::vector<Texel>& passing);
+
 class TexelReplay : public Replay {
  public:
   /// What is given must outlive it.

@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-
-#include <fmt/format.h>
+#include <string>
 
 #include "faults/edits.h"
+#include "faults/members.h"
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -81,8 +82,8 @@ std::vector<std::int32_t> operands(const Probe& p, const std::vector<std::int32_
 std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& v) {
   std::vector<Edit> out;
   const std::size_t n = v.size();
-  const auto add = [&](std::vector<Expression> made, std::string name, std::string sentence) {
-    if (std::all_of(made.begin(), made.end(), can_be_had)) out.push_back({std::move(made), std::move(name), std::move(sentence)});
+  const auto add = [&](std::vector<Expression> made, Kind kind, std::vector<std::string> of) {
+    if (std::all_of(made.begin(), made.end(), can_be_had)) out.push_back({std::move(made), {kind, std::move(of)}});
   };
   const auto component = [&](std::size_t from, std::size_t to) {
     if (from == to) {
@@ -91,27 +92,24 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
     }
     return elsewhere(p, v[from], v[to], v);
   };
-  std::vector<std::string> words;
-  for (const std::int32_t node : v) words.push_back(words_for(p, node));
-  const auto name_of = [&](std::size_t k) { return words[k]; };
-  std::string vector = "(";
-  for (std::size_t k = 0; k < n; ++k) vector += (k == 0 ? "" : ", ") + words[k];
-  vector += ")";
+  const auto listed = [&](const std::vector<std::int32_t>& nodes) {
+    std::string text;
+    for (const std::int32_t node : nodes) text += (text.empty() ? "" : ", ") + words_for(p, node);
+    return text;
+  };
+  const std::string vector = "(" + listed(v) + ")";
 
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {
       std::vector<Expression> made;
       for (std::size_t k = 0; k < n; ++k) made.push_back(component(k == i ? j : k == j ? i : k, k));
-      const std::string which = n == 3 ? fmt::format("{} and {} of ", "xyz"[i], "xyz"[j]) : "x and y of ";
-      add(made, fmt::format("components exchanged: {}{}", which, vector),
-          fmt::format("of {} {} and {} are exchanged: {} stands where {} belongs, and the reverse", vector, "xyz"[i], "xyz"[j], name_of(i),
-                      name_of(j)));
+      add(made, Kind::components_exchanged,
+          {vector, component_name(static_cast<int>(i)), component_name(static_cast<int>(j)), words_for(p, v[i]), words_for(p, v[j])});
       if (n != 2) continue;
       for (const std::size_t turned : {0u, 1u}) {
         std::vector<Expression> other = made;
         other[turned] = operation(Op::negation, {other[turned]});
-        add(other, fmt::format("turned by a quarter: {}", vector),
-            fmt::format("{} is turned by a right angle: {} in place of (x, y)", vector, turned == 0 ? "(-y, x)" : "(y, -x)"));
+        add(other, turned == 0 ? Kind::turned_by_quarter : Kind::turned_back_by_quarter, {vector});
       }
     }
 
@@ -126,10 +124,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
       e.of[k] = elsewhere(p, all[1 - c], v[c], v);
       made.push_back(std::move(e));
     }
-    if (made.size() == n)
-      add(std::move(made), fmt::format("exchanged between components: {} and {} in {}", words_for(p, all[0]), words_for(p, all[1]), vector),
-          fmt::format("in {} {} and {} stand in each other's place, each in the other component", vector, words_for(p, all[0]),
-                      words_for(p, all[1])));
+    if (made.size() == n) add(std::move(made), Kind::exchanged_between_components, {vector, words_for(p, all[0]), words_for(p, all[1])});
   }
 
   // Of something that takes a matrix times a vector: the vector as it is, there alone.
@@ -137,19 +132,15 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
     const std::optional<Product> inner = product_of(p, operands(p, v, k));
     if (!inner) continue;
     std::vector<Expression> made;
-    std::string bare, whole;
+    std::vector<std::int32_t> whole;
     for (std::size_t c = 0; c < n; ++c) {
       Expression e = expression_of(p, v[c], 1);
       if (!e.is_operation() || e.of.size() <= k) break;
-      bare += (c == 0 ? "" : ", ") + words_for(p, inner->columns[c]);
-      whole += (c == 0 ? "" : ", ") + words_for(p, e.of[k].node);
+      whole.push_back(e.of[k].node);
       e.of[k] = elsewhere(p, inner->columns[c], v[c], v);
       made.push_back(std::move(e));
     }
-    if (made.size() == n)
-      add(std::move(made), fmt::format("matrix left out: ({}) for ({}) in {}", bare, whole, vector),
-          fmt::format("in {} ({}) stands in place of ({}): the matrix, or the conversion to other axes, is left out there", vector, bare,
-                      whole));
+    if (made.size() == n) add(std::move(made), Kind::matrix_left_out_there, {vector, listed(inner->columns), listed(whole)});
   }
 
   // Of a matrix times a vector.
@@ -157,15 +148,10 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
   if (!own) return out;
   const std::vector<Row>& rows = own->rows;
   const std::vector<std::int32_t>& columns = own->columns;
-  const auto of_vector = [&] {
-    std::string text = "(";
-    for (std::size_t k = 0; k < n; ++k) text += (k == 0 ? "" : ", ") + words_for(p, columns[k]);
-    return text + ")";
-  };
+  const std::string of_vector = "(" + listed(columns) + ")";
   std::vector<Expression> bare;
   for (std::size_t k = 0; k < n; ++k) bare.push_back(elsewhere(p, columns[k], v[k], v));
-  add(bare, fmt::format("matrix left out: {} for {}", of_vector(), vector),
-      fmt::format("{} stands in place of {}: the matrix, or the conversion to other axes, is left out", of_vector(), vector));
+  add(bare, Kind::matrix_left_out, {vector, of_vector});
 
   // Of a vector that is projected on others: on these as unit vectors in place of by the matrix.
   std::vector<Expression> on_units;
@@ -179,11 +165,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
       if (projection->terms.size() > 1 && length_sq > 0)
         on_units.push_back(operation(Op::product, {bare[k], number_of(static_cast<float>(1 / std::sqrt(length_sq)))}));
     }
-  if (on_units.size() == n)
-    add(std::move(on_units), fmt::format("matrix for unit vectors: {} for {}", of_vector(), vector),
-        fmt::format("the projections {} are taken on vectors of length 1 and stand in place of {}: the matrix, which has their lengths "
-                    "squared, is left out",
-                    of_vector(), vector));
+  if (on_units.size() == n) add(std::move(on_units), Kind::matrix_for_unit_vectors, {vector, of_vector});
 
   // The same with rows and columns exchanged: each coefficient with the other component, in the other row.
   struct Entry {
@@ -197,7 +179,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
       if (e.coefficient >= 0) return out;
       e = {t.coefficient, t.is_negative};
     }
-  const auto product = [&](const auto& entry, std::string name, std::string sentence) {
+  const auto multiplied = [&](const auto& entry, Kind kind, const std::string& text) {
     std::vector<Expression> made;
     for (std::size_t r = 0; r < n; ++r) {
       Expression sum = number_of(0);
@@ -205,35 +187,30 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
       for (std::size_t c = 0; c < n; ++c) {
         const Entry e = entry(r, c);
         if (e.coefficient < 0) continue;
-        Expression term = operation(Op::product, {elsewhere(p, e.coefficient, v[r], v), elsewhere(p, columns[c], v[r], v)});
+        Expression term = product(elsewhere(p, e.coefficient, v[r], v), elsewhere(p, columns[c], v[r], v));
         if (e.is_negative) term = operation(Op::negation, {std::move(term)});
         sum = is_first ? std::move(term) : operation(Op::sum, {std::move(sum), std::move(term)});
         is_first = false;
       }
       made.push_back(std::move(sum));
     }
-    add(std::move(made), std::move(name), std::move(sentence));
+    add(std::move(made), kind, {vector, text});
   };
-  std::string off_diagonal;
+  std::vector<std::int32_t> beside;
   for (std::size_t r = 0; r < n; ++r)
     for (std::size_t c = 0; c < n; ++c)
-      if (r != c && m[r][c].coefficient >= 0) off_diagonal += (off_diagonal.empty() ? "" : ", ") + words_for(p, m[r][c].coefficient);
-  product([&](std::size_t r, std::size_t c) { return m[c][r]; }, fmt::format("matrix transposed: {}", vector),
-          fmt::format("in {} rows and columns of the matrix are exchanged: {} goes with the other component, into the other one", vector,
-                      off_diagonal));
-  product([&](std::size_t r, std::size_t c) { return r == c ? m[r][c] : Entry{}; }, fmt::format("matrix' other terms left out: {}", vector),
-          fmt::format("in {} only the diagonal of the matrix counts: {} is left out", vector, off_diagonal));
+      if (r != c && m[r][c].coefficient >= 0) beside.push_back(m[r][c].coefficient);
+  const std::string off_diagonal = listed(beside);
+  multiplied([&](std::size_t r, std::size_t c) { return m[c][r]; }, Kind::matrix_transposed, off_diagonal);
+  multiplied([&](std::size_t r, std::size_t c) { return r == c ? m[r][c] : Entry{}; }, Kind::matrix_by_diagonal, off_diagonal);
   if (n == 2) {
-    product(
-        [&](std::size_t r, std::size_t c) {
-          Entry e = m[r][c];
-          if (r != c) e.is_negative = !e.is_negative;
-          return e;
-        },
-        fmt::format("turned the other way: {}", vector),
-        fmt::format("in {} the terms off the diagonal, {}, have the other sign: it is turned the other way", vector, off_diagonal));
-    product([&](std::size_t r, std::size_t c) { return m[r][1 - c]; }, fmt::format("matrix with its columns exchanged: {}", vector),
-            fmt::format("in {} the components of {} are exchanged", vector, of_vector()));
+    const auto turned = [&](std::size_t r, std::size_t c) {
+      Entry e = m[r][c];
+      if (r != c) e.is_negative = !e.is_negative;
+      return e;
+    };
+    multiplied(turned, Kind::matrix_turned, off_diagonal);
+    multiplied([&](std::size_t r, std::size_t c) { return m[r][1 - c]; }, Kind::matrix_columns_exchanged, of_vector);
   }
   return out;
 }

@@ -1,11 +1,11 @@
-#include "faults/vector_groups.h"
-
+// Nodes of a probe that belong together: the components of vectors, the channels that one lookup gives.
 #include <algorithm>
 #include <set>
 #include <string>
 
 #include "faults/place_faults.h"
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 
@@ -98,11 +98,7 @@ std::vector<Nodes> vector_groups_of(const Probe& p) {
 std::vector<Nodes> lookups_of(const Probe& p) {
   std::vector<Nodes> out;
   std::set<std::uint32_t> done;
-  const auto image = [&](std::int32_t at) {
-    const std::string text = words_for(p, at);
-    const std::size_t dot = text.rfind('.');
-    return dot + 2 == text.size() ? text.substr(0, dot) : std::string();
-  };
+  const auto image = [&](std::int32_t at) { return image_of_channel(words_for(p, at)); };
   constexpr std::size_t most = 24;
   const auto count = static_cast<std::int32_t>(p.trace.nodes.size());
   constexpr std::int32_t near = 12;  // what a lookup does for its next channel

@@ -1,12 +1,14 @@
 // What stands in place of a filter: a sum of values, each with a number as its weight.
 #include <algorithm>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "faults/edits.h"
 #include "faults/targets.h"
+#include "faults/text.h"
 
 namespace rainref::faults {
 namespace {
@@ -71,19 +73,17 @@ std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node) {
   for (const Tap& t : taps) text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", t.weight);
   const float equal = total / static_cast<float>(taps.size());
   const std::string all = words_for(p, node);
+  const auto number = [](float v) { return fmt::format("{:.4g}", v); };
   if (equal != 0)
     out.push_back(
-        {{sum_with([&](const Tap&) { return equal; })},
-         fmt::format("equal weights: {:.4g} for {}", equal, text),
-         fmt::format("the {} terms of {} all have the weight {:.4g}, a box, where they should have {}", taps.size(), all, equal, text)});
+        {{sum_with([&](const Tap&) { return equal; })}, {Kind::equal_weights, {all, number(equal), text, std::to_string(taps.size())}}});
   for (const float a : weights)
     for (const float b : weights)
       if (a < b)
         out.push_back({{sum_with([&](const Tap& t) { return t.weight == a   ? b
                                                             : t.weight == b ? a
                                                                             : t.weight; })},
-                       fmt::format("weights exchanged: {:.4g} and {:.4g} of {}", a, b, text),
-                       fmt::format("of the weights {} of {} those of {:.4g} and {:.4g} are exchanged", text, all, a, b)});
+                       {Kind::weights_exchanged, {all, number(a), number(b), text}}});
   return out;
 }
 

@@ -1,4 +1,5 @@
-#include "faults/where.h"
+// Where a pass fails: one sentence when its failures share a place.
+#include "faults/diagnose.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "base/number_text.h"
 #include "capture/bound_texture.h"
-#include "faults/failing_texels.h"
+#include "faults/probe.h"
+#include "faults/text.h"
 #include "judge/invocation_judge.h"
 
 namespace rainref::faults {
@@ -202,8 +203,7 @@ std::string runs_text(const FailedRun& failed) {
   std::set<int> failing_levels, levels;
   std::vector<char> fails;
   for (const CaseJudgement& c : failed.judged.cases) {
-    const std::size_t dot = c.id.rfind(".L");
-    const int level = dot == std::string::npos ? -1 : whole_from<int>(std::string_view(c.id).substr(dot + 2)).value_or(-1);
+    const int level = mip_level(c.id);
     levels.insert(level);
     if (c.failing > 0) failing_levels.insert(level);
     fails.push_back(c.failing > 0);

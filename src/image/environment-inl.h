@@ -35,7 +35,8 @@ RAINREF_FN Vec3<N> sample_cube(const T& t, const Vec3<N>& d, N lod) {
   const N face = select(x_major, select(negative_x, one, zero),
                         select(y_major, select(negative_y, N(3.0f), N(2.0f)), select(negative_z, N(5.0f), N(4.0f))));
   // Level by nearest, because a level's faces must keep whole rows.
-  const N level = floor(clamp(lod, zero, N(static_cast<float>(t.levels - 1))) + N(0.5f));
+  const N level =
+      floor(guard<N>(clamp(lod, zero, N(static_cast<float>(t.levels - 1))), "the host asks for a level that there is") + N(0.5f));
   const Level<N> l = level_of<N>(t, to_int(level));
   const N side = l.width_number, edge = N(0.5f) / side;
   const N fu = clamp(s * N(0.5f) + N(0.5f), edge, one - edge), fv = clamp(r * N(0.5f) + N(0.5f), edge, one - edge);

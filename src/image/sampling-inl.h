@@ -160,6 +160,17 @@ RAINREF_FN N load_near_texel(const T& t, const Line& column, const Line& row) {
   out[0] = fetch_near(t.texels, row.place + column.place, N());
   return with_border<0, 1, N>(t, out, column, row)[0];
 }
+/// A column or row before it becomes an integer. A number that makes mistakes has its own.
+template <class N>
+RAINREF_FN N whole_coordinate(N x) {
+  return x;
+}
+/// The same of the texel in a column and row that are whole numbers; outside by the texture's address rule.
+template <class N, class T>
+RAINREF_FN N texel_at(const T& t, N x, N y) {
+  const Level<N> l = uniform_level<N>(t, 0);
+  return load_near_texel<N>(t, texel_column<N>(t, l, to_int(whole_coordinate(x))), texel_row<N>(t, l, to_int(whole_coordinate(y))));
+}
 
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {

@@ -28,9 +28,9 @@ struct StoredPicture {
   bool deep = false;
   int orientation = 1;                  ///< as in EXIF; 1 is upright
   std::vector<StoredChannel> channels;  ///< in the file's order
-  std::string compression;              ///< EXR's method; to be stored in a PNG: the strategy of zlib
+  std::string compression;              ///< EXR's method
   std::string colour_space;             ///< "sRGB", "Linear", ..., or "" where the file says nothing
-  Notes notes;                          ///< to be stored in an EXR; not filled in by readers
+  Notes notes;                          ///< to be stored; not filled in by readers
 
   /// Of the channels from `first` to before `end`, interleaved.
   std::size_t texel_bytes(std::size_t first, std::size_t end) const {
@@ -51,16 +51,15 @@ class PictureReader {
   virtual void read(std::size_t first, std::size_t end, std::byte* texels) = 0;
 };
 
-/// The functions. `format` is OpenImageIO's name: "openexr", "png", "hdr", "jpeg". Both give nothing when this OpenImageIO lacks the
-/// format or cannot use memory for it, and throw std::exceptions otherwise. Only standard exceptions leave the library: it holds none
-/// of rainref's code.
+/// The functions. Both give nothing when this OpenImageIO lacks the format or cannot use memory for it, and throw std::exceptions
+/// otherwise. Only standard exceptions leave the library: it holds none of rainref's code.
 struct Codec {
-  /// The first picture of a file at full resolution, without any conversion of alpha or colour. `bytes` must outlive the reader.
+  /// The first picture of a file at full resolution, without any conversion of alpha or colour. `format` is OpenImageIO's name:
+  /// "openexr", "png", "hdr", "jpeg". `bytes` must outlive the reader.
   std::unique_ptr<PictureReader> (*open)(const char* format, std::span<const std::byte> bytes);
-  /// The bytes of a file of interleaved texels in the channels' types; the same ones at any time. Of `picture` are stored: size,
-  /// channels, compression, colour space and, in an EXR, notes. `name` is for messages.
-  std::optional<std::vector<std::byte>> (*encode)(const char* format, const std::string& name, const StoredPicture& picture,
-                                                  const std::byte* texels);
+  /// The bytes of an EXR of interleaved texels in the channels' types; the same ones at any time. It stores the picture's size,
+  /// channels, compression and notes. `name` is for messages.
+  std::optional<std::vector<std::byte>> (*encode_exr)(const std::string& name, const StoredPicture& picture, const std::byte* texels);
 };
 
 /// Opens the library at the first call, from the run path of the program; any thread may call. Throws Error(io) when it cannot be

@@ -1,4 +1,4 @@
-// Where the library lies that reads and writes pictures: apart from codec.h, which many include.
+// Where the library lies that reads pictures and writes EXR: apart from codec.h, which many include.
 #pragma once
 
 #include <string>

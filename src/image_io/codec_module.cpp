@@ -22,7 +22,7 @@ namespace {
 constexpr const char* library = RAINREF_OPENIMAGEIO;
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw Error(ExitCode::io, fmt::format("cannot load '{}', which reads and writes pictures: {}", library, why));
+  throw Error(ExitCode::io, fmt::format("cannot load '{}', which reads pictures and writes EXR: {}", library, why));
 }
 
 /// Where the loader looks for libraries of the object that holds this code: LD_LIBRARY_PATH, its run path, the system's folders.

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include "rainref/error.h"
 
@@ -48,12 +49,8 @@ std::optional<PngHeader> parse_png_header(std::span<const std::byte> bytes) {
 }
 
 std::uint32_t png_checksum(std::span<const std::byte> type_and_content) {
-  std::uint32_t crc = ~0u;
-  for (const std::byte byte : type_and_content) {
-    crc ^= std::to_integer<std::uint32_t>(byte);
-    for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1u ? 0xedb88320u : 0u);
-  }
-  return ~crc;
+  const auto* const bytes = reinterpret_cast<const Bytef*>(type_and_content.data());
+  return static_cast<std::uint32_t>(::crc32_z(0, bytes, type_and_content.size()));
 }
 
 std::optional<std::string> find_png_text(std::string_view file, std::span<const std::byte> bytes, std::string_view keyword) {
@@ -80,16 +77,6 @@ std::optional<std::string> find_png_text(std::string_view file, std::span<const 
     return true;
   });
   return found;
-}
-
-std::size_t png_place_of_text(std::span<const std::byte> bytes) {
-  std::size_t place = bytes.size();
-  any_chunk(bytes, [&](const char* type, std::size_t at) {
-    if (!is(type, "IDAT")) return false;
-    place = at - length_and_type;
-    return true;
-  });
-  return place;
 }
 
 }  // namespace rainref::image_io

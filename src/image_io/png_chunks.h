@@ -1,4 +1,4 @@
-// What a PNG file's chunks say, read without libpng.
+// What a PNG file's chunks say.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,5 @@ std::uint32_t png_checksum(std::span<const std::byte> type_and_content);
 /// The text of the first tEXt chunk with this keyword, or iTXt chunk that is not compressed. Throws Error(usage) starting with `file` when
 /// its checksum is another one.
 std::optional<std::string> find_png_text(std::string_view file, std::span<const std::byte> bytes, std::string_view keyword);
-/// Where text may go: before the first IDAT, so that a reader meets it before the texels. The file's size when there is none.
-std::size_t png_place_of_text(std::span<const std::byte> bytes);
 
 }  // namespace rainref::image_io

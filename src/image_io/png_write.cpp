@@ -1,13 +1,17 @@
-#include "image_io/png_write.h"
+// PNG of 8 bits: zlib compresses what Paeth's filter leaves of each row.
+#define ZLIB_CONST  // zlib changes nothing of its input
+#include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <new>
+#include <span>
 #include <string_view>
 
-#include "image_io/deflate.h"
 #include "image_io/png_chunks.h"
+#include "image_io/write.h"
+#include "rainref/error.h"
 
 namespace rainref::image_io {
 namespace {
@@ -25,65 +29,95 @@ void put_chunk(Bytes& out, std::string_view name, std::span<const std::byte> con
   put_word(out, png_checksum(std::span(out).subspan(begin)));
 }
 
-/// A row less what the filter foretells from the texel to its left and the row above: 0 nothing, 1 the left, 2 the above.
-Bytes filtered(int filter, std::span<const std::byte> row, std::span<const std::byte> above, std::size_t texel) {
-  Bytes out{static_cast<std::byte>(filter)};
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    const std::byte foretold = filter == 1 ? (k < texel ? std::byte{0} : row[k - texel]) : filter == 2 ? above[k] : std::byte{0};
-    out.push_back(static_cast<std::byte>(std::to_integer<int>(row[k]) - std::to_integer<int>(foretold)));
-  }
-  return out;
+/// Source: PNG specification, third edition, 11.3.3. Latin-1 and UTF-8 agree in ASCII.
+void put_note(Bytes& out, const Note& note) {
+  const bool is_ascii = std::all_of(note.value.begin(), note.value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  std::string content = note.key + '\0';
+  // Behind iTXt's keyword: not compressed (two bytes), no language, no translated keyword.
+  if (!is_ascii) content.append(4, '\0');
+  content += note.value;
+  put_chunk(out, is_ascii ? "tEXt" : "iTXt", std::as_bytes(std::span(content)));
 }
-/// How much is left of a row, as signed numbers: what compresses well has little.
-int rest(const Bytes& row) {
-  int sum = 0;
-  for (std::size_t k = 1; k < row.size(); ++k) sum += std::abs(static_cast<int>(static_cast<std::int8_t>(row[k])));
-  return sum;
+
+/// The compressed rows, in chunks behind each other.
+class ImageData {
+ public:
+  explicit ImageData(Bytes& file) : file_(file), piece_(std::size_t{1} << 15) {
+    // In what the filter leaves, runs of one byte are most of what repeats: zlib's RLE finds them without a search.
+    if (::deflateInit2(&stream_, 6, Z_DEFLATED, MAX_WBITS, 8, Z_RLE) != Z_OK) throw std::bad_alloc();
+    empty_piece();
+  }
+  ~ImageData() { ::deflateEnd(&stream_); }
+  ImageData(const ImageData&) = delete;
+  ImageData& operator=(const ImageData&) = delete;
+
+  void add(std::span<const std::byte> row) {
+    stream_.next_in = reinterpret_cast<const Bytef*>(row.data());
+    stream_.avail_in = static_cast<uInt>(row.size());
+    while (stream_.avail_in > 0) {
+      ::deflate(&stream_, Z_NO_FLUSH);
+      if (stream_.avail_out == 0) put_piece();
+    }
+  }
+  void finish() {
+    while (::deflate(&stream_, Z_FINISH) != Z_STREAM_END) put_piece();
+    put_piece();
+  }
+
+ private:
+  void put_piece() {
+    put_chunk(file_, "IDAT", std::span(piece_).first(piece_.size() - stream_.avail_out));
+    empty_piece();
+  }
+  void empty_piece() {
+    stream_.next_out = reinterpret_cast<Bytef*>(piece_.data());
+    stream_.avail_out = static_cast<uInt>(piece_.size());
+  }
+
+  Bytes& file_;
+  Bytes piece_;
+  z_stream stream_{};
+};
+
+/// That of three neighbours which is nearest to left + above - corner. Source: PNG specification, third edition, 9.4.
+int nearest(int left, int above, int corner) {
+  const int to_left = std::abs(above - corner), to_above = std::abs(left - corner), to_corner = std::abs(left + above - 2 * corner);
+  return to_left <= to_above && to_left <= to_corner ? left : to_above <= to_corner ? above : corner;
 }
 
 }  // namespace
 
-std::vector<std::byte> png_file(std::size_t width, std::size_t height, std::size_t channels, std::span<const std::byte> texels,
-                                bool is_srgb) {
-  constexpr std::array<int, 5> colour_types{0, 0, 4, 2, 6};
-  Bytes out;
+std::vector<std::byte> png_bytes(const Image& image, PngChannels channels, const Notes& notes) {
+  if (image.empty() || (image.format() != Format::rgba8 && image.format() != Format::rgba8_srgb))
+    throw Error(ExitCode::internal, "writing a picture: a PNG is made of rgba8");
+  const bool has_alpha = channels == PngChannels::rgba;
+  const std::size_t texel_bytes = has_alpha ? 4 : 3, row_bytes = texel_bytes * static_cast<std::size_t>(image.width());
+  Bytes out, header;
   for (const int byte : {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a}) out.push_back(static_cast<std::byte>(byte));
-  Bytes header;
-  put_word(header, static_cast<std::uint32_t>(width));
-  put_word(header, static_cast<std::uint32_t>(height));
-  for (const int byte : {8, colour_types.at(channels), 0, 0, 0}) header.push_back(static_cast<std::byte>(byte));
+  put_word(header, static_cast<std::uint32_t>(image.width()));
+  put_word(header, static_cast<std::uint32_t>(image.height()));
+  for (const int byte : {8, has_alpha ? 6 : 2, 0, 0, 0}) header.push_back(static_cast<std::byte>(byte));
   put_chunk(out, "IHDR", header);
-  if (is_srgb) put_chunk(out, "sRGB", Bytes{std::byte{0}});
-  const std::size_t bytes = width * channels;
-  const Bytes nothing(bytes);
-  Bytes rows;
-  for (std::size_t y = 0; y < height; ++y) {
-    const auto row = texels.subspan(y * bytes, bytes),
-               above = y == 0 ? std::span<const std::byte>(nothing) : texels.subspan((y - 1) * bytes, bytes);
-    Bytes best = filtered(0, row, above, channels);
-    for (const int filter : {1, 2})
-      if (Bytes other = filtered(filter, row, above, channels); rest(other) < rest(best)) best = std::move(other);
-    rows.insert(rows.end(), best.begin(), best.end());
-  }
-  put_chunk(out, "IDAT", zlib_bytes(rows));
-  put_chunk(out, "IEND", {});
-  return out;
-}
+  if (image.format() == Format::rgba8_srgb) put_chunk(out, "sRGB", Bytes(1));
+  for (const Note& note : notes) put_note(out, note);
 
-std::vector<std::byte> with_png_text(std::span<const std::byte> file, const Notes& notes) {
-  Bytes chunks;
-  for (const Note& note : notes) {
-    const bool is_ascii = std::all_of(note.value.begin(), note.value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    // Latin-1 and UTF-8 agree in ASCII. Behind iTXt's keyword: not compressed (two bytes), no language, no translated keyword.
-    std::string content = note.key + '\0';
-    if (!is_ascii) content.append(4, '\0');
-    content += note.value;
-    put_chunk(chunks, is_ascii ? "tEXt" : "iTXt", std::as_bytes(std::span(content)));
+  // To the left of each row stands a texel of zeros, and above the first a row of them.
+  Bytes row(texel_bytes + row_bytes), above(row.size()), filtered(1 + row_bytes);
+  filtered[0] = std::byte{4};  // the filter's number
+  ImageData data(out);
+  for (int y = 0; y < image.height(); ++y) {
+    const std::byte* texel = image.row_bytes(y);
+    for (std::size_t at = texel_bytes; at < row.size(); at += texel_bytes, texel += 4) std::copy_n(texel, texel_bytes, &row[at]);
+    for (std::size_t k = 0; k < row_bytes; ++k) {
+      const int foretold =
+          nearest(std::to_integer<int>(row[k]), std::to_integer<int>(above[texel_bytes + k]), std::to_integer<int>(above[k]));
+      filtered[1 + k] = static_cast<std::byte>(std::to_integer<int>(row[texel_bytes + k]) - foretold);
+    }
+    data.add(filtered);
+    row.swap(above);
   }
-  const std::size_t place = png_place_of_text(file);
-  Bytes out(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(place));
-  out.insert(out.end(), chunks.begin(), chunks.end());
-  out.insert(out.end(), file.begin() + static_cast<std::ptrdiff_t>(place), file.end());
+  data.finish();
+  put_chunk(out, "IEND", {});
   return out;
 }
 

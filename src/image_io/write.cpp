@@ -9,7 +9,6 @@
 
 #include "base/atomic_file.h"
 #include "image_io/codec.h"
-#include "image_io/png_write.h"
 #include "rainref/error.h"
 
 namespace rainref::image_io {
@@ -20,11 +19,10 @@ void require(bool holds, std::string_view what) {
   if (!holds) throw Error(ExitCode::internal, fmt::format("writing a picture: {}", what));
 }
 
-/// The bytes of the file. `name` is for messages.
-std::vector<std::byte> encoded(const std::string& name, const char* format, const StoredPicture& picture,
-                               const std::vector<std::byte>& texels) try {
-  auto bytes = codec().encode(format, name, picture, texels.data());
-  require(bytes.has_value(), fmt::format("this OpenImageIO cannot write {} to memory", format));
+/// The bytes of an EXR. `name` is for messages.
+std::vector<std::byte> encoded_exr(const std::string& name, const StoredPicture& picture, const std::vector<std::byte>& texels) try {
+  auto bytes = codec().encode_exr(name, picture, texels.data());
+  require(bytes.has_value(), "this OpenImageIO cannot write EXR to memory");
   return std::move(*bytes);
 } catch (const Error&) {
   throw;
@@ -40,22 +38,6 @@ void interleave(const Image& in, std::size_t bytes, std::size_t step, std::byte*
     const std::byte* row = in.row_bytes(y);
     for (int x = 0; x < in.width(); ++x, row += texel_bytes, out += step) std::memcpy(out, row, bytes);
   }
-}
-
-std::vector<std::byte> encoded_png(const std::string& name, const Image& image, PngChannels channels, const Notes& notes) {
-  require(image.format() == Format::rgba8 || image.format() == Format::rgba8_srgb, "a PNG is made of rgba8");
-  const int count = channels == PngChannels::rgb ? 3 : 4;
-  StoredPicture picture;
-  picture.width = image.width();
-  picture.height = image.height();
-  for (int c = 0; c < count; ++c) picture.channels.push_back({std::string(1, "RGBA"[c]), "uint8", 1});
-  if (image.format() == Format::rgba8_srgb) picture.colour_space = "sRGB";
-  // Of what PNG's filters leave, runs of one byte are most of what repeats: zlib's RLE finds them without a search.
-  picture.compression = "rle";
-  std::vector<std::byte> texels(static_cast<std::size_t>(count) * image.width() * image.height());
-  interleave(image, count, count, texels.data());
-  // Text is added here: with OpenImageIO and without it the same, in iTXt where it must be.
-  return with_png_text(encoded(name, "png", picture, texels), notes);
 }
 
 std::string channel_type(Format format) {
@@ -77,11 +59,7 @@ void add_channels(const Layer& layer, std::set<std::string>& taken, StoredPictur
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Image& image, PngChannels channels, const Notes& notes) {
-  write_file(path, encoded_png(path.string(), image, channels, notes));
-}
-
-std::vector<std::byte> png_bytes(const Image& image, PngChannels channels, const Notes& notes) {
-  return encoded_png("picture.png", image, channels, notes);
+  write_file(path, png_bytes(image, channels, notes));
 }
 
 void write_exr(const std::filesystem::path& path, const std::vector<Layer>& layers, const Notes& notes) {
@@ -110,7 +88,7 @@ void write_exr(const std::filesystem::path& path, const std::vector<Layer>& laye
     interleave(*layer.image, bytes, texel_bytes, out);
     out += bytes;
   }
-  write_file(path, encoded(path.string(), "openexr", picture, texels));
+  write_file(path, encoded_exr(path.string(), picture, texels));
 }
 
 }  // namespace rainref::image_io

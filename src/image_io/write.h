@@ -18,7 +18,7 @@ enum class PngChannels : std::uint8_t { rgb, rgba };
 /// are; rgba8_srgb also marks the file as sRGB. Throws Error(io) naming the file; nothing half-written stays behind.
 void write_png(const std::filesystem::path& path, const Image& image, PngChannels channels = PngChannels::rgb, const Notes& notes = {});
 
-/// The bytes of such a file, for a page that holds its pictures.
+/// The bytes of such a file, for a page that holds its pictures. Without OpenImageIO they are the same.
 std::vector<std::byte> png_bytes(const Image& image, PngChannels channels = PngChannels::rgb, const Notes& notes = {});
 
 /// Channels of an EXR file that come from one image.

@@ -14,24 +14,32 @@ namespace {
 
 /// What a case or several have.
 struct Counts {
-  std::int64_t elements = 0, unbounded = 0, free = 0, atypical = 0, beyond = 0;
+  std::int64_t elements = 0, free = 0, atypical = 0, beyond = 0;
+  double unbounded = 0, margin = 0;  ///< over all elements, by the sample; how far that may be off
   std::int64_t failing = 0, expanded = 0, rearranged = 0;
   std::uint64_t rearranged_distance = 0;
 
   void add(const CaseJudgement& j) {
     for (const OutputJudgement& o : j.outputs) {
       elements += o.elements;
-      unbounded += o.unbounded;
+      unbounded += static_cast<double>(o.unbounded) * static_cast<double>(o.unsampled > 0 ? j.stride : 1);
       free += o.free;
       atypical += o.atypical;
       beyond += j.beyond > 0 ? o.beyond : 0;
     }
+    margin += j.unbounded_margin;
     failing += j.failing;
     expanded += j.expanded;
     rearranged += j.rearranged;
     rearranged_distance = std::max(rearranged_distance, j.rearranged_distance);
   }
 };
+
+/// Whether less than half of the elements have a bound, if so many more than the sample says have none.
+bool lacks_bounds(const Counts& n, double more) {
+  const auto judged = static_cast<double>(n.elements - n.free);
+  return (n.unbounded + more) * 2 > judged && judged > 0;
+}
 
 /// Why what fails does, where its counts say it; "".
 std::string failure_text(const Counts& n, const enclosed::Profile& profile) {
@@ -59,6 +67,12 @@ std::string joined(const std::vector<std::string>& sentences) { return fmt::form
 
 }  // namespace
 
+bool is_open_by_sample(const CaseJudgement& j) {
+  Counts n;
+  n.add(j);
+  return j.failing == 0 && lacks_bounds(n, n.margin) != lacks_bounds(n, -n.margin);
+}
+
 void conclude(CaseJudgement& j, const enclosed::Profile& profile) {
   Counts n;
   n.add(j);
@@ -68,10 +82,11 @@ void conclude(CaseJudgement& j, const enclosed::Profile& profile) {
   } else if (n.elements == 0 && j.outputs.empty()) {
     j.status = Status::untested;
     j.reason = "nothing to judge";
-  } else if (n.unbounded * 2 > n.elements - n.free && n.elements > n.free) {
+  } else if (lacks_bounds(n, n.margin)) {
     j.status = Status::untested;
-    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, neither from the profile nor from what known devices do",
-                           100.0 * static_cast<double>(n.unbounded) / static_cast<double>(n.elements - n.free));
+    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, neither from the profile nor from what known devices do{}",
+                           std::min(100.0, 100.0 * n.unbounded / static_cast<double>(n.elements - n.free)),
+                           n.margin > 0 ? ", by a sample of them" : "");
   } else {
     j.reason = joined(warnings(n, profile));
     j.status = j.reason.empty() ? Status::pass : Status::warn;

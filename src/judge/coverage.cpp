@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <mutex>
+#include <tuple>
 
 #include <fmt/format.h>
 
-#include "judge/pass_texts.h"
+#include "judge/sample.h"
 #include "math/perturbed.h"
 #include "registry/registry.h"
-#include "scene/unexercised.h"
 
 namespace rainref::judge {
 
@@ -22,42 +21,27 @@ namespace {
 bool is_flag(const scene::Member& m) {
   return m.range && m.range->low == 0 && m.range->high == 1 && (m.scalar != scene::Scalar::float32 || m.range->is_whole);
 }
-double component(const scene::Member& m, const std::byte* block, int k) {
-  const std::byte* at = block + m.offset + 4 * static_cast<std::size_t>(k);
-  const auto as = [&](auto value) {
-    std::memcpy(&value, at, sizeof value);
-    return static_cast<double>(value);
-  };
-  switch (m.scalar) {
-    case scene::Scalar::float32:
-      return as(0.0f);
-    case scene::Scalar::int32:
-      return as(std::int32_t{0});
-    case scene::Scalar::uint32:
-      return as(std::uint32_t{0});
-  }
-  return 0;
-}
 /// Of each uniform and each image, whether it has a value that hides no mistake in what it takes part in; of a flag, which value.
-std::map<std::string, bool> values_of(const capture::PassCase& c) {
-  std::map<std::string, bool> out;
+void add_values(const capture::PassCase& c, Exercise& to) {
+  std::map<std::string, bool>& out = to.values;
   const scene::UniformBlock& block = registry::effect_of_pack(c.effect).info->pass(c.pass).block(c.variant);
   for (const scene::Member& m : block.members) {
     if (!is_read_by(m, c.variant)) continue;
     for (int k = 0; k < m.components; ++k) {
-      const double value = std::abs(component(m, c.uniforms.data(), k));
+      const double value = std::abs(scene::component_of(m, c.uniforms.data(), k));
       const std::string name = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
       if (is_flag(m)) {
         out[fmt::format("uniform {}: 0", name)] = value == 0;
         out[fmt::format("uniform {}: 1", name)] = value == 1;
       } else {
-        out[fmt::format("uniform {}: neither 0 nor 1", name)] = value != 0 && value != 1;
+        const std::string alternative = fmt::format("uniform {}: neither 0 nor 1", name);
+        out[alternative] = value != 0 && value != 1;
+        if (!m.guard.empty() && m.guarded_component == k) to.guards[alternative] = m.guard;
       }
     }
   }
   for (const capture::CaseInput& in : c.inputs)
     if (!in.array.is_records) out[fmt::format("input {}: more than one texel", in.name)] = in.array.width > 1 || in.array.height > 1;
-  return out;
 }
 
 }  // namespace
@@ -65,6 +49,8 @@ std::map<std::string, bool> values_of(const capture::PassCase& c) {
 void Exercise::add(const Exercise& other) {
   decisions.add(other.decisions);
   for (const auto& [alternative, is_taken] : other.values) values[alternative] |= is_taken;
+  guards.insert(other.guards.begin(), other.guards.end());
+  is_sampled |= other.is_sampled;
 }
 
 bool is_read_by(const scene::Member& member, std::string_view variant) {
@@ -72,10 +58,10 @@ bool is_read_by(const scene::Member& member, std::string_view variant) {
   return !member.sentence.starts_with(other) || member.sentence.find(fmt::format("{}:", variant)) != std::string::npos;
 }
 
-Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor) {
+Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor, std::int64_t sample) {
   Exercise out;
   if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) return out;
-  out.values = values_of(c);
+  add_values(c, out);
   Coverage& all = out.decisions;
   if (!model) return out;
   std::mutex mutex;  // sums of counts: in any order the same
@@ -91,11 +77,14 @@ Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model
     const std::lock_guard lock(mutex);
     all.add(own);
   };
+  const Sample counted_ones(c, *model, sample);
+  out.is_sampled = !counted_ones.is_whole();
   executor.for_range(model->height(), 8, [&](std::int64_t begin, std::int64_t end) {
     counted([&] {
       std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model->values()));
       for (std::int64_t y = begin; y < end; ++y)
-        for (int x = 0; x < model->width(); ++x) model->evaluate(x, static_cast<int>(y), unused.data());
+        for (int x = 0; x < model->width(); ++x)
+          if (counted_ones.has(x, static_cast<int>(y))) model->evaluate(x, static_cast<int>(y), unused.data());
     });
   });
   for (const capture::CaseOutput& o : c.outputs)
@@ -104,42 +93,46 @@ Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model
   return out;
 }
 
-std::string alternative(const perturbed::Decision& d, int side) {
+std::string name_of(const perturbed::Decision& d, int number, bool is_guard, int side) {
   if (d.kind == perturbed::DecisionKind::address || d.kind == perturbed::DecisionKind::load)
     return fmt::format("{} of {} by {}: {}", name(d.kind), d.input.empty() ? "an image" : d.input, d.file, side_name(d.kind, side));
-  const std::string_view line = pass_line(d.file, d.line);
-  return fmt::format("{}, {} {}: {}", d.file.substr(d.file.rfind('/') + 1), name(d.kind), side_name(d.kind, side),
-                     line.empty() ? fmt::format("line {}", d.line) : line);
+  return fmt::format("{}, {}: {}{}{}, {}", d.file.substr(d.file.rfind('/') + 1), d.function == "operator()" ? "a lambda" : d.function,
+                     is_guard ? "guarded " : "", name(d.kind), number > 1 ? fmt::format(" {}", number) : "", side_name(d.kind, side));
 }
 
-const std::map<std::string, std::string>& unreached() {
-  static const std::map<std::string, std::string> all =
-      scene::unexercised(detail::embedded_text("unreached.toml"), "unreached.toml")["any"];
-  return all;
-}
-
-std::vector<std::pair<std::string, bool>> Exercise::alternatives() const {
-  std::vector<std::pair<std::string, bool>> out;
-  for (const auto& [decision, counts] : decisions.decisions())
-    for (int side = 0; side < perturbed::sides(decision.kind); ++side)
-      out.emplace_back(alternative(decision, side), counts[static_cast<std::size_t>(side)] > 0);
-  out.insert(out.end(), values.begin(), values.end());
+std::vector<Alternative> Exercise::alternatives() const {
+  std::vector<Alternative> out;
+  std::map<std::tuple<std::string, std::string, perturbed::DecisionKind, bool>, int> numbers;  // of the last one of a kind in a function
+  for (const auto& [decision, sides] : decisions.decisions()) {
+    const bool is_guard = std::any_of(sides.reasons.begin(), sides.reasons.end(), [](std::string_view reason) { return !reason.empty(); });
+    const int number = ++numbers[{decision.file, decision.function, decision.kind, is_guard}];
+    for (int side = 0; side < perturbed::sides(decision.kind); ++side) {
+      const auto k = static_cast<std::size_t>(side);
+      out.push_back(
+          {name_of(decision, number, is_guard, side), sides.counts[k] > 0, std::string(sides.reasons[k]), is_guard ? 0 : decision.line});
+    }
+  }
+  for (const auto& [value, is_taken] : values) {
+    const auto guard = guards.find(value);
+    out.push_back({value, is_taken, guard == guards.end() ? "" : guard->second});
+  }
   return out;
 }
 
 PassCoverage summary(const Exercise& exercise, const std::map<std::string, std::string>& unexercised) {
   PassCoverage out;
-  for (const auto& [text, is_taken] : exercise.alternatives()) {
+  out.is_sampled = exercise.is_sampled;
+  for (const Alternative& a : exercise.alternatives()) {
     ++out.alternatives;
-    out.taken += is_taken;
-    if (is_taken) continue;
-    const auto own = unexercised.find(text), always = unreached().find(text);
+    out.taken += a.is_taken;
+    if (a.is_taken) continue;
+    const auto own = unexercised.find(a.name);
     if (own != unexercised.end())
       out.reasons.insert(*own);
-    else if (always != unreached().end())
-      out.reasons.insert(*always);
+    else if (!a.guard.empty())
+      out.reasons.emplace(a.name, a.guard);
     else
-      out.never.push_back(text);
+      out.never.push_back(a.name);
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #include "judge/envelopes.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 #include "judge/beyond.h"
 #include "judge/failures.h"
 #include "judge/quantities.h"
+#include "judge/reference_bits.h"
+#include "judge/sample.h"
 #include "judge/second_tier.h"
 #include "judge/slots.h"
 #include "judge/stored.h"
@@ -43,13 +46,23 @@ class CaseJudge {
  public:
   CaseJudge(const PassCase& c, const PassModel& model, const std::vector<Array>& port, const JudgeOptions& options,
             std::vector<HalfMode> modes)
-      : case_(c), model_(model), port_(port), options_(options), modes_(std::move(modes)), slots_(slots_of(c, model)) {
+      : case_(c),
+        model_(model),
+        port_(port),
+        options_(options),
+        modes_(std::move(modes)),
+        slots_(slots_of(c, model)),
+        // Exact rules compare bits, which is as quick.
+        sample_(c, model, options.profile->reference ? 0 : options.sample),
+        bits_(c, model, port, slots_, modes_) {
     if (static_cast<int>(slots_.size()) != model.values())
       throw Error(ExitCode::internal,
                   fmt::format("{}: the model has {} values, the outputs {}", c.folder(), model.values(), slots_.size()));
+    for (std::size_t v = 0; v < slots_.size(); ++v) free_.push_back(free_range(model, v, *options.profile).has_value());
   }
 
   std::vector<CaseJudgement> run() {
+    if (!sample_.is_whole()) bits_.prepare(sample_, *options_.executor, options_.every_rounding);
     constexpr int rows = 4;
     const int tiles = (model_.height() + rows - 1) / rows;
     std::vector<std::vector<Part>> parts(static_cast<std::size_t>(tiles), std::vector<Part>(modes_.size(), empty_part()));
@@ -76,9 +89,13 @@ class CaseJudge {
         out.rearranged_median_width = quantile(rearranged[o], 0.5);
         out.rearranged_p99_width = quantile(rearranged[o], 0.99);
       }
+      whole[m].stride = sample_.stride();
+      whole[m].unbounded_margin = sample_.margin(static_cast<double>(std::count(free_.begin(), free_.end(), 0)));
     }
     return whole;
   }
+  /// Whether what was asked leaves open if what is beyond every device is much: that is a share of all that the profile leaves open.
+  bool needs_all() const { return needs_all_; }
 
  private:
   struct Scratch {
@@ -87,6 +104,7 @@ class CaseJudge {
     std::vector<CodeRange> ranges, nearest, other_ranges;
     std::vector<char> vacuous;        ///< of each value
     bool is_open = false;             ///< some alternative leaves a value without a bound
+    bool is_sampled = true;           ///< it counts in widths and shares
     SecondTier second, other_second;  ///< by the profile, and by what known devices do
 
     std::optional<Beyond> coarse;  ///< where devices are known
@@ -114,6 +132,11 @@ class CaseJudge {
   }
 
   void invocation(int x, int y, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
+    s.is_sampled = sample_.has(x, y);
+    if (!s.is_sampled && has_reference_bits(x, y)) {
+      for (std::size_t m = 0; m < modes_.size(); ++m) without_envelope(x, y, m, parts[m], whole[m]);
+      return;
+    }
     s.stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
     const bool is_exact = options_.profile->reference, each_rounds = model_.rounds_inside() && !is_exact;
     if (is_exact)
@@ -123,6 +146,37 @@ class CaseJudge {
     for (std::size_t m = 0; m < modes_.size(); ++m) {
       if (each_rounds) s.alternatives.run(model_, x, y, s.stored.got_values.data(), narrowed(*options_.profile, modes_[m]));
       one_mode(x, y, s, modes_[m], parts[m], whole[m]);
+    }
+  }
+
+  /// Whether an invocation lies inside for having the reference's bits: by the rounding that most have, or by each that is tried.
+  bool has_reference_bits(int x, int y) const {
+    if (!options_.every_rounding) return bits_.has(bits_.leading(), x, y);
+    for (std::size_t m = 0; m < modes_.size(); ++m)
+      if (!bits_.has(m, x, y)) return false;
+    return true;
+  }
+  /// Counts one that no envelope is asked of.
+  void without_envelope(int x, int y, std::size_t mode, Part& part, CaseJudgement& whole) const {
+    CaseJudgement& counts = part.counts;
+    ++counts.invocations;
+    counts.undecided += mode != bits_.leading() && !bits_.has(mode, x, y);
+    for (std::size_t v = 0; v < slots_.size(); ++v) {
+      const Slot& slot = slots_[v];
+      const auto o = static_cast<std::size_t>(slot.output);
+      OutputJudgement& out = counts.outputs[o];
+      ++out.elements;
+      if (std::memcmp(slot.at(port_[o], x, y), slot.at(case_.outputs[o].array, x, y), static_cast<std::size_t>(slot.channel_bytes)) != 0) {
+        ++out.differing;
+        mark(whole, slot.output, x, y, 1);
+      }
+      if (free_[v]) {
+        ++out.free;
+        part.widths[o].add_free(slot.channel);
+      } else {
+        ++out.unsampled;
+        part.widths[o].add_unsampled(slot.channel);
+      }
     }
   }
 
@@ -171,8 +225,8 @@ class CaseJudge {
     CaseJudgement& counts = part.counts;
     const std::size_t n = slots_.size();
     ++counts.invocations;
-    counts.ambiguous += s.alternatives.count > 1 && !s.alternatives.gave_up;
-    counts.gave_up += s.alternatives.gave_up;
+    counts.ambiguous += s.is_sampled && s.alternatives.count > 1 && !s.alternatives.gave_up;
+    counts.gave_up += s.is_sampled && s.alternatives.gave_up;
 
     const Choice choice = choose(s, mode);
     bool failed = s.stored.any_impossible || (!s.alternatives.gave_up && choice.accepted < 0);
@@ -180,7 +234,7 @@ class CaseJudge {
     failed &= !is_rearranged;
     counts.failing += failed;
     counts.rearranged += is_rearranged;
-    counts.other_branch += !failed && choice.reference >= 0 && choice.accepted >= 0 && choice.accepted != choice.reference;
+    counts.other_branch += s.is_sampled && !failed && choice.reference >= 0 && choice.accepted >= 0 && choice.accepted != choice.reference;
     const int shown = choice.accepted >= 0 ? choice.accepted : choice.nearest;
     if (shown >= 0) ranges_of(s, shown, mode);
 
@@ -201,17 +255,7 @@ class CaseJudge {
       }
       differs |= different;
       out.open += s.is_open;
-      Bound bound{true, true};
-      if (!s.alternatives.gave_up) {
-        bound = bound_of(slot, s.alternatives.values[static_cast<std::size_t>(shown)][v], s.ranges[v]);
-        const Enclosure& e = s.alternatives.values[static_cast<std::size_t>(shown)][v];
-        part.widths[static_cast<std::size_t>(slot.output)].add(slot.channel, s.ranges[v], static_cast<double>(e.hi) - e.lo, bound.vacuous,
-                                                               bound.loose);
-      } else {
-        part.widths[static_cast<std::size_t>(slot.output)].add_unbounded(slot.channel);
-      }
-      out.vacuous += bound.vacuous;
-      out.loose += bound.loose;
+      const Bound bound = count_bound(v, shown, s, part);
       s.vacuous[v] = bound.vacuous;
       any_vacuous |= bound.vacuous;
       if (impossible && failed) {
@@ -227,7 +271,34 @@ class CaseJudge {
       }
     }
     if (!failed && !is_rearranged && (differs || any_vacuous)) check_typical(x, y, s, mode, part, whole);
-    if (s.second.exists() && (static_cast<std::int64_t>(y) * model_.width() + x) % 64 == 0) sample_rearranged(x, y, s, mode, part);
+    if (s.is_sampled && s.second.exists() && (static_cast<std::int64_t>(y) * model_.width() + x) % 64 == 0)
+      sample_rearranged(x, y, s, mode, part);
+  }
+
+  /// What a value is bounded by in the alternative that is shown; of a sampled one it is counted.
+  Bound count_bound(std::size_t v, int shown, const Scratch& s, Part& part) const {
+    const Slot& slot = slots_[v];
+    const auto o = static_cast<std::size_t>(slot.output);
+    OutputJudgement& out = part.counts.outputs[o];
+    Bound bound{true, true};
+    double width = 0;
+    if (!s.alternatives.gave_up) {
+      const Enclosure& e = s.alternatives.values[static_cast<std::size_t>(shown)][v];
+      bound = bound_of(slot, e, s.ranges[v]);
+      width = static_cast<double>(e.hi) - e.lo;
+    }
+    if (!s.is_sampled) {
+      ++out.unsampled;
+      part.widths[o].add_unsampled(slot.channel);
+      return bound;
+    }
+    out.vacuous += bound.vacuous;
+    out.loose += bound.loose;
+    if (s.alternatives.gave_up)
+      part.widths[o].add_unbounded(slot.channel);
+    else
+      part.widths[o].add(slot.channel, s.ranges[v], width, bound.vacuous, bound.loose);
+    return bound;
   }
 
   /// The profile that an evaluation of one invocation takes.
@@ -320,7 +391,7 @@ class CaseJudge {
         ++out.atypical;
         is_atypical = true;
         mark(whole, slots_[v].output, x, y, 2);
-      } else if (s.vacuous[v]) {
+      } else if (s.vacuous[v] && s.is_sampled) {
         ++(is_bounded ? out.typical : out.unbounded);
       }
     }
@@ -339,14 +410,17 @@ class CaseJudge {
   }
 
   /// Lets what is beyond every device fail where there is much of it; else it stays a warning.
-  void settle_beyond(CaseJudgement& j, std::vector<Widths>& widths, const std::vector<Part::Gross>& beyond) const {
-    std::int64_t count = 0, open = 0;
-    for (const OutputJudgement& o : j.outputs) count += o.beyond, open += o.open;
+  void settle_beyond(CaseJudgement& j, std::vector<Widths>& widths, const std::vector<Part::Gross>& beyond) {
+    std::int64_t count = 0, open = 0, most_open = 0;
+    for (const OutputJudgement& o : j.outputs) count += o.beyond, open += o.open, most_open += o.elements - o.free;
     const bool fails = is_gross(count, open);
-    if (fails)
+    needs_all_ |= !sample_.is_whole() && fails != is_gross(count, most_open);
+    if (fails) {
       j.failing += j.beyond;
-    else
+    } else {
+      if (j.undecided > 0) j.undecided += j.beyond;
       j.beyond = 0;
+    }
     for (std::size_t o = 0; o < j.outputs.size(); ++o) {
       OutputJudgement& out = j.outputs[o];
       for (std::uint8_t& texel : out.map)
@@ -371,12 +445,14 @@ class CaseJudge {
     whole.rearranged_distance = std::max(whole.rearranged_distance, part.counts.rearranged_distance);
     whole.expanded += part.counts.expanded;
     whole.beyond += part.counts.beyond;
+    whole.undecided += part.counts.undecided;
     for (std::size_t o = 0; o < whole.outputs.size(); ++o) {
       OutputJudgement& to = whole.outputs[o];
       const OutputJudgement& from = part.counts.outputs[o];
       for (auto counter : {&OutputJudgement::elements, &OutputJudgement::failing, &OutputJudgement::differing, &OutputJudgement::vacuous,
                            &OutputJudgement::loose, &OutputJudgement::atypical, &OutputJudgement::typical, &OutputJudgement::unbounded,
-                           &OutputJudgement::rearranged, &OutputJudgement::free, &OutputJudgement::open, &OutputJudgement::beyond})
+                           &OutputJudgement::rearranged, &OutputJudgement::free, &OutputJudgement::open, &OutputJudgement::beyond,
+                           &OutputJudgement::unsampled})
         to.*counter += from.*counter;
       to.worst.insert(to.worst.end(), from.worst.begin(), from.worst.end());
       keep_worst(to.worst);
@@ -394,13 +470,22 @@ class CaseJudge {
   const JudgeOptions& options_;
   std::vector<HalfMode> modes_;
   std::vector<Slot> slots_;
+  std::vector<char> free_;  // of each slot, as Stored::free
+  Sample sample_;
+  ReferenceBits bits_;
+  bool needs_all_ = false;
 };
 
 }  // namespace
 
 std::vector<CaseJudgement> judge_envelopes(const PassCase& c, const PassModel& model, const std::vector<Array>& port,
                                            const JudgeOptions& options, const std::vector<HalfMode>& modes) {
-  return CaseJudge(c, model, port, options, modes).run();
+  CaseJudge judge(c, model, port, options, modes);
+  std::vector<CaseJudgement> judged = judge.run();
+  if (!judge.needs_all()) return judged;
+  JudgeOptions all = options;
+  all.sample = 0;
+  return CaseJudge(c, model, port, all, modes).run();
 }
 
 }  // namespace rainref::judge

@@ -27,7 +27,30 @@ std::vector<std::string> only_under(HalfMode mode, const std::vector<HalfVotes>&
   return out;
 }
 
+/// Whether it is known which of the two roundings a pass fails by.
+bool is_settled(const HalfVotes& pass) { return pass.is_known(0) && pass.is_known(1); }
+
+/// The rounding of the port where as much as may fails under one of the two, and as little under the other.
+HalfMode extreme_rounding(std::vector<HalfVotes> passes, std::size_t most) {
+  for (HalfVotes& p : passes)
+    if (has_vote(p)) p.failing[most] = p.most(most);
+  return port_rounding(passes);
+}
+
+/// Whether a pass may be other than pass_rounding gives, by what is undecided of itself.
+bool is_pass_open(const HalfVotes& pass, HalfMode port, HalfMode asked) {
+  const std::size_t own = port == HalfMode::either ? 0 : place(pass, port), other = 1 - own;
+  if (pass.most(own) == 0) return asked != HalfMode::either && pass.modes[own] != asked && !pass.is_known(place(pass, asked));
+  if (!pass.is_known(own) || !pass.is_known(other) || pass.rounds_inside) return true;
+  const std::size_t found = pass.failing[other] == 0 ? other : own;
+  return pass.most(found) != pass.failing[found] || (pass.modes.size() == 3 && !pass.is_known(2));
+}
+
 }  // namespace
+
+bool HalfVotes::is_whole() const {
+  return std::all_of(undecided.begin(), undecided.end(), [](std::int64_t count) { return count == 0; });
+}
 
 HalfMode port_rounding(const std::vector<HalfVotes>& passes) {
   const auto voter = std::find_if(passes.begin(), passes.end(), has_vote);
@@ -73,6 +96,32 @@ FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>&
     doubts.push_back(fmt::format("stores to binary16 round {} in this pass and {} in {}: a port has one rounding", words(mode), words(port),
                                  fmt::join(others, ", ")));
   return {found, fmt::format("{}", fmt::join(doubts, "; "))};
+}
+
+std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes, HalfMode asked, bool others) {
+  const auto first = [&](const auto& counts) -> std::optional<std::size_t> {
+    for (std::size_t k = 0; k < passes.size(); ++k)
+      if (passes[k].modes.size() >= 2 && !passes[k].is_whole() && counts(passes[k])) return k;
+    return std::nullopt;
+  };
+  const auto unsettled = [&] { return first([](const HalfVotes& p) { return !is_settled(p); }); };
+  // More failures under a rounding never speak for it, so the extremes tell.
+  const HalfMode port = extreme_rounding(passes, 0);
+  if (port != extreme_rounding(passes, 1)) return first(has_vote);
+  if (others) {
+    const bool may_fail =
+        std::any_of(passes.begin(), passes.end(), [](const HalfVotes& p) { return p.modes.size() >= 2 && p.most(0) > 0 && p.most(1) > 0; });
+    const bool tells = std::any_of(passes.begin(), passes.end(), [](const HalfVotes& p) {
+      return has_vote(p) && ((p.most(0) == 0 && p.failing[1] > 0) || (p.most(1) == 0 && p.failing[0] > 0));
+    });
+    if (may_fail && !tells && unsettled()) return unsettled();
+  }
+  if (const auto open = first([&](const HalfVotes& p) { return is_pass_open(p, port, asked); })) return open;
+  // A pass that fits the other rounding alone is doubted beside the passes that fit the port's alone.
+  const bool names_others = std::any_of(passes.begin(), passes.end(), [&](const HalfVotes& p) {
+    return has_vote(p) && p.failing[place(p, port)] > 0 && p.most(1 - place(p, port)) == 0;
+  });
+  return names_others ? first([](const HalfVotes& p) { return has_vote(p) && !is_settled(p); }) : std::nullopt;
 }
 
 }  // namespace rainref::judge

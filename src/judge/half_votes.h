@@ -1,7 +1,9 @@
 // How a port rounds its stores to binary16: one way for the whole port, found by what its passes stored.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,14 @@ struct HalfVotes {
   /// The pass rounds to binary16 between its operations, too, in the shader or a blending unit, which need not round as stores do:
   /// it is judged by the way that it fits and has no vote.
   bool rounds_inside = false;
+  /// Of each mode the invocations that may fail besides: they were not asked about under it, because another mode holds them. Empty: none.
+  std::vector<std::int64_t> undecided = {};
+
+  std::int64_t most(std::size_t mode) const { return failing[mode] + (undecided.empty() ? 0 : undecided[mode]); }
+  /// Whether it is known if any fails.
+  bool is_known(std::size_t mode) const { return failing[mode] > 0 || most(mode) == 0; }
+  /// Whether every invocation is known under every mode.
+  bool is_whole() const;
 };
 
 /// The rounding under which fewest passes fail; of equals the first, unless the second has a tenth fewer failing invocations.
@@ -35,5 +45,9 @@ struct FoundRounding {
 /// that with fewest failures.
 /// `asked`: what the profile asks for, or `either`.
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile);
+
+/// A pass whose undecided invocations could change what the functions above give for any of these passes, or the number of its failures by
+/// the rounding that is found. Nothing: what they give holds. `others`: is_rounding_open is asked too.
+std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes, HalfMode asked, bool others);
 
 }  // namespace rainref::judge

@@ -85,7 +85,7 @@ void settle(const PassCase& c, const PassModel* model, const std::vector<Array>&
 
 ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::vector<Array>& port, const JudgeOptions& options) {
   ModeJudgements result{modes_of(c, options), {}};
-
+  result.rounds_inside = model && model->rounds_inside();
   const bool enveloped = !slots_of(c).empty();
   if (enveloped && !model) throw Error(ExitCode::internal, fmt::format("{}: no evaluation of this pass", c.pass));
   if (enveloped)
@@ -93,7 +93,10 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
   else
     result.judgements.assign(result.modes.size(), CaseJudgement{});
   for (CaseJudgement& j : result.judgements) settle(c, model, port, options, enveloped, j);
-  return result;
+  if (std::none_of(result.judgements.begin(), result.judgements.end(), is_open_by_sample)) return result;
+  JudgeOptions all = options;
+  all.sample = 0;
+  return judge_case(c, model, port, all);
 }
 
 }  // namespace rainref::judge

@@ -10,6 +10,7 @@
 #include "judge/half_votes.h"
 #include "judge/keyed.h"
 #include "judge/null_ports.h"
+#include "judge/sample.h"
 
 namespace rainref::judge {
 namespace {
@@ -43,8 +44,13 @@ HalfVotes votes_of(const std::string& pass, const std::vector<ModeJudgements>& c
   votes.modes = judged->modes;
   votes.rounds_inside = judged->rounds_inside;
   votes.failing.resize(votes.modes.size(), 0);
-  for (const ModeJudgements& c : cases)
-    for (std::size_t m = 0; m < c.modes.size(); ++m) votes.failing[m] += c.judgements[m].failing;
+  votes.undecided.resize(votes.modes.size(), 0);
+  for (const ModeJudgements& c : cases) {
+    for (std::size_t m = 0; m < c.modes.size(); ++m) {
+      votes.failing[m] += c.judgements[m].failing;
+      votes.undecided[m] += c.judgements[m].undecided;
+    }
+  }
   return votes;
 }
 
@@ -57,7 +63,10 @@ void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const 
     pass.half_mode = own.modes[found.mode];
     pass.reason = found.doubt;
     pass.half_mode_voted = own.modes.size() == 3;
-    if (pass.half_mode_voted) std::copy(own.failing.begin(), own.failing.end(), pass.half_votes.begin());
+    for (std::size_t m = 0; pass.half_mode_voted && m < 3; ++m) {
+      pass.half_votes[m] = own.failing[m];
+      pass.half_is_least[m] = own.most(m) != own.failing[m];
+    }
   }
   for (ModeJudgements& c : cases) pass.cases.push_back(std::move(c.judgements[c.modes.empty() ? 0 : found.mode]));
 }
@@ -133,20 +142,27 @@ std::vector<Cause> causes_of_warning(const PassTask& task, const PassJudgement& 
   return causes;
 }
 
-/// A port that does nothing and passes all of these runs; "": none.
+/// A port that does nothing and passes all of these runs, which were settled before; "": none.
 std::string null_port_of(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
   NullPorts ports;
   for (std::size_t k = 0; k < task.runs.count; ++k) {
     PortRun run = task.runs.load(k);
     if (!run.untested.empty()) continue;
-    const std::unique_ptr<PassModel> model = prepare(*task.pass, task.bind, task.runs, run);
-    ports.judge(run.c, model.get(), *options.profile, options.typical, judged.half_mode);
+    const std::unique_ptr<PassModel> model = bound(task.pass->name, task.bind, run.c);
+    ports.judge(run.c, model.get(), *options.profile, options.typical, judged.half_mode, *options.executor);
   }
   return ports.passing();
 }
 
-/// Every run of a pass, under each rounding that may be its port's; what they exercise is added to `coverage`.
-std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options, Exercise& coverage) {
+/// What is asked of a run: its share of what its pass is.
+JudgeOptions options_of_run(const PassModel* model, const PassRuns& runs, JudgeOptions options) {
+  const std::int64_t own = model ? static_cast<std::int64_t>(model->width()) * model->height() : 0;
+  options.sample = sample_of_run(options.sample, own, std::max(own, runs.invocations));
+  return options;
+}
+
+/// Every run of a pass, under each rounding that may be its port's; what they exercise is added to `coverage`, where that is wanted.
+std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options, Exercise* coverage) {
   const PassRuns& runs = task.runs;
   std::vector<ModeJudgements> cases;
   for (std::size_t k = 0; k < runs.count; ++k) {
@@ -156,9 +172,9 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
     if (!run.untested.empty()) {
       cases.push_back(not_judged(run));
     } else {
-      cases.push_back(judge_case(run.c, model.get(), run.stored, options));
-      cases.back().rounds_inside = model && model->rounds_inside();
-      if (runs.counts_coverage) coverage.add(coverage_of(run.c, model.get(), *options.executor));
+      const JudgeOptions of_run = options_of_run(model.get(), runs, options);
+      cases.push_back(judge_case(run.c, model.get(), run.stored, of_run));
+      if (coverage && runs.counts_coverage) coverage->add(coverage_of(run.c, model.get(), *options.executor, of_run.sample));
       for (CaseJudgement& j : cases.back().judgements) {
         if (run.broken.empty()) continue;
         j.status = Status::fail;
@@ -166,7 +182,7 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
         j.broken = true;
       }
     }
-    if (runs.done_one) runs.done_one();
+    if (coverage && runs.done_one) runs.done_one();
   }
   return cases;
 }
@@ -179,14 +195,24 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
   std::vector<HalfVotes> votes;
   std::vector<Exercise> coverage(tasks.size());
   for (const PassTask& task : tasks) {
-    cases.push_back(judge_runs(task, options, coverage[cases.size()]));
+    cases.push_back(judge_runs(task, options, &coverage[cases.size()]));
     votes.push_back(votes_of(task.pass->name, cases.back()));
   }
+  // What one rounding settles is asked under the others where how the port rounds may hang on it.
+  JudgeOptions every = options;
+  every.every_rounding = true;
+  const auto ask_undecided = [&] {
+    while (const auto k = first_undecided(votes, half_mode_of(*options.profile), !voters.empty())) {
+      cases[*k] = judge_runs(tasks[*k], every, nullptr);
+      votes[*k] = votes_of(tasks[*k].pass->name, cases[*k]);
+    }
+  };
+  ask_undecided();
   for (const PassTask& voter : voters) {
     if (!is_rounding_open(votes)) break;
-    Exercise unused;
-    votes.push_back(votes_of(voter.pass->name, judge_runs(voter, options, unused)));
+    votes.push_back(votes_of(voter.pass->name, judge_runs(voter, every, nullptr)));
   }
+  ask_undecided();
   std::vector<PassJudgement> all;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const PassTask& task = tasks[k];

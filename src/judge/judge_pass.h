@@ -1,6 +1,7 @@
 // Judging every run of each pass that a port made, one run in memory at a time.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -49,12 +50,14 @@ using Explain = std::function<Explanation(const FailedRun&)>;
 
 struct PassRuns {
   std::size_t count = 0;
+  std::int64_t invocations = 0;  ///< of all runs together, which share a sample; 0: each has its own
   LoadRun load;
   SettleRun settle;
   std::function<void()> done_one;  ///< after each run; may be null
   Explain explain;                 ///< asked about a pass that fails, or warns of elements; may be null
-  bool tries_null_ports = false;   ///< a pass that a port passes which does nothing is UNTESTED
-  bool counts_coverage = false;    ///< PassJudgement::coverage is wanted
+  /// A pass that a port passes which does nothing is UNTESTED. What `settle` leaves of c.outputs is then what `load` gives.
+  bool tries_null_ports = false;
+  bool counts_coverage = false;  ///< PassJudgement::coverage is wanted
 };
 
 /// A pass and what the port has of it. `bind` may be null when no output of the pass is judged by envelope; keyed records

@@ -1,10 +1,14 @@
 #include "judge/null_ports.h"
 
 #include <algorithm>
+#include <atomic>
+#include <optional>
 
 #include "judge/bits.h"
 #include "judge/invocation_judge.h"
 #include "judge/keyed.h"
+#include "judge/reference_bits.h"
+#include "judge/sample.h"
 #include "judge/slots.h"
 
 namespace rainref::judge {
@@ -43,9 +47,33 @@ bool is_expected(const PassCase& c, const std::vector<Array>& port) {
   }
   return true;
 }
+/// Whether every invocation lies inside. A few all over the picture are asked first: most such ports fail there.
+bool is_inside(const PassCase& c, const capture::PassModel& model, const std::vector<Array>& port, const enclosed::Profile& profile,
+               const enclosed::Profile* typical, HalfMode mode, const parallel::Executor& executor) {
+  const std::vector<Slot> slots = slots_of(c, model);
+  const std::vector<HalfMode> modes{mode};
+  const ReferenceBits bits(c, model, port, slots, modes);
+  const InvocationJudge by_profile(c, model, profile, mode);
+  std::optional<InvocationJudge> by_typical;
+  if (typical) by_typical.emplace(c, model, *typical, mode);
+  const auto accepts = [&](int x, int y) {
+    return bits.has(0, x, y) || (by_profile.accepts(x, y, port) == Accepted::as_written &&
+                                 (!by_typical || by_typical->accepts(x, y, port) == Accepted::as_written));
+  };
+  constexpr std::int64_t few = 256;
+  const Sample some(c, model, few);
+  std::atomic<bool> is_every = true;
+  some.each(1, [&](int x, int y) { is_every = is_every && accepts(x, y); });
+  if (some.is_whole() || !is_every) return is_every;
+  executor.for_tiles(model.width(), model.height(), model.width(), 1, [&](const parallel::Tile& tile) {
+    for (int x = tile.x0; x < tile.x1 && is_every; ++x)
+      if (!accepts(x, tile.y0)) is_every = false;
+  });
+  return is_every;
+}
 /// What the profile leaves without a useful bound must lie inside what known devices do, as in any judgement.
 bool passes(const PassCase& c, const capture::PassModel* model, const std::vector<Array>& port, const enclosed::Profile& profile,
-            const enclosed::Profile* typical, HalfMode mode) {
+            const enclosed::Profile* typical, HalfMode mode, const parallel::Executor& executor) {
   if (is_expected(c, port)) return true;
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     const capture::CaseOutput& out = c.outputs[o];
@@ -55,15 +83,7 @@ bool passes(const PassCase& c, const capture::PassModel* model, const std::vecto
         judge_keyed(out, port[o], model ? model->keyed(out.name) : nullptr, profile).failing > 0)
       return false;
   }
-  if (slots_of(c).empty()) return true;
-  for (const enclosed::Profile* rules : {&profile, typical}) {
-    if (!rules) continue;
-    const InvocationJudge judge(c, *model, *rules, mode);
-    for (int y = 0; y < model->height(); ++y)
-      for (int x = 0; x < model->width(); ++x)
-        if (judge.accepts(x, y, port) != Accepted::as_written) return false;
-  }
-  return true;
+  return slots_of(c).empty() || is_inside(c, *model, port, profile, typical, mode, executor);
 }
 
 }  // namespace
@@ -85,13 +105,13 @@ std::vector<NullPort> null_ports(const PassCase& c) {
 }
 
 void NullPorts::judge(const PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile,
-                      const enclosed::Profile* typical, HalfMode mode) {
+                      const enclosed::Profile* typical, HalfMode mode, const parallel::Executor& executor) {
   if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) return;
   if (judged_ && passing_.empty()) return;
   std::vector<std::string> still;
   for (const NullPort& port : null_ports(c)) {
     if (judged_ && std::find(passing_.begin(), passing_.end(), port.what) == passing_.end()) continue;
-    if (passes(c, model, port.outputs, profile, typical, mode)) still.push_back(port.what);
+    if (passes(c, model, port.outputs, profile, typical, mode, executor)) still.push_back(port.what);
   }
   passing_ = std::move(still);
   judged_ = true;

@@ -22,9 +22,9 @@ std::vector<NullPort> null_ports(const capture::PassCase& c);
 class NullPorts {
  public:
   /// `model` may be null where no output is judged by envelope, `typical` as in JudgeOptions: one that a judgement would warn of
-  /// does not pass. Cases that are taken as data say nothing.
+  /// does not pass. Cases that are taken as data say nothing. c.outputs must be what the reference gives.
   void judge(const capture::PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile,
-             const enclosed::Profile* typical, HalfMode mode);
+             const enclosed::Profile* typical, HalfMode mode, const parallel::Executor& executor);
   /// One that passes every case; "" where none does, or nothing was judged.
   std::string passing() const { return judged_ && !passing_.empty() ? passing_.front() : ""; }
 

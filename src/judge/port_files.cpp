@@ -40,7 +40,8 @@ std::string unusable_text(const std::vector<FileFault>& faults, const std::strin
   return fmt::format("{}", fmt::join(buffers, ", "));
 }
 
-PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::string& variant) : folder_(std::move(folder)) {
+PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::string& variant, std::shared_ptr<ReadBuffers> buffers)
+    : folder_(std::move(folder)), buffers_(std::move(buffers)) {
   for (const capture::BufferInfo& buffer : registry::effect_of_pack(effect).info->buffers)
     if ((buffer.variant.empty() || buffer.variant == variant) && (buffer.alpha == "1" || buffer.alpha == "opaque"))
       alpha_1_.insert(buffer.name);
@@ -53,12 +54,25 @@ PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::stri
 }
 
 capture::Array PortFiles::read(const fs::path& run, const std::string& stem, const capture::Array& expected) {
+  // A level may be read by itself: the file alone does not say which buffer it is.
+  const std::string key = fmt::format("{} {} {}x{} {}", (folder_ / run / stem).string(), rainref::info(expected.format).name,
+                                      expected.width, expected.height, expected.levels.size());
+  if (buffers_ && buffers_->arrays.contains(key)) return buffers_->arrays[key];
   port_dump::ReadNotes notes;
   const bool is_opaque = alpha_1_.contains(stem.substr(stem.find('.') + 1));  // behind "in." or "out."
   capture::Array array = port_dump::read_port_buffer(folder_ / run, stem, expected, info_, notes,
                                                      is_opaque ? port_dump::Alpha::one : port_dump::Alpha::stored);
   for (const std::string& note : notes.lines)
     if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+  if (buffers_) {
+    constexpr std::size_t most = std::size_t{128} << 20;  // a small pack's buffers are a few MiB
+    std::size_t bytes = buffers_->bytes;
+    for (const std::vector<std::byte>& level : array.levels) bytes += level.size();
+    if (bytes <= most) {
+      buffers_->arrays[key] = array;
+      buffers_->bytes = bytes;
+    }
+  }
   return array;
 }
 

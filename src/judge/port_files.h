@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -41,12 +43,19 @@ Error files_error(const std::vector<FileFault>& faults);
 /// "out.colour, out.mask": the buffers of one run whose files cannot be used; "" where there are none.
 std::string unusable_text(const std::vector<FileFault>& faults, const std::string& id);
 
+/// What was read of ports' files, for whoever asks for it again: the first buffers that come, up to a size. The rest is read anew.
+struct ReadBuffers {
+  std::map<std::string, capture::Array> arrays;  ///< by file and shape
+  std::size_t bytes = 0;                         ///< of them all
+};
+
 /// A port's folder.
 class PortFiles {
  public:
   /// Reads port.json. Error(port_files) when there is no such folder. Of this effect's buffers those whose alpha is declared as the
-  /// constant 1 may be stored without it.
-  PortFiles(std::filesystem::path folder, const std::string& effect, const std::string& variant);
+  /// constant 1 may be stored without it. `buffers`: where to find and keep what is read; null: nowhere.
+  PortFiles(std::filesystem::path folder, const std::string& effect, const std::string& variant,
+            std::shared_ptr<ReadBuffers> buffers = nullptr);
   const std::filesystem::path& folder() const { return folder_; }
   const port_dump::PortInfo& info() const { return info_; }
   /// A buffer as port_dump::read_port_buffer gives it; `run` is the folder of the run.
@@ -58,6 +67,7 @@ class PortFiles {
   std::filesystem::path folder_;
   std::set<std::string> alpha_1_;  ///< buffers
   port_dump::PortInfo info_;
+  std::shared_ptr<ReadBuffers> buffers_;
   std::vector<std::string> notes_;
 };
 

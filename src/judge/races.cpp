@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "judge/conclude.h"
-#include "judge/port_files.h"
 
 namespace rainref::judge {
 namespace {
@@ -30,9 +29,10 @@ std::string Race::text() const {
                      differing, of, records ? "records" : "elements");
 }
 
-Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::vector<std::string>& passes) {
+Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::vector<std::string>& passes,
+                 const std::shared_ptr<ReadBuffers>& buffers) {
   std::vector<PortFiles> ports;
-  for (const std::filesystem::path& folder : runs) ports.emplace_back(folder, pack.effect, pack.variant);
+  for (const std::filesystem::path& folder : runs) ports.emplace_back(folder, pack.effect, pack.variant, ports.empty() ? buffers : nullptr);
   std::vector<Race> races;
   FileFaults first_run, later_runs;
   for (const capture::PackCase& entry : pack.cases) {

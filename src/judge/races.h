@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "capture/pack_read.h"
+#include "judge/port_files.h"
 #include "judge/verdict.h"
 
 namespace rainref::judge {
@@ -26,8 +28,9 @@ struct Races {
 };
 
 /// Compares what runs of a port wrote, each in a folder of its own, bit for bit, for all outputs of these passes that are
-/// judged and that the first run has.
-Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::vector<std::string>& passes);
+/// judged and that the first run has. `buffers`: what was read of the first run; null: nothing yet.
+Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::vector<std::string>& passes,
+                 const std::shared_ptr<ReadBuffers>& buffers = nullptr);
 
 /// Makes each pass with a race fail; concludes anew.
 void add_races(const std::vector<Race>& races, PortJudgement& judgement);

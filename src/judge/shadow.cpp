@@ -41,7 +41,9 @@ struct Run {
 class Shadow {
  public:
   Shadow(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options)
-      : plan_(plan), files_(folder, plan.effect, plan.variant), options_(options) {
+      : plan_(plan),
+        files_(folder, plan.effect, plan.variant, options.buffers ? options.buffers : std::make_shared<ReadBuffers>()),
+        options_(options) {
     for (const PlannedRun& r : plan.runs) runs_.push_back({r.c.folder(), r.c.pass, r.c.frame, r.c.step, r.c.level, &r, &r, false});
     for (const DumpedRun& d : dumped) {
       const auto known = std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == d.id; });
@@ -77,7 +79,9 @@ class Shadow {
       if (may_run(pass.name)) (is_wanted(pass.name) ? tasks : voters).push_back(task_of(pass));
     const enclosed::Profile& chosen = profile(options_.profile);
     result.passes = judge_passes(
-        tasks, {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())}, voters);
+        tasks,
+        {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info()), options_.sample},
+        voters);
     for (PassJudgement& judged : result.passes) settle(judged);
     result.files = faults_.all();
     set_first_bad(result);
@@ -209,6 +213,10 @@ class Shadow {
     std::stable_sort(own.begin(), own.end(), [](const Run* a, const Run* b) { return a->order() < b->order(); });
     PassRuns runs;
     runs.count = any ? own.size() : 0;
+    for (const Run* run : own)
+      if (run->is_dumped)
+        runs.invocations += invocations_of(
+            run->like->c.outputs, [](const auto& o) -> const auto& { return o.array; });
     runs.settle = [this, &pass](PortRun& run, const capture::PassModel* model) { settle(pass, run, model); };
     runs.load = [this, own](std::size_t k) { return load(*own[k]); };
     if (!is_wanted(pass.name)) return {&pass, binder(plan_.effect, pass.name), std::move(runs)};

@@ -18,22 +18,9 @@
 namespace rainref::judge {
 namespace {
 
-using capture::Array;
 using capture::Pack;
 using capture::PackCase;
 using capture::PackPass;
-using capture::PassCase;
-
-std::vector<Array> read_outputs(PortFiles& port, const PassCase& c) {
-  std::vector<Array> out;
-  for (const capture::CaseOutput& o : c.outputs) {
-    out.push_back(o.judge == capture::Judge::input_only ? o.array : port.read(c.folder(), "out." + o.name, o.array));
-    if (is_placed(o) && out.back().width != o.array.width)
-      throw Error(ExitCode::port_files,
-                  fmt::format("'{}/out.{}': expected {} records, found {}", c.folder(), o.name, o.array.width, out.back().width));
-  }
-  return out;
-}
 
 bool is_judged(const capture::PackOutput& output) { return output.rules.judge != capture::Judge::input_only; }
 bool is_judged(const PackCase& c) {
@@ -44,12 +31,6 @@ bool stores_halves(const PackCase& c) {
   return std::any_of(c.outputs.begin(), c.outputs.end(),
                      [](const capture::PackOutput& o) { return !o.shape.is_records && info(o.shape.format).kind == FormatInfo::float16; });
 }
-
-/// What there is of a port's outputs.
-struct FoundFiles {
-  std::set<std::string> absent;  ///< passes without any file, where these may be
-  FileFaults faults;
-};
 
 /// Whether anything like an output lies in the folder of a pass, under whatever run: a name that is wrong is no reason to
 /// believe that nothing was meant.
@@ -75,35 +56,44 @@ std::set<std::string> passes_without_files(const Pack& pack, const PortFiles& po
   return judged;
 }
 
-/// Reads every file of the port once, before anything is judged.
-FoundFiles check_files(const Pack& pack, const ValidateOptions& options, PortFiles& port) {
-  FoundFiles found;
-  if (options.partial) found.absent = passes_without_files(pack, port);
-  // Of a folder where nothing is one sentence says more than one for each file.
+/// Of a folder where nothing is one sentence says more than one for each file. `absent`: passes that may lack files.
+void require_any_folder(const Pack& pack, const ValidateOptions& options, const std::set<std::string>& absent, const PortFiles& port) {
   const auto may_be_there = [&](const PackCase& c) { return is_judged(c) && (options.partial || options.wants(c.pass)); };
   const auto first = std::find_if(pack.cases.begin(), pack.cases.end(), may_be_there);
   std::error_code ignored;
   if (first != pack.cases.end() && std::none_of(pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) {
-        return may_be_there(c) && !found.absent.contains(c.pass) && std::filesystem::is_directory(port.folder() / c.id, ignored);
+        return may_be_there(c) && !absent.contains(c.pass) && std::filesystem::is_directory(port.folder() / c.id, ignored);
       }))
     throw Error(ExitCode::port_files,
                 fmt::format("{}: expected folders such as {} with the port's outputs, found none", port.folder().string(), first->id));
-  for (const PackCase& entry : pack.cases) {
-    if (!options.wants(entry.pass) || found.absent.contains(entry.pass)) continue;
-    for (const capture::PackOutput& output : entry.outputs) {
-      if (!is_judged(output)) continue;
-      capture::Array shape = output.shape;
-      shape.levels.resize(output.levels.size());
-      const std::string stem = "out." + output.name;
-      found.faults.attempt(entry.pass, entry.id, stem, [&] {
-        require_apart(pack.folder() / output.levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, stem).path,
-                      ExitCode::port_files);
-        port.read(entry.id, stem, shape);
-      });
+}
+
+/// A case with what the port gave for it, and what is wrong with its files.
+PortRun read_run(const Pack& pack, const PackCase& entry, PortFiles& port, FileFaults& faults) {
+  PortRun run;
+  run.c = read_case(pack, entry);
+  for (std::size_t o = 0; o < entry.outputs.size(); ++o) {
+    const capture::CaseOutput& output = run.c.outputs[o];
+    if (!is_judged(entry.outputs[o])) {
+      run.stored.push_back(output.array);
+      continue;
     }
+    const std::string stem = "out." + output.name;
+    faults.attempt(entry.pass, entry.id, stem, [&] {
+      require_apart(pack.folder() / entry.outputs[o].levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, stem).path,
+                    ExitCode::port_files);
+      run.stored.push_back(port.read(entry.id, stem, output.array));
+      if (is_placed(output) && run.stored.back().width != output.array.width)
+        throw Error(ExitCode::port_files,
+                    fmt::format("'{}/{}': expected {} records, found {}", entry.id, stem, output.array.width, run.stored.back().width));
+    });
   }
-  found.faults.require_files();
-  return found;
+  faults.require_files();
+  if (const std::string unusable = unusable_text(faults.all(), entry.id); !unusable.empty()) {
+    run.has_no_files = true;
+    run.untested = fmt::format("{}: missing, or cannot be used", unusable);
+  }
+  return run;
 }
 
 PassJudgement without_files(const PackPass& pass) {
@@ -116,6 +106,16 @@ PassJudgement without_files(const PackPass& pass) {
 }
 
 }  // namespace
+
+PortJudgement unjudged(const Pack& pack, const std::string& profile) {
+  PortJudgement j;
+  j.pack = pack.folder().string();
+  j.profile = profile;
+  j.effect = pack.effect;
+  j.variant = pack.variant;
+  j.scene = pack.scene;
+  return j;
+}
 
 void describe_port(const port_dump::PortInfo& info, PortJudgement& j) {
   j.api = info.api;
@@ -135,45 +135,39 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
   check_pack(pack);
   require_apart(pack.folder(), folder, ExitCode::usage);
-  PortFiles port(folder, pack.effect, pack.variant);
-  const FoundFiles found = check_files(pack, options, port);
+  const std::shared_ptr<ReadBuffers> buffers = options.buffers ? options.buffers : std::make_shared<ReadBuffers>();
+  PortFiles port(folder, pack.effect, pack.variant, buffers);
+  PortFiles other_files(folder, pack.effect, pack.variant, buffers);  // what is said of a voter's files is said when it is judged
+  const std::set<std::string> absent = options.partial ? passes_without_files(pack, port) : std::set<std::string>();
+  require_any_folder(pack, options, absent, port);
 
-  PortJudgement result;
-  result.pack = pack.folder().string();
+  PortJudgement result = unjudged(pack, options.profile);
   result.port = folder.string();
-  result.profile = options.profile;
-  result.effect = pack.effect;
-  result.variant = pack.variant;
-  result.scene = pack.scene;
   describe_port(port.info(), result);
 
-  const JudgeOptions how{&chosen, chosen.reference ? nullptr : &profile("typical"), options.executor, declared_mode(port.info())};
+  const JudgeOptions how{&chosen, chosen.reference ? nullptr : &profile("typical"), options.executor, declared_mode(port.info()),
+                         options.sample};
   int done = 0;
-  const auto wanted = static_cast<int>(std::count_if(
-      pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) { return options.wants(c.pass) && !found.absent.contains(c.pass); }));
+  const auto wanted = static_cast<int>(std::count_if(pack.cases.begin(), pack.cases.end(),
+                                                     [&](const PackCase& c) { return options.wants(c.pass) && !absent.contains(c.pass); }));
   std::vector<PassTask> tasks, voters;
-  FileFaults unread;
-  PortFiles other_files(folder, pack.effect, pack.variant);  // what is said of a voter's files is said when it is judged
+  std::vector<FileFaults> faults(pack.cases.size());
   for (const PackPass& pass : pack.passes) {
     const bool is_wanted = options.wants(pass.name);
-    if (is_wanted && found.absent.contains(pass.name)) continue;
+    if (is_wanted && absent.contains(pass.name)) continue;
     std::vector<const PackCase*> cases;
     for (const PackCase& entry : pack.cases)
       if (entry.pass == pass.name) cases.push_back(&entry);
     if (!is_wanted && (cases.empty() || !stores_halves(*cases.front()))) continue;
     PassRuns runs;
     runs.count = cases.size();
+    for (const PackCase* c : cases)
+      runs.invocations += invocations_of(
+          c->outputs, [](const auto& o) -> const auto& { return o.shape; });
     runs.load = [&, cases, is_wanted](std::size_t k) {
-      PortRun run;
-      run.c = read_case(pack, *cases[k]);
-      const std::string id = cases[k]->id;
-      if (!is_wanted) unread.attempt(run.c.pass, id, "its outputs", [&] { run.stored = read_outputs(other_files, run.c); });
-      if (const std::string unusable = unusable_text(is_wanted ? found.faults.all() : unread.all(), id); !unusable.empty()) {
-        run.has_no_files = true;
-        run.untested = fmt::format("{}: missing, or cannot be used", unusable);
-      } else if (is_wanted) {
-        run.stored = read_outputs(port, run.c);
-      }
+      FileFaults own;
+      PortRun run = read_run(pack, *cases[k], is_wanted ? port : other_files, own);
+      if (is_wanted) faults[static_cast<std::size_t>(cases[k] - pack.cases.data())] = own;
       return run;
     };
     runs.settle = [&](PortRun& run, const capture::PassModel* model) {
@@ -191,8 +185,8 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   std::vector<PassJudgement> judged = judge_passes(tasks, how, voters);
   auto next = judged.begin();
   for (const PackPass& pass : pack.passes)
-    if (options.wants(pass.name)) result.passes.push_back(found.absent.contains(pass.name) ? without_files(pass) : std::move(*next++));
-  result.files = found.faults.all();
+    if (options.wants(pass.name)) result.passes.push_back(absent.contains(pass.name) ? without_files(pass) : std::move(*next++));
+  for (const FileFaults& own : faults) result.files.insert(result.files.end(), own.all().begin(), own.all().end());
   result.notes = port.notes();
   conclude(result);
   return result;

@@ -64,6 +64,10 @@ struct QuantityJudgement {
   double median_codes = 0, p99_codes = 0;  ///< of its envelopes, as OutputJudgement::median_width
   double median_width = 0, p99_width = 0;  ///< the same in its unit
   double farthest = 0;                     ///< an element outside from what is accepted, in its unit; infinity where that has no end
+  std::int64_t unsampled = 0;              ///< as OutputJudgement::unsampled
+
+  /// Those whose widths were asked for; vacuous and loose ones are of these.
+  std::int64_t sampled() const { return elements - free - unsampled; }
 };
 
 /// One output of a pass over one case.
@@ -79,12 +83,13 @@ struct OutputJudgement {
   std::int64_t vacuous = 0;                ///< envelope wider than 1/16 of the declared range; of a record's field of its own
   std::int64_t loose = 0;                  ///< wider than 1/256
   std::int64_t atypical = 0;               ///< inside the profile, as far as it bounds them, but outside what known devices do
-  std::int64_t open = 0;                   ///< of invocations that the profile leaves without a bound in some alternative
+  std::int64_t open = 0;                   ///< of invocations, where asked, that the profile leaves without a bound in some alternative
   std::int64_t beyond = 0;                 ///< of these: outside what the coarsest device may do (judge/beyond.h)
   std::int64_t typical = 0;                ///< of the vacuous: inside what known devices do, which bounds them
   std::int64_t unbounded = 0;              ///< of the vacuous: not bounded by that either, or not judged by it
   std::int64_t rearranged = 0;             ///< outside the formula as written, inside the rearrangements that the profile allows
   std::int64_t free = 0;                   ///< declared as not reproducible: held to a range of its own
+  std::int64_t unsampled = 0;              ///< beside the sample: vacuous, loose, typical, unbounded and the widths are not of these
   std::string known;                       ///< why the baseline lets it fail; "": it does not
   double median_width = 0, p99_width = 0;  ///< of the accepted codes, in codes: 0 where one code is accepted
   /// The same of every rearrangement, of each 64th invocation; below 0 where the profile or the pass has none.
@@ -96,6 +101,9 @@ struct OutputJudgement {
   std::vector<std::uint8_t> map;
   /// In order of channels, or of fields without the id.
   std::vector<QuantityJudgement> quantities;
+
+  /// Those whose envelopes were asked for widths and shares.
+  std::int64_t sampled() const { return elements - free - unsampled; }
 };
 
 /// One case of a pass.
@@ -115,6 +123,11 @@ struct CaseJudgement {
   /// Of the failing: accepted, and near what the profile's own rearrangements give, if products of sums were multiplied out, which no
   /// compiler is seen to do.
   std::int64_t expanded = 0;
+  /// One of so many invocations was drawn for what is said of widths and shares (judge/sample.h): ambiguous, other_branch, gave_up, and
+  /// those of the outputs. 1: all were asked.
+  std::int64_t stride = 1;
+  double unbounded_margin = 0;  ///< as Sample::margin, of unbounded elements
+  std::int64_t undecided = 0;   ///< not asked about under this rounding of stores to binary16, which the other one settles
   std::vector<OutputJudgement> outputs;
 };
 
@@ -136,9 +149,10 @@ struct Explanation {
 /// What the pack's runs exercise of a pass text, whatever the port did.
 struct PassCoverage {
   int taken = 0, alternatives = 0;  ///< as Exercise (coverage.h) names them; 0: its outputs are only given
-  /// Those not taken for which no reason is known: "shade.pass.h, refract total reflection: const Vec3<N> bent = ...".
+  /// Those not taken for which no reason is known: "shade.pass.h, shade_corrected: clamp 2, below".
   std::vector<std::string> never;
   std::map<std::string, std::string> reasons{};  ///< of the others not taken
+  bool is_sampled = false;                       ///< by a sample of the invocations: another one may take more
 };
 
 struct PassJudgement {
@@ -148,6 +162,7 @@ struct PassJudgement {
   bool inputs_are_good = true;  ///< every pass before it, on which it depends, passed
   HalfMode half_mode = HalfMode::either;
   std::array<std::int64_t, 3> half_votes{};  ///< failing invocations under rne, rtz, either
+  std::array<bool, 3> half_is_least{};       ///< of these only the least: not every invocation had to be asked
   bool half_mode_voted = false;
   std::vector<CaseJudgement> cases;
   std::vector<Cause> causes;  ///< best first; empty: unknown. Of a WARN the likely one alone

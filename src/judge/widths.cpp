@@ -17,7 +17,7 @@ double quantile_of(std::vector<T>& values, double share) {
 
 void add_counts(QuantityJudgement& to, const QuantityJudgement& from) {
   for (auto counter : {&QuantityJudgement::elements, &QuantityJudgement::failing, &QuantityJudgement::vacuous, &QuantityJudgement::loose,
-                       &QuantityJudgement::free})
+                       &QuantityJudgement::free, &QuantityJudgement::unsampled})
     to.*counter += from.*counter;
   to.farthest = std::max(to.farthest, from.farthest);
 }
@@ -50,6 +50,11 @@ void Widths::add_unbounded(int quantity) {
   ++q.counts.elements;
   ++q.counts.vacuous;
   ++q.counts.loose;
+}
+void Widths::add_unsampled(int quantity) {
+  Quantity& q = at(quantity);
+  ++q.counts.elements;
+  ++q.counts.unsampled;
 }
 void Widths::add_free(int quantity) {
   Quantity& q = at(quantity);

@@ -43,7 +43,8 @@ judge::PortJudgement judged(const CaseList& cases, const JudgeOptions& o, const 
   const enclosed::Profile& profile = judge::judging_profile(o.profile);
   std::optional<judge::HalfMode> half;
   if (o.half) half = *o.half == Rounding::rne ? judge::HalfMode::rne : judge::HalfMode::rtz;
-  const judge::JudgeOptions options{&profile, profile.reference ? nullptr : &judge::profile("typical"), &executor, half};
+  const judge::JudgeOptions options{&profile, profile.reference ? nullptr : &judge::profile("typical"), &executor, half,
+                                    o.exhaustive ? 0 : judge::least_sample};
   std::vector<judge::PassTask> tasks;
   for (const capture::PackPass& pass : cases.passes()) {
     std::vector<const Run*> own;
@@ -52,6 +53,9 @@ judge::PortJudgement judged(const CaseList& cases, const JudgeOptions& o, const 
     if (std::none_of(own.begin(), own.end(), [](const Run* r) { return r->has_any(); })) continue;
     judge::PassRuns all;
     all.count = own.size();
+    for (const Run* run : own)
+      all.invocations += judge::invocations_of(
+          run->c->outputs, [](const auto& output) -> const auto& { return output.array; });
     all.explain = faults::diagnose;
     all.tries_null_ports = true;
     all.counts_coverage = cases.pack() != nullptr;
@@ -138,7 +142,8 @@ Verdict verdict_of(const judge::PortJudgement& j) {
   for (const judge::PassJudgement& p : j.passes) {
     const reports::Figures f = reports::figures_of(p);
     PassVerdict pass{p.pass,     p.formula, judge::name(p.status), p.reason,  p.where, static_cast<std::int64_t>(p.cases.size()),
-                     f.judged(), f.outside, f.differing,           f.vacuous, {},      worst_of(p)};
+                     f.judged(), f.outside, f.differing,           f.vacuous, {},      worst_of(p),
+                     f.sampled()};
     for (const judge::Cause& c : p.causes) pass.causes.push_back({c.name, c.sentence, c.explained, c.of, c.inside, c.is_likely});
     v.passes.push_back(std::move(pass));
   }
@@ -146,8 +151,8 @@ Verdict verdict_of(const judge::PortJudgement& j) {
 }
 
 std::string Judged::text() const { return reports::report_text(judged); }
-std::string Judged::json() const { return reports::report_json(judged, reports::exit_code(judged, false)); }
-std::string Judged::html() const { return reports::report_html(judged, source); }
+std::string Judged::json() const { return reports::report_json(judged, reports::exit_code(judged, false), source); }
+std::string Judged::html() const { return reports::report_html(judged, reports::exit_code(judged, false), source); }
 std::string Judged::junit() const { return reports::report_junit(judged, false); }
 
 Judged judge_cases(const CaseList& cases, const JudgeOptions& options, const parallel::Executor& executor) {

@@ -1,29 +1,69 @@
 #include "judging/judge_folder.h"
 
-#include <memory>
+#include <fmt/format.h>
 
 #include "faults/diagnose.h"
 #include "judge/conclude.h"
 #include "judge/profiles.h"
-#include "judge/validate.h"
+#include "judge/races.h"
+#include "judge/shadow.h"
 
 namespace rainref::judging {
+namespace {
 
-Judged judge_folder(const std::filesystem::path& pack, const std::filesystem::path& port, const FolderOptions& o,
-                    const parallel::Executor& executor) {
-  static_cast<void>(judge::judging_profile(o.profile));
-  const auto opened = std::make_shared<const capture::Pack>(pack);
-  judge::ValidateOptions options;
-  options.profile = o.profile;
-  options.only = o.passes;
-  options.partial = o.partial;
-  options.executor = &executor;
-  options.progress = o.progress;
-  options.explain = faults::diagnose;
-  judge::PortJudgement judged = judge::validate(*opened, port, options);
-  if (o.strict) judge::fail_warnings(judged);
-  Verdict verdict = verdict_of(judged);
-  return {std::move(judged), reports::page_source(opened, port), std::move(verdict)};
+/// The judge's part of the options, with causes and with what is read of the port.
+judge::ValidateOptions judge_options(const FolderOptions& o) {
+  judge::ValidateOptions options = o;
+  options.buffers = std::make_shared<judge::ReadBuffers>();
+  options.explain = nullptr;
+  if (o.seeks_causes)
+    options.explain = [at_cause = o.at_cause](const judge::FailedRun& failed) {
+      if (at_cause) at_cause(failed.pass.name);
+      return faults::diagnose(failed);
+    };
+  return options;
+}
+
+void find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const judge::ValidateOptions& options,
+                judge::PortJudgement& judgement) {
+  std::vector<std::string> judged;
+  for (const judge::PassJudgement& pass : judgement.passes)
+    if (!pass.cases.empty()) judged.push_back(pass.pass);
+  const judge::Races races = judge::find_races(pack, runs, judged, options.buffers);
+  judge::add_races(races.found, judgement);
+  judgement.files.insert(judgement.files.end(), races.files.begin(), races.files.end());
+  judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
+}
+
+Judged with_verdict(judge::PortJudgement judgement, reports::PageSource source, const FolderOptions& o) {
+  if (o.strict) judge::fail_warnings(judgement);
+  Verdict verdict = verdict_of(judgement);
+  return {std::move(judgement), std::move(source), std::move(verdict)};
+}
+
+}  // namespace
+
+void check_request(const capture::Pack& pack, const FolderOptions& options) {
+  static_cast<void>(judge::judging_profile(options.profile));
+  for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
+}
+
+Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std::vector<std::filesystem::path>& runs,
+                    const FolderOptions& o) {
+  check_request(*pack, o);
+  const judge::ValidateOptions options = judge_options(o);
+  judge::PortJudgement judgement = judge::validate(*pack, runs.front(), options);
+  if (runs.size() > 1) find_races(*pack, runs, options, judgement);
+  return with_verdict(std::move(judgement), reports::page_source(pack, runs.front(), options.buffers), o);
+}
+
+Judged judge_dumps(const std::shared_ptr<const judge::ShadowPlan>& plan, const std::filesystem::path& folder,
+                   const std::vector<judge::DumpedRun>& dumped, const FolderOptions& o) {
+  judge::ValidateOptions options = judge_options(o);
+  judge::PortJudgement judgement = judge::shadow(*plan, folder, dumped, options);
+  options.progress = nullptr;
+  options.explain = nullptr;
+  return with_verdict(std::move(judgement), reports::page_source(plan, folder, dumped, options), o);
 }
 
 }  // namespace rainref::judging

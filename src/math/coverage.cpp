@@ -1,6 +1,15 @@
 #include "math/coverage.h"
 
 namespace rainref::perturbed {
+namespace {
+
+/// Decisions within lookups and the vocabulary's functions are parts of those of the line that calls them.
+bool is_part(std::string_view file) {
+  const std::string_view name = file.substr(file.rfind('/') + 1);
+  return name.starts_with("sampling") || name.starts_with("vocabulary");
+}
+
+}  // namespace
 
 std::string_view name(DecisionKind kind) {
   switch (kind) {
@@ -38,8 +47,27 @@ std::string_view side_name(DecisionKind kind, int side) {
   }
 }
 
-void Coverage::met(const char* file, int line, DecisionKind kind, int side) {
-  ++counts_[{file, line, kind}][static_cast<std::size_t>(side)];
+void Sides::add(const Sides& other) {
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    counts[k] += other.counts[k];
+    if (reasons[k].empty()) reasons[k] = other.reasons[k];
+  }
+}
+
+void Coverage::met(const Site& site, DecisionKind kind, int side) {
+  last_ = nullptr;
+  if (is_part(site.file)) return;
+  last_ = &*sides_.try_emplace({site.file, site.line, kind, site.function}).first;
+  ++last_->second.counts[static_cast<std::size_t>(side)];
+}
+void Coverage::guarded(const char* reason, int side) {
+  if (!last_) return;
+  auto& [key, sides] = *last_;
+  const bool has_outer = perturbed::sides(key.kind) == 3;
+  if (side < 0 && has_outer)
+    sides.reasons[0] = sides.reasons[2] = reason;
+  else
+    sides.reasons[static_cast<std::size_t>(side < 0 ? 1 : side)] = reason;
 }
 
 void Coverage::addressed(const char* rule, DecisionKind kind, int side) {
@@ -48,37 +76,36 @@ void Coverage::addressed(const char* rule, DecisionKind kind, int side) {
 }
 
 void Coverage::settle(const float* texel) {
-  for (std::size_t k = 0; k < open_; ++k)
-    ++counts_[{opened_[k].rule, 0, opened_[k].kind, texel}][static_cast<std::size_t>(opened_[k].side)];
+  for (std::size_t k = 0; k < open_; ++k) {
+    last_ = &*sides_.try_emplace({opened_[k].rule, 0, opened_[k].kind, "", texel}).first;
+    ++last_->second.counts[static_cast<std::size_t>(opened_[k].side)];
+  }
   open_ = 0;
 }
 
 void Coverage::name_inputs(const std::function<std::string(const float*)>& name_of) {
-  std::map<Key, Counts> named;
-  for (const auto& [key, counts] : counts_) {
+  std::map<Key, Sides> named;
+  for (const auto& [key, sides] : sides_) {
     Key with_name = key;
     if (key.texel) with_name.input = name_of(key.texel);
     with_name.texel = nullptr;
-    for (std::size_t k = 0; k < counts.size(); ++k) named[with_name][k] += counts[k];
+    named[with_name].add(sides);
   }
-  counts_ = std::move(named);
+  sides_ = std::move(named);
+  last_ = nullptr;
 }
 
 void Coverage::add(const Coverage& other) {
-  for (const auto& [key, counts] : other.counts_)
-    for (std::size_t k = 0; k < counts.size(); ++k) counts_[key][k] += counts[k];
+  for (const auto& [key, sides] : other.sides_) sides_[key].add(sides);
 }
 
-std::map<Decision, Coverage::Counts> Coverage::decisions() const {
-  std::map<Decision, Counts> out;
-  for (const auto& [key, counts] : counts_) {
+std::map<Decision, Sides> Coverage::decisions() const {
+  std::map<Decision, Sides> out;
+  for (const auto& [key, sides] : sides_) {
     std::string_view file = key.file;
-    const std::size_t name = file.rfind('/') + 1;
-    // Parts of lookups and of the vocabulary's functions are met under the line that calls them.
-    if (file.substr(name).starts_with("sampling") || file.substr(name).starts_with("vocabulary")) continue;
-    if (name > 1) file.remove_prefix(file.rfind('/', name - 2) + 1);
-    Counts& all = out[{std::string(file), key.line, key.kind, key.input}];
-    for (std::size_t k = 0; k < counts.size(); ++k) all[k] += counts[k];
+    if (const std::size_t name = file.rfind('/') + 1; name > 1) file.remove_prefix(file.rfind('/', name - 2) + 1);
+    const std::string_view function = key.function;
+    out[{std::string(file), key.line, key.kind, std::string(function.substr(0, function.find('<'))), key.input}].add(sides);
   }
   return out;
 }

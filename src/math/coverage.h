@@ -21,22 +21,41 @@ int sides(DecisionKind kind);
 /// "the second" and the like: what a side is called after the kind's name.
 std::string_view side_name(DecisionKind kind, int side);
 
+/// A place in a source, as the compiler names it. here() as a default argument is the place of the call.
+struct Site {
+  const char* file;
+  const char* function;
+  int line;
+  static constexpr Site here(const char* file = __builtin_FILE(), const char* function = __builtin_FUNCTION(),
+                             int line = __builtin_LINE()) {
+    return {file, function, line};
+  }
+};
+
 /// Where it stands in a pass text. Decisions of one kind on one line (the components of a vector) are one, and so are all lookups of
 /// one input.
 struct Decision {
   std::string file;  ///< with its last folder: "puddle/shade.pass.h"; of a lookup its address rule: "clamp"
   int line = 0;      ///< of a lookup 0
   DecisionKind kind = DecisionKind::choice;
-  std::string input;  ///< of a lookup what it reads; "" where the pass does not say
+  std::string function;  ///< without template arguments; of a lookup ""
+  std::string input;     ///< of a lookup what it reads; "" where the pass does not say
   auto operator<=>(const Decision&) const = default;
+};
+/// How often each side of a decision was taken, and of a side that nothing can take why.
+struct Sides {
+  std::array<std::int64_t, 3> counts{};
+  std::array<std::string_view, 3> reasons{};
+  void add(const Sides& other);
 };
 
 /// How often each side of each decision was taken.
 class Coverage {
  public:
-  using Counts = std::array<std::int64_t, 3>;
-  /// `file`: as the compiler names it.
-  void met(const char* file, int line, DecisionKind kind, int side);
+  void met(const Site& site, DecisionKind kind, int side);
+  /// Says of the decision or lookup met last why nothing takes this side of it; -1: what guard() of the pass vocabulary means, of three
+  /// sides the outer ones and else the second. `reason`: a literal.
+  void guarded(const char* reason, int side);
   /// A coordinate of a lookup or the number of a texel, whose image is that of the next fetch(). The numbers that a lookup makes of
   /// its coordinates are its own.
   void addressed(const char* rule, DecisionKind kind, int side);
@@ -48,13 +67,14 @@ class Coverage {
   void name_inputs(const std::function<std::string(const float* texel)>& name_of);
   /// Those of pass texts and of the named mathematics that they use. A decision within a function of the vocabulary is one of the
   /// line that calls it.
-  std::map<Decision, Counts> decisions() const;
+  std::map<Decision, Sides> decisions() const;
 
  private:
   struct Key {
     const char* file;
     int line;
     DecisionKind kind;
+    const char* function;
     const float* texel = nullptr;  ///< of a lookup: some texel that it read, until the input has a name
     std::string input = "";
     auto operator<=>(const Key&) const = default;
@@ -66,8 +86,9 @@ class Coverage {
   };
   void settle(const float* texel);
 
-  std::map<Key, Counts> counts_;
-  std::array<Open, 8> opened_{};  ///< coordinates of the lookup at hand
+  std::map<Key, Sides> sides_;
+  std::map<Key, Sides>::value_type* last_ = nullptr;  ///< the one met last; null: it is a part of a function
+  std::array<Open, 8> opened_{};                      ///< coordinates of the lookup at hand
   std::size_t open_ = 0;
 };
 

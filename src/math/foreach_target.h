@@ -14,6 +14,7 @@
 //   #endif
 //
 // No include guard: it is the guard.
+#include "math/disabled_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE RAINREF_KERNELS
 #include "hwy/foreach_target.h"  // IWYU pragma: keep

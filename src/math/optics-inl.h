@@ -12,9 +12,11 @@ RAINREF_FN N fresnel_schlick(N cosine, float f0) {
 template <class N, class Ratio>
 RAINREF_FN N fresnel_dielectric(N cos_i, Ratio eta) {
   const N sin2_t = (N(1.0f) - square(cos_i)) * N(1.0f / (eta * eta));
-  const N cos_t = sqrt(max(N(1.0f) - sin2_t, N(0.0f))), e(eta), tiny(1e-20f);
-  const N parallel = (e * cos_i - cos_t) / max(e * cos_i + cos_t, tiny);
-  const N perpendicular = (cos_i - e * cos_t) / max(cos_i + e * cos_t, tiny);
+  const N cos_t = sqrt(guard<N>(max(N(1.0f) - sin2_t, N(0.0f)), "the sine is below 1: the other side is denser"));
+  const N e(eta), tiny(1e-20f);
+  constexpr const char* is_large = "the denominator is at least the cosine of the refracted ray";
+  const N parallel = (e * cos_i - cos_t) / guard<N>(max(e * cos_i + cos_t, tiny), is_large);
+  const N perpendicular = (cos_i - e * cos_t) / guard<N>(max(cos_i + e * cos_t, tiny), is_large);
   return N(0.5f) * (square(parallel) + square(perpendicular));
 }
 /// Beer's law: exp(-extinction * path).
@@ -35,5 +37,7 @@ RAINREF_FN Vec3<N> encode_srgb(const Vec3<N>& c) {
 /// The same of any radiance, held within [0, 1] first.
 template <class N>
 RAINREF_FN Vec3<N> display_code(const Vec3<N>& c) {
-  return encode_srgb(Vec3<N>{saturate(c.x), saturate(c.y), saturate(c.z)});
+  constexpr const char* is_light = "radiance is nowhere negative";
+  return encode_srgb(
+      Vec3<N>{guard_below<N>(saturate(c.x), is_light), guard_below<N>(saturate(c.y), is_light), guard_below<N>(saturate(c.z), is_light)});
 }

@@ -165,8 +165,6 @@ Perturbed operator-(const Perturbed& a, const Perturbed& b) {
       Op::difference, [&] { return Perturbed::add(a, b.opposite()); }, a, b);
 }
 
-void Perturbed::count(const char* file, int line, DecisionKind kind, int side) { current.coverage->met(file, line, kind, side); }
-
 Perturbed Perturbed::add(const Perturbed& a, const Perturbed& b) {
   if (a.product_ || b.product_) {
     if (is(Fault::fused) || may_contract()) {
@@ -394,19 +392,19 @@ class Counted {
 
 }  // namespace
 
-Perturbed clamp(const Perturbed& x, const Perturbed& low, const Perturbed& high, const char* file, int line) {
-  Perturbed::decided(file, line, DecisionKind::clamp, x.v < low.v ? 0 : x.v > high.v ? 2 : 1);
+Perturbed clamp(const Perturbed& x, const Perturbed& low, const Perturbed& high, const Site& site) {
+  Perturbed::decided(site, DecisionKind::clamp, x.v < low.v ? 0 : x.v > high.v ? 2 : 1);
   const Counted parts;
   return scalar::clamp<Perturbed>(x, low, high);
 }
-Perturbed saturate(const Perturbed& x, const char* file, int line) {
-  Perturbed::decided(file, line, DecisionKind::clamp, x.v < 0 ? 0 : x.v > 1 ? 2 : 1);
+Perturbed saturate(const Perturbed& x, const Site& site) {
+  Perturbed::decided(site, DecisionKind::clamp, x.v < 0 ? 0 : x.v > 1 ? 2 : 1);
   const Counted parts;
   return scalar::saturate<Perturbed>(x);
 }
-Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const char* file, int line) {
+Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const Site& site) {
   const float ramp = (x.v - edge0) / (edge1 - edge0);
-  Perturbed::decided(file, line, DecisionKind::clamp, ramp < 0 ? 0 : ramp > 1 ? 2 : 1);
+  Perturbed::decided(site, DecisionKind::clamp, ramp < 0 ? 0 : ramp > 1 ? 2 : 1);
   const Counted counted;
   const auto result = [&]() -> Perturbed {
     const Unseen parts;
@@ -442,11 +440,11 @@ scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& given_v, const sc
   if (is(Fault::reflect_doubled_missing)) return v - scalar::dot(n, v) * n;
   return scalar::reflect<Perturbed>(v, n);
 }
-scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& given_v, const scalar::Vec3<Perturbed>& given_n, float eta, const char* file,
-                                int line) {
+scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& given_v, const scalar::Vec3<Perturbed>& given_n, float eta,
+                                const Site& site) {
   const scalar::Vec3<Perturbed> v = as_argument(given_v), n = as_argument(given_n);
   const float along = n.x.v * v.x.v + n.y.v * v.y.v + n.z.v * v.z.v;
-  Perturbed::decided(file, line, DecisionKind::total_reflection, eta * eta * (1 - along * along) > 1);
+  Perturbed::decided(site, DecisionKind::total_reflection, eta * eta * (1 - along * along) > 1);
   const auto bent = [&] {
     const Counted parts;
     return scalar::refract<Perturbed>(v, n, is(Fault::refract_ratio_inverted) ? 1.0f / eta : eta);

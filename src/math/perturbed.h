@@ -69,13 +69,12 @@ enum class Fault : std::uint8_t {
   constant
 };
 
-struct FaultInfo {
-  Fault fault;
-  std::string_view name;      ///< "fused multiply-add"
-  std::string_view sentence;  ///< what to look for in the port
-};
 /// Every fault but none and constant, in the order in which a diagnosis tries them.
-const std::vector<FaultInfo>& faults();
+inline std::vector<Fault> faults() {
+  std::vector<Fault> all;
+  for (auto f = static_cast<int>(Fault::fused); f < static_cast<int>(Fault::constant); ++f) all.push_back(static_cast<Fault>(f));
+  return all;
+}
 
 /// What a conforming machine may do, drawn at random at every operation: the accuracies, roundings, fusions and
 /// samplers of a profile, and formulas that a profile does not name because every one of them allows them.
@@ -186,17 +185,16 @@ class Perturbed {
   friend bool operator>(const Perturbed& a, const Perturbed& b) { return b < a; }
   friend bool operator>=(const Perturbed& a, const Perturbed& b) { return b <= a; }
   // The place of the call is that of a decision in the pass text.
-  friend Perturbed select(bool m, const Perturbed& a, const Perturbed& b, const char* file = __builtin_FILE(),
-                          int line = __builtin_LINE()) {
-    decided(file, line, DecisionKind::choice, !m);
+  friend Perturbed select(bool m, const Perturbed& a, const Perturbed& b, const Site& site = Site::here()) {
+    decided(site, DecisionKind::choice, !m);
     return chosen(m, a, b);
   }
-  friend Perturbed min(const Perturbed& a, const Perturbed& b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
-    decided(file, line, DecisionKind::minimum, b.v < a.v);
+  friend Perturbed min(const Perturbed& a, const Perturbed& b, const Site& site = Site::here()) {
+    decided(site, DecisionKind::minimum, b.v < a.v);
     return lesser(a, b);
   }
-  friend Perturbed max(const Perturbed& a, const Perturbed& b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
-    decided(file, line, DecisionKind::maximum, a.v < b.v);
+  friend Perturbed max(const Perturbed& a, const Perturbed& b, const Site& site = Site::here()) {
+    decided(site, DecisionKind::maximum, a.v < b.v);
     return greater(a, b);
   }
   friend Perturbed abs(const Perturbed& a);
@@ -246,12 +244,15 @@ class Perturbed {
   std::int32_t node() const { return node_; }
 
   /// Counts a side of a decision of the pass text, where that is asked for.
-  static void decided(const char* file, int line, DecisionKind kind, int side) {
-    if (behaviour().coverage) count(file, line, kind, side);
+  static void decided(const Site& site, DecisionKind kind, int side) {
+    if (behaviour().coverage) behaviour().coverage->met(site, kind, side);
+  }
+  /// The decision counted last is one of a guard() of the pass vocabulary; side: -1, or the one end of a clamp that it speaks of.
+  static void guarded(const char* reason, int side = -1) {
+    if (behaviour().coverage) behaviour().coverage->guarded(reason, side);
   }
 
  private:
-  static void count(const char* file, int line, DecisionKind kind, int side);
   static Perturbed chosen(bool m, const Perturbed& a, const Perturbed& b);
   static Perturbed lesser(const Perturbed& a, const Perturbed& b);
   static Perturbed greater(const Perturbed& a, const Perturbed& b);
@@ -277,24 +278,19 @@ class Perturbed {
 Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c);
 Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d);
 Perturbed sum_any_order_in_pairs(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d);
-Perturbed clamp(const Perturbed& x, const Perturbed& low, const Perturbed& high, const char* file = __builtin_FILE(),
-                int line = __builtin_LINE());
-Perturbed saturate(const Perturbed& x, const char* file = __builtin_FILE(), int line = __builtin_LINE());
-Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const char* file = __builtin_FILE(), int line = __builtin_LINE());
+Perturbed clamp(const Perturbed& x, const Perturbed& low, const Perturbed& high, const Site& site = Site::here());
+Perturbed saturate(const Perturbed& x, const Site& site = Site::here());
+Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const Site& site = Site::here());
 inline scalar::Vec3<Perturbed> select(bool m, const scalar::Vec3<Perturbed>& a, const scalar::Vec3<Perturbed>& b,
-                                      const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
-  return {select(m, a.x, b.x, file, line), select(m, a.y, b.y, file, line), select(m, a.z, b.z, file, line)};
+                                      const Site& site = Site::here()) {
+  return {select(m, a.x, b.x, site), select(m, a.y, b.y, site), select(m, a.z, b.z, site)};
 }
 scalar::Vec3<Perturbed> normalize(const scalar::Vec3<Perturbed>& a);
 scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n);
 scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n, float eta,
-                                const char* file = __builtin_FILE(), int line = __builtin_LINE());
+                                const Site& site = Site::here());
 Perturbed nearest_octave(const Perturbed& x);
-template <class Again>
-Perturbed once(Perturbed, const Again& again) {
-  return again();
-}
-inline Perturbed whole_place(const Perturbed& x) { return Perturbed::met(Op::coordinate, x, x); }
+inline Perturbed whole_coordinate(const Perturbed& x) { return Perturbed::met(Op::coordinate, x, x); }
 Perturbed uniform_quotient(float a, float b, Perturbed);
 
 /// While a lookup between two levels is made whose weights are rounded together: the share of the level at hand.

@@ -1,5 +1,7 @@
 #include "math/simd_target.h"
 
+#include "math/disabled_targets.h"
+
 #include <cstdint>
 
 #include <fmt/format.h>

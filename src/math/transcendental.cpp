@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/disabled_targets.h"
+
 // This file is compiled once for every SIMD target: foreach_target.h includes it again and again.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "math/transcendental.cpp"

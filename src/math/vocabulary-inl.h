@@ -6,6 +6,22 @@
 // any(mask) says whether the mask is set in some lane. It may guard work whose result a select of the same mask takes,
 // so that it saves time and never chooses a value.
 
+// ---- guards --------------------------------------------------------------------------------------------------------
+// guard<N>(max(x, least), "why") is max(x, least), and says why no scene takes the other side: of min, max and select the second,
+// of refract total reflection, of a clamp and of a lookup what lies beyond the ends. A number that counts decisions is told.
+template <class N, class T>
+RAINREF_FN T guard(T decision, const char* reason) {
+  if constexpr (requires { N::guarded(reason); }) N::guarded(reason);
+  return decision;
+}
+/// The same of the lower end alone.
+template <class N, class T>
+RAINREF_FN T guard_below(T decision, const char* reason) {
+  if constexpr (requires { N::guarded(reason, 0); }) N::guarded(reason, 0);
+  return decision;
+}
+inline constexpr char for_lanes[] = "one invocation alone has left before, where this does not hold: the other side is for lanes";
+
 // ---- sums ----------------------------------------------------------------------------------------------------------
 // The order of these sums is free to a GPU. The reference adds from left to right.
 template <class N>

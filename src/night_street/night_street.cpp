@@ -33,11 +33,7 @@ Street::~Street() = default;
 Street::Street(Street&&) noexcept = default;
 Street& Street::operator=(Street&&) noexcept = default;
 
-const std::vector<Lamp>& Street::lamps() const { return lamps_; }
-
-scene::Vector3 Street::radiance(const scene::Vector3& origin, const scene::Vector3& direction) const {
-  return night_street::look(*city_, Ray(from(origin), unit(direction))).radiance;
-}
+std::shared_ptr<const scene::Scenery> Street::make(const Options& options) { return std::make_shared<const Street>(options); }
 
 Street::Sight Street::look(const scene::Vector3& origin, const scene::Vector3& direction) const {
   const Seen seen = night_street::look(*city_, Ray(origin, direction));

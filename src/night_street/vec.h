@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "math/smooth_step.h"
 #include "scene/camera.h"
 
 namespace rainref::night_street {
@@ -25,10 +26,7 @@ inline double magnitude(double a) { return a < 0 ? -a : a; }
 inline double square(double a) { return a * a; }
 inline double clamp01(double a) { return a < 0 ? 0 : a > 1 ? 1 : a; }
 /// 0 below `from`, 1 above `to`, the cubic 3t^2 - 2t^3 between; from < to.
-inline double smooth_step(double from, double to, double a) {
-  const double t = clamp01((a - from) / (to - from));
-  return t * t * (3 - 2 * t);
-}
+inline double smooth_step(double from, double to, double a) { return rainref::smooth_step((a - from) / (to - from)); }
 /// 1 inside [low, high], 0 outside, with soft edges `edge` wide on the inner side.
 inline double soft_band(double low, double high, double edge, double a) {
   return smooth_step(low, low + edge, a) * (1 - smooth_step(high - edge, high, a));

@@ -19,15 +19,15 @@ Street::View Street::view(const scene::Camera& camera, int width, int height, do
   recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
   for (const scene::Vector3& v : {camera.position, camera.target, camera.up}) recipe.add({v.x, v.y, v.z});
   recipe.add({camera.vertical_fov_deg, far});
-  const std::vector<cache::Shape> shapes{{Format::rgba32f, width, height}, {Format::r32f, width, height}, {Format::rgba32f, width, height}};
+  const std::vector<cache::Shape> shapes{{Format::rgba32f, width, height}, {Format::r32f, width, height}};
   const auto make = [&] {
     View view = rendered(camera, width, height, far, executor, parts);
     std::vector<Image> all;
-    for (Image* image : {&view.colour, &view.depth, &view.normal}) all.push_back(std::move(*image));
+    for (Image* image : {&view.colour, &view.depth}) all.push_back(std::move(*image));
     return all;
   };
   std::vector<Image> images = cache::images(recipe, shapes, make, parallel::rows_of(executor));
-  return {std::move(images[0]), std::move(images[1]), std::move(images[2])};
+  return {std::move(images[0]), std::move(images[1])};
 }
 
 Street::View Street::rendered(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor,
@@ -42,17 +42,10 @@ Street::View Street::rendered(const scene::Camera& camera, int width, int height
   };
   View result;
   result.depth = Image(Format::r32f, width, height);
-  result.normal = Image(Format::rgba32f, width, height);
   const auto at_centre = [&](int x, int y, const Ray& ray, const Seen& seen) {
     const double depth = seen.hit.t * dot(ray.direction, forward);
     const bool is_near = seen.hit.is_surface() && depth < far;
     result.depth.row<float>(y)[x] = static_cast<float>(is_near ? depth : far);
-    if (!is_near) return;
-    float* normal = result.normal.row<float>(y) + static_cast<std::ptrdiff_t>(x) * 4;
-    normal[0] = static_cast<float>(seen.hit.normal.x);
-    normal[1] = static_cast<float>(seen.hit.normal.y);
-    normal[2] = static_cast<float>(seen.hit.normal.z);
-    normal[3] = 1;
   };
   result.colour = antialiased(*city_, width, height, Edge::clamp, parts, ray_of, at_centre, executor);
   return result;

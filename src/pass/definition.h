@@ -1,6 +1,6 @@
 // A pass as one definition. Its file has two parts, which a room includes where it needs them:
 //
-//   outside every namespace        what the pass is: a struct with `about`, `Uniforms`, uniforms() and Io<B>;
+//   outside every namespace        what the pass is: a struct that Takes a block, with `about`, uniforms() and Io<B>;
 //                                                                with fault(bound): why a case whose buffers fit does not, or "";
 //                                                                with rounds_inside(uniforms): whether it rounds on its way as it
 //                                                                stores what it gives;
@@ -32,17 +32,9 @@
 #include "rainref/image.h"
 #include "rainref/recorder.h"
 #include "rainref/texture.h"
+#include "scene/uniform_block.h"
 
 namespace rainref::pass {
-
-/// Whether an invocation is to meet records too that count nowhere near it: a number that makes mistakes may ask for it.
-template <class N>
-bool meets_all() {
-  if constexpr (requires { N::meets_all(); })
-    return N::meets_all();
-  else
-    return false;
-}
 
 /// How a variant runs a pass. revision counts up whenever the order of operations or a constant changes; 0: it does not run it.
 struct VariantOf {
@@ -54,6 +46,18 @@ struct About {
   VariantOf as_published, corrected;
   std::array<std::string_view, 4> order_free_sums{};  ///< sums whose terms a port may add in any order
   std::string_view independence = "gather";           ///< as capture::PassInfo
+};
+/// What a definition begins with: its uniform block, and words to list the members in.
+template <class Block>
+struct Takes {
+  using Uniforms = Block;
+  using U = Block;
+  /// As scene::member.
+  template <auto P>
+  static scene::Member member(std::string unit, scene::Range range, std::string sentence) {
+    return scene::member<P>(std::move(unit), range, std::move(sentence));
+  }
+  static scene::UniformBlock block(std::vector<scene::Member> members) { return scene::uniform_block<Block>(std::move(members)); }
 };
 /// Whether a variant has a buffer that is of this one alone, or of both ("").
 constexpr bool is_of(std::string_view variant, bool corrected) { return variant.empty() || (variant == "corrected") == corrected; }

@@ -48,6 +48,14 @@ capture::PassInfo display_info(const std::string& from) {
   info.reads.front().from = from;
   return info;
 }
+capture::BufferInfo display_buffer() {
+  return {.name = "picture",
+          .format = "rgba8",
+          .sentence = "Display code, alpha 1. Row 0 is the bottom of the picture.",
+          .encoding = "sRGB (IEC 61966-2-1)",
+          .colour_space = "sRGB",
+          .alpha = "1"};
+}
 std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c) { return bind<DisplayPass, scalar::DisplayPassText>(c); }
 
 }  // namespace rainref::pass

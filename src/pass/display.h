@@ -37,6 +37,8 @@ void run_and_display(Run<P>& run, const CodeTable& table, double exposure, const
 
 /// It reads the colour of the pass `from`.
 capture::PassInfo display_info(const std::string& from);
+/// The picture that it gives.
+capture::BufferInfo display_buffer();
 std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c);
 
 }  // namespace rainref::pass

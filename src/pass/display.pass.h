@@ -8,19 +8,14 @@
 namespace rainref::pass {
 
 struct DisplayUniforms {
-  float exposure;  ///< factor of the radiance
-  float padding0, padding1, padding2;
+  float exposure, padding0, padding1, padding2;
 };
 static_assert(sizeof(DisplayUniforms) == 16);
 
 /// What each effect calls its picture, it declares itself; from which pass the colour comes, display_info says.
-struct DisplayPass {
+struct DisplayPass : pass::Takes<DisplayUniforms> {
   static constexpr About about{"display", "Display code.", {1}, {1}};
-  using Uniforms = DisplayUniforms;
-  static scene::UniformBlock uniforms() {
-    return scene::uniform_block<Uniforms>(
-        "DisplayUniforms", {scene::member<&Uniforms::exposure>("exposure", "1", scene::exposure_factor, "Factor of the radiance.")});
-  }
+  static scene::UniformBlock uniforms() { return block({member<&U::exposure>("1", scene::exposure_factor, "Factor of the radiance.")}); }
   template <class B>
   struct Io {
     typename B::template Texels<Format::rgba16f> colour = In{.name = "colour"};

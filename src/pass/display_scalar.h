@@ -1,10 +1,7 @@
 // The text of display with every number but lanes: Scalar, Enclosure and Perturbed; like puddle::scalar.
 #pragma once
 
-#include "math/perturbed.h"
-#include "math/enclosure.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
+#include "math/numbers.h"
 #include "pass/display.pass.h"
 
 namespace rainref::pass::scalar {

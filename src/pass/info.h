@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -73,6 +74,12 @@ inline void set_sources(capture::PassInfo& pass, const std::string& buffer, cons
   other.variant = "corrected";
   other.from = corrected;
   pass.reads.insert(at + 1, other);
+}
+
+/// Adds these behind the others.
+template <class T>
+void append(std::vector<T>& all, std::vector<T> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
 /// The buffers that a pass writes.

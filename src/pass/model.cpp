@@ -1,11 +1,5 @@
 #include "pass/model.h"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
-#include "rainref/error.h"
-
 namespace rainref::pass {
 
 const capture::Array* first_image(const capture::PassCase& c) {

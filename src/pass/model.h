@@ -158,7 +158,7 @@ struct Bound : Inputs<P> {
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
       } else if constexpr (requires { to.records; }) {
-        to.records = from.at(x, y, meets_all<N>());
+        to.records = from.at(x, y, to.takes(false));
       } else if constexpr (requires { to.planes; }) {
         to.planes = &from.planes;
         to.y = y;

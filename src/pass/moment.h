@@ -1,7 +1,6 @@
 // When a pass runs, and who records it.
 #pragma once
 
-#include <cstddef>
 #include <initializer_list>
 #include <span>
 #include <string_view>

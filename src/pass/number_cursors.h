@@ -32,7 +32,17 @@ struct NumberCursors {
   template <Format...>
   using Planes = PlanesPointer;
   template <class Record>
-  using Records = RecordPointer<Record>;
+  struct Records : RecordPointer<Record> {
+    using RecordPointer<Record>::RecordPointer;
+    /// Whether an invocation takes a record, of which the pass says whether it is near enough to count. A number that makes mistakes may
+    /// ask for all.
+    static bool takes(bool is_near) {
+      if constexpr (requires { N::meets_all(); })
+        return is_near || N::meets_all();
+      else
+        return is_near;
+    }
+  };
   template <class>
   using List = NoCursor;
   template <class>

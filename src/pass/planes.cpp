@@ -1,7 +1,5 @@
 #include "pass/planes.h"
 
-#include <algorithm>
-
 namespace rainref::pass {
 namespace {
 

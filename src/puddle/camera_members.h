@@ -13,14 +13,14 @@ template <class Block>
 std::vector<scene::Member> with_camera(std::vector<scene::Member> rest) {
   using scene::member;
   using C = CameraUniforms;
-  std::vector<scene::Member> all = scene::nested<&Block::camera>(
-      "camera", {member<&C::position>("position", "m", {-1e5, 1e5}, "Eye."),
-                 member<&C::pixel_scale>("pixel_scale", "1", {0, 23}, "Height of a pixel on the image plane at distance 1."),
-                 member<&C::right>("right", "1", scene::component, "Unit vector to the right of the picture."),
-                 member<&C::plane_left>("plane_left", "1", {-1e6, 0}, "Left edge of the image plane at distance 1."),
-                 member<&C::up>("up", "1", scene::component, "Unit vector to the top of the picture."),
-                 member<&C::plane_bottom>("plane_bottom", "1", {-12, 0}, "Bottom edge of the image plane at distance 1."),
-                 member<&C::forward>("forward", "1", scene::component, "Unit vector into the picture.")});
+  std::vector<scene::Member> all =
+      scene::nested<&Block::camera>("camera", {member<&C::position>("m", {-1e5, 1e5}, "Eye."),
+                                               member<&C::pixel_scale>("1", {0, 23}, "Height of a pixel on the image plane at distance 1."),
+                                               member<&C::right>("1", scene::component, "Unit vector to the right of the picture."),
+                                               member<&C::plane_left>("1", {-1e6, 0}, "Left edge of the image plane at distance 1."),
+                                               member<&C::up>("1", scene::component, "Unit vector to the top of the picture."),
+                                               member<&C::plane_bottom>("1", {-12, 0}, "Bottom edge of the image plane at distance 1."),
+                                               member<&C::forward>("1", scene::component, "Unit vector into the picture.")});
   all.insert(all.end(), rest.begin(), rest.end());
   return all;
 }

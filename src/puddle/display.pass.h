@@ -8,17 +8,13 @@
 
 namespace rainref::puddle {
 
-struct DisplayPass {
+struct DisplayPass : pass::Takes<DisplayUniforms> {
   static constexpr pass::About about{"display", "Vignette and display code.", {1}, {1}, {"length"}};
-  using Uniforms = DisplayUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("DisplayUniforms",
-                                   {member<&U::vignette>("vignette", "1", {0, 1.5}, "Loss at distance 1 from the centre."),
-                                    member<&U::exposure>("exposure", "1", scene::exposure_factor, "corrected: factor of the radiance."),
-                                    member<&U::width>("width", "pixel", scene::whole(1, 65536), "Columns of the picture."),
-                                    member<&U::height>("height", "pixel", scene::whole(1, 65536), "Rows of the picture.")});
+    return block({member<&U::vignette>("1", {0, 1.5}, "Loss at distance 1 from the centre."),
+                  member<&U::exposure>("1", scene::exposure_factor, "corrected: factor of the radiance."),
+                  member<&U::width>("pixel", scene::whole(1, 65536), "Columns of the picture."),
+                  member<&U::height>("pixel", scene::whole(1, 65536), "Rows of the picture.")});
   }
   template <class B>
   struct Io {
@@ -52,7 +48,8 @@ RAINREF_FN Vec3<N> display_as_published(const DisplayUniforms& u, const Vec3<N>&
 /// Corrected: exposure, a vignette that ends at black, sRGB.
 template <class N>
 RAINREF_FN Vec3<N> exposed(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {
-  return (max(vignette<N>(u, px, py), N(0.0f)) * N(u.exposure)) * colour;
+  constexpr const char* is_lit = "a vignette of at most the root of 2 leaves some light in the corners";
+  return (guard<N>(max(vignette<N>(u, px, py), N(0.0f)), is_lit) * N(u.exposure)) * colour;
 }
 template <class N>
 RAINREF_FN Vec3<N> display_corrected(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {

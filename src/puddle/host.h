@@ -1,6 +1,9 @@
 // What the host computes from the settings alone: uniforms, in double, each rounded once.
 #pragma once
 
+#include <array>
+
+#include "base/memory.h"
 #include "puddle/kernels.h"
 #include "puddle/uniforms.h"
 #include "rainref/puddle.h"
@@ -43,5 +46,19 @@ float ground_footprint(const Settings& settings, int tile_texels);
 
 /// Columns and rows of the wave buffer.
 std::array<int, 2> wave_size(const Settings& settings);
+
+/// Columns and rows of the pictures that a puddle is made with.
+struct PictureSizes {
+  std::array<int, 2> environment{1024, 512};
+  bool has_float_environment = false;  ///< its texels are floats, which are read where they lie
+  std::array<int, 2> ground{0, 0};     ///< 0: asphalt made here
+  std::array<int, 2> shelter{0, 0};
+};
+PictureSizes sizes_of(const Surroundings& surroundings);
+
+/// Memory of the constructor and of frames. The pictures themselves are their owner's.
+MemoryPeak memory(const Settings& settings, const PictureSizes& sizes = {});
+/// Throws Error(usage) where it does not fit.
+void check_memory(const Settings& settings, const PictureSizes& sizes = {});
 
 }  // namespace rainref::puddle

@@ -6,7 +6,7 @@
 #include "puddle/shade.pass.h"
 #include "puddle/surface_hit.pass.h"
 #include "puddle/wave_step.pass.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::puddle {
 namespace {
@@ -15,17 +15,14 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 EffectInfo make() {
-  const UniformBlock drop = record<Drop>(
-      "Drop",
-      {member<&Drop::x>("x", "texel", "Centre; texel centres lie at k + 1/2."), member<&Drop::y>("y", "texel", "Centre."),
-       member<&Drop::amplitude>("amplitude", "1", "as-published: strength times activation; corrected: stored height at the centre."),
-       member<&Drop::radius>("radius", "texel", "Nothing is added from this distance on.")});
-  const UniformBlock threshold = record<CountThreshold>(
-      "CountThreshold",
-      {member<&CountThreshold::threshold>("threshold", "1", "A word not below k thresholds draws first_count + k drops.")});
+  const UniformBlock drop =
+      record<Drop>({member<&Drop::x>("texel", "Centre; texel centres lie at k + 1/2."), member<&Drop::y>("texel", "Centre."),
+                    member<&Drop::amplitude>("1", "as-published: strength times activation; corrected: stored height at the centre."),
+                    member<&Drop::radius>("texel", "Nothing is added from this distance on.")});
+  const UniformBlock threshold =
+      record<CountThreshold>({member<&CountThreshold::threshold>("1", "A word not below k thresholds draws first_count + k drops.")});
 
-  const UniformBlock cell =
-      record<ShelterCell>("ShelterCell", {member<&ShelterCell::open>("open", "1", "Of 65536 drops over this cell so many fall.")});
+  const UniformBlock cell = record<ShelterCell>({member<&ShelterCell::open>("1", "Of 65536 drops over this cell so many fall.")});
 
   EffectInfo info;
   info.name = "puddle";
@@ -37,59 +34,88 @@ EffectInfo make() {
       pass::info_of<ShadePass>(),
       pass::info_of<DisplayPass>(),
   };
-  const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
+  const std::array<double, 2> signed_one{-1, 1};
   const std::string around =
       "latitude/longitude, width not height / 6: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks "
       "straight down; "
       "cube, height = 6 width: faces +x -x +y -y +z -z below each other, each from its first row as graphics APIs orient it";
+  const auto append = [&](const std::vector<BufferInfo>& more) { pass::append(info.buffers, more); };
   info.buffers = {
-      {"craters", "records", "The size classes of drops, smallest first: amplitude and radius; x and y are 0.", "1", one, "none", "none",
-       "none", "", "Drop", correct},
-      {"count_thresholds",
-       "records",
-       "Thresholds of the number of drops in a step, ascending.",
-       "1",
-       {0, 4294967295.0},
-       "none",
-       "none",
-       "none",
-       "",
-       "CountThreshold",
-       correct},
-      {"shelter",
-       "records",
-       "Where a roof keeps rain off: cells over the water, row-major.",
-       "1",
-       {0, 65536},
-       "none",
-       "none",
-       "none",
-       "",
-       "ShelterCell",
-       correct},
-      {"objects", "records", "What objects in the water do in this step.", "1", {-1e6, 1e6}, "none", "none", "none", "", "Drop", correct},
+      {.name = "craters",
+       .format = "records",
+       .sentence = "The size classes of drops, smallest first: amplitude and radius; x and y are 0.",
+       .record = "Drop",
+       .variant = correct},
+      {.name = "count_thresholds",
+       .format = "records",
+       .sentence = "Thresholds of the number of drops in a step, ascending.",
+       .range = {0, 4294967295.0},
+       .record = "CountThreshold",
+       .variant = correct},
+      {.name = "shelter",
+       .format = "records",
+       .sentence = "Where a roof keeps rain off: cells over the water, row-major.",
+       .range = {0, 65536},
+       .record = "ShelterCell",
+       .variant = correct},
+      {.name = "objects",
+       .format = "records",
+       .sentence = "What objects in the water do in this step.",
+       .range = {-1e6, 1e6},
+       .record = "Drop",
+       .variant = correct},
   };
-  const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
   append(pass::buffers_of<PublishedRaindropsPass, RaindropsPass>());
   append(pass::buffers_of<WaveStepPass>());
   append({
-      {"shore", "r32f", "Natural shape: share of the wave that the shore leaves, 1 in the water, 0 on dry ground.", "1", one, "none",
-       "none", "none", "", "", correct},
-      {"bounds", "rg32f", "For each block of 32 x 32 cells the highest water [m] and the steepest slope [1] in it and the eight around it.",
-       "m, 1", one, "none", "none", "none", "", "", correct},
+      {.name = "shore",
+       .format = "r32f",
+       .sentence = "Natural shape: share of the wave that the shore leaves, 1 in the water, 0 on dry ground.",
+       .variant = correct},
+      {.name = "bounds",
+       .format = "rg32f",
+       .sentence = "For each block of 32 x 32 cells the highest water [m] and the steepest slope [1] in it and the eight around it.",
+       .unit = "m, 1",
+       .variant = correct},
   });
   append(pass::buffers_of<SurfaceHitPass>());
   append(pass::buffers_of<GroundNoisePass>());
   append({
-      {"environment", "rgba32f", "Radiance by direction.", "1", one, "radiance = s^2.2", "Rec. 709 primaries, encoded by the power 1/2.2",
-       "unused", around, "", published},
-      {"environment", "rgba32f", "Radiance by direction, with mips.", "1", one, "none", "linear Rec. 709", "unused", around, "", correct},
-      {"ground", "rgba32f", "Tile of the ground.", "1", one, "albedo = s^2.2", "Rec. 709 primaries, encoded by the power 1/2.2", "unused",
-       "", "", published},
-      {"ground", "rgba32f", "Tile of the ground, with mips.", "1", one, "none", "linear Rec. 709", "unused", "", "", correct},
-      {"relief", "rg32f", "Slopes of the ground tile, with mips.", "1", signed_one, "none", "none", "none", "", "", correct},
-      {"bed", "r32f", "Depth of the water over the puddle's rectangle, negative where dry.", "m", signed_one, "none", "none", "none", "",
-       "", correct},
+      {.name = "environment",
+       .format = "rgba32f",
+       .sentence = "Radiance by direction.",
+       .encoding = "radiance = s^2.2",
+       .colour_space = "Rec. 709 primaries, encoded by the power 1/2.2",
+       .alpha = "unused",
+       .orientation = around,
+       .variant = published},
+      {.name = "environment",
+       .format = "rgba32f",
+       .sentence = "Radiance by direction, with mips.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused",
+       .orientation = around,
+       .variant = correct},
+      {.name = "ground",
+       .format = "rgba32f",
+       .sentence = "Tile of the ground.",
+       .encoding = "albedo = s^2.2",
+       .colour_space = "Rec. 709 primaries, encoded by the power 1/2.2",
+       .alpha = "unused",
+       .variant = published},
+      {.name = "ground",
+       .format = "rgba32f",
+       .sentence = "Tile of the ground, with mips.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused",
+       .variant = correct},
+      {.name = "relief", .format = "rg32f", .sentence = "Slopes of the ground tile, with mips.", .range = signed_one, .variant = correct},
+      {.name = "bed",
+       .format = "r32f",
+       .sentence = "Depth of the water over the puddle's rectangle, negative where dry.",
+       .unit = "m",
+       .range = signed_one,
+       .variant = correct},
   });
   append(pass::buffers_of<ShadePass>());
   append(pass::buffers_of<DisplayPass>());

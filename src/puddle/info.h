@@ -1,11 +1,23 @@
 // The puddle described to others.
 #pragma once
 
+#include <vector>
+
 #include "capture/pass_info.h"
+#include "capture/pass_model.h"
 
 namespace rainref::puddle {
 
 /// Passes, buffers and GPU layouts of the puddle.
 const capture::EffectInfo& effect_info();
+
+/// All of them, of both variants; corrected raindrops is compared by bits. ground_noise is taken as data.
+const std::vector<capture::PassEvaluations>& evaluations();
+
+/// raindrops as published: record i is drop i.
+std::unique_ptr<capture::PassModel> bind_raindrops(const capture::PassCase& c);
+
+/// surface_hit is judged by the gap between its hit and the water: see surface_hit_model.cpp.
+std::unique_ptr<capture::PassModel> bind_surface_hit(const capture::PassCase& c);
 
 }  // namespace rainref::puddle

@@ -8,13 +8,11 @@
 #include "image/flipped.h"
 #include "math/constants.h"
 #include "math/real64.h"
-#include "night_street/memory.h"
-#include "night_street/night_street.h"
-#include "puddle/evaluations.h"
 #include "puddle/info.h"
-#include "puddle/memory.h"
+#include "puddle/host.h"
 #include "puddle/parameters.h"
 #include "scene/camera.h"
+#include "scene/scenery_memory.h"
 
 namespace rainref::puddle {
 namespace {
@@ -48,7 +46,7 @@ Surroundings surroundings(const scene::Config& config, const parallel::Executor&
   Surroundings s;
   if (config.text("environment.image").empty()) {
     const auto [width, height] = street_size(config);
-    s.environment = night_street::Street().panorama(width, height, street_eye(settings_from(config)), executor);
+    s.environment = effect::street_of(inputs, {})->panorama(width, height, street_eye(settings_from(config)), executor);
   } else {
     image_io::Picture picture = effect::read_input(config, "environment.image", inputs);
     s.environment_is_cube = config.text("environment.layout") == "cube";
@@ -81,11 +79,15 @@ effect::RunMemory memory_of(const scene::Config& config) {
     sizes.environment = {1, 1};
   } else {
     sizes.has_float_environment = true;
-    m.peak.then(night_street::panorama_memory(sizes.environment[0], sizes.environment[1]));
+    m.peak.then(scene::panorama_memory(sizes.environment[0], sizes.environment[1]));
   }
   if (effect::is_named(config, "puddle.ground_image")) sizes.ground = {1, 1};
   m.peak.then(memory(s, sizes));
   return m;
+}
+
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  return std::make_unique<Instance>(settings_from(config), surroundings(config, executor, inputs), executor);
 }
 
 }  // namespace
@@ -108,15 +110,7 @@ std::optional<effect::Display> Instance::display() const {
 }
 
 effect::Effect entry() {
-  return {"puddle",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            return std::make_unique<Instance>(settings_from(config), surroundings(config, executor, inputs), executor);
-          }};
+  return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::puddle

@@ -8,8 +8,8 @@
 #include "image/code_steps.h"
 #include "pass/definition.h"
 #include "puddle/shade.pass.h"
-#include "rainref/executor.h"
 #include "puddle/uniforms.h"
+#include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/puddle.h"
 
@@ -74,5 +74,9 @@ CodeSteps display_steps(Rounding rounding);
 void display_codes(Rounding rounding, const float* x, std::uint8_t* code, int count);
 /// display, corrected, by these steps: what the pass writes.
 void display_by_steps(const DisplayUniforms& u, const CodeSteps& steps, const Image& colour, Image& picture, const parallel::Tile& tile);
+
+/// Steps one after another over the whole wave. The two levels take turns: what is `newest` in one job is `previous` in the next.
+/// Several steps have the bits of each alone and take less time: rows go through all of them while they lie in a cache.
+void step_wave(std::span<const WaveJob> jobs, const parallel::Executor& executor);
 
 }  // namespace rainref::puddle

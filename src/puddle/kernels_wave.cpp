@@ -1,6 +1,7 @@
 // Shell of wave_step; compiled once for each SIMD target.
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -171,9 +172,6 @@ class Rows {
     for (int k = 0; k < R; ++k) single(drops, x, y + k);
   }
 
- private:
-  // In the vectors of one: rows follow each other in memory.
-  static constexpr int rows_fetched = std::max(line / (Lanes::size() * static_cast<int>(sizeof(Storage))), 1);
   // Vectors from x on, the last one in part, with any offset of the neighbours.
   HWY_ATTR void single(std::span<const Drop> drops, int x, int y) const {
     const int n = Lanes::size(), width = job_.newest->width();
@@ -188,6 +186,10 @@ class Rows {
         store(out + x, wave_step_as_published<Lanes>(u_, rows, near, x, y), rounding, std::min(n, width - x));
     }
   }
+
+ private:
+  // In the vectors of one: rows follow each other in memory.
+  static constexpr int rows_fetched = std::max(line / (Lanes::size() * static_cast<int>(sizeof(Storage))), 1);
   const Storage* newest(int y) const { return pass::row_at<Storage>(*job_.newest, *job_.rest_row, address_of(job_.boundary), y); }
   const float* shore(int y) const { return job_.shore ? job_.shore->row<float>(y) : nullptr; }
   const WaveJob& job_;
@@ -199,40 +201,30 @@ HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile, RowsAhea
   const Rows<corrected, edges, rounding, Storage> rows(job);
   std::vector<Drop> in_tile, in_rows;
   drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
-  for (int y = tile.y0; y < tile.y1;) {
-    const int left = tile.y1 - y, count = left >= most ? most : left >= 2 ? 2 : 1;
-    if (!in_tile.empty()) drops_in_rows(in_tile, y, y + count, in_rows);
-    if (count == most)
-      rows.template visit<most>(in_rows, y, ahead);
-    else
-      count == 2 ? rows.template visit<2>(in_rows, y, ahead) : rows.template visit<1>(in_rows, y, ahead);
-    y += count;
+  int y = tile.y0;
+  for (; y + most <= tile.y1; y += most) {
+    if (!in_tile.empty()) drops_in_rows(in_tile, y, y + most, in_rows);
+    rows.template visit<most>(in_rows, y, ahead);
   }
-  for (int y = tile.y0; y < tile.y1; ++y)
+  for (; y < tile.y1; ++y) {  // few: the last ones of a plane, or of a band's end
+    drops_in_rows(in_tile, y, y + 1, in_rows);
+    rows.single(in_rows, 0, y);
+  }
+  for (y = tile.y0; y < tile.y1; ++y)
     pass::fill_margins(job.previous->row<Storage>(y), job.newest->width(), address_of(job.boundary), *job.rest_row->row<Storage>(0));
 }
-// f with the variant and the rounding as constants.
-template <class F>
-HWY_ATTR void with_constants(const WaveJob& job, const F& f) {
-  using Corrected = std::true_type;
-  using AsPublished = std::false_type;
-  using Nearest = std::integral_constant<Rounding, Rounding::rne>;
-  using TowardZero = std::integral_constant<Rounding, Rounding::rtz>;
-  if (job.rounding == Rounding::rne)
-    job.corrected ? f(Corrected(), Nearest()) : f(AsPublished(), Nearest());
-  else
-    job.corrected ? f(Corrected(), TowardZero()) : f(AsPublished(), TowardZero());
+template <bool corrected, Edges edges, class Storage>
+HWY_ATTR void step_rounded(const WaveJob& job, const parallel::Tile& tile, RowsAhead& ahead) {
+  if constexpr (!std::is_same_v<Storage, float>)  // which holds every result
+    if (job.rounding == Rounding::rtz) return step_rows<corrected, edges, Rounding::rtz, Storage>(job, tile, ahead);
+  step_rows<corrected, edges, Rounding::rne, Storage>(job, tile, ahead);
 }
 RowsAhead StepRows(const WaveJob& job, const parallel::Tile& tile, RowsAhead ahead) {
-  const Edges edges = !job.corrected ? Edges::none : job.uniforms.rim_damping > 0.0f ? Edges::rim : job.shore ? Edges::shore : Edges::none;
   pass::in_storage(job.newest->format(), [&]<class Storage>(Storage) HWY_ATTR {
-    with_constants(job, [&](auto corrected, auto rounding) HWY_ATTR {
-      if (edges == Edges::none) return step_rows<corrected(), Edges::none, rounding(), Storage>(job, tile, ahead);
-      if constexpr (corrected()) {
-        if (edges == Edges::shore) return step_rows<true, Edges::shore, rounding(), Storage>(job, tile, ahead);
-        step_rows<true, Edges::rim, rounding(), Storage>(job, tile, ahead);
-      }
-    });
+    if (!job.corrected) return step_rounded<false, Edges::none, Storage>(job, tile, ahead);
+    if (job.uniforms.rim_damping > 0.0f) return step_rounded<true, Edges::rim, Storage>(job, tile, ahead);
+    if (job.shore) return step_rounded<true, Edges::shore, Storage>(job, tile, ahead);
+    step_rounded<true, Edges::none, Storage>(job, tile, ahead);
   });
   return ahead;
 }

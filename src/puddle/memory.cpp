@@ -1,4 +1,3 @@
-#include "puddle/memory.h"
 
 #include <algorithm>
 

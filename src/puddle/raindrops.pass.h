@@ -13,42 +13,34 @@ inline constexpr float raindrop_radius = 4.0f;  ///< as published [texel]
 inline constexpr std::string_view raindrops_sentence = "The drops that fall in this step.";
 inline constexpr pass::Out raindrops_out{.name = "drops", .sentence = "Drop records of this step.", .record = "Drop"};
 
-struct PublishedRaindropsPass {
+struct PublishedRaindropsPass : pass::Takes<RaindropsUniforms> {
   static constexpr pass::About about{"raindrops", raindrops_sentence, {1, capture::Judge::keyed}, {}};
-  using Uniforms = RaindropsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("RaindropsUniforms",
-                                   {member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
-                                    member<&U::rain_speed>("rain_speed", "1/s", {0, 20}, "Pulses of each drop a second."),
-                                    member<&U::drop_intensity>("drop_intensity", "1", {0, 4}, "Strength of an impact."),
-                                    member<&U::width>("width", "texel", scene::whole(1, 65536), "Columns of the wave."),
-                                    member<&U::height>("height", "texel", scene::whole(1, 65536), "Rows of the wave."),
-                                    member<&U::drop_count>("drop_count", "1", {1, 10}, "Drops in the list.")});
+    return block({member<&U::time>("s", scene::frame_time, "Frame number over frame rate, rounded once."),
+                  member<&U::rain_speed>("1/s", {0, 20}, "Pulses of each drop a second."),
+                  member<&U::drop_intensity>("1", {0, 4}, "Strength of an impact."),
+                  member<&U::width>("texel", scene::whole(1, 65536), "Columns of the wave."),
+                  member<&U::height>("texel", scene::whole(1, 65536), "Rows of the wave."),
+                  member<&U::drop_count>("1", {1, 10}, "Drops in the list.")});
   }
   template <class B>
   struct Io {
     typename B::template List<Drop> drops = raindrops_out;
   };
 };
-struct RaindropsPass {
+struct RaindropsPass : pass::Takes<RainfallUniforms> {
   static constexpr pass::About about{"raindrops", raindrops_sentence, {}, {2, capture::Judge::bits}};
-  using Uniforms = RainfallUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "RainfallUniforms", {member<&U::seed>("seed", "1", scene::any_word, "Low and high word of the seed."),
-                             member<&U::step>("step", "1", scene::any_word, "Wave steps made before this one, modulo 2^32."),
-                             member<&U::first_count>("first_count", "1", {0, 16000}, "Drops where the word is below every threshold."),
-                             member<&U::columns>("columns", "texel", {1, 65536}, "Columns of the wave."),
-                             member<&U::rows>("rows", "texel", {1, 65536}, "Rows of the wave."),
-                             member<&U::boundary>("boundary", "1", {0, 2}, "0: reflecting, 1: periodic, 2: fixed."),
-                             member<&U::threshold_count>("threshold_count", "1", {0, 16000}, "Thresholds in the list."),
-                             member<&U::shelter_columns>("shelter_columns", "1", {0, 8192}, "Columns of the shelter; 0: there is none."),
-                             member<&U::shelter_rows>("shelter_rows", "1", {0, 8192}, "Its rows."),
-                             member<&U::object_count>("object_count", "1", {0, 1 << 16}, "Records of objects in the list.")});
+    return block({member<&U::seed>("1", scene::any_word, "Low and high word of the seed."),
+                  member<&U::step>("1", scene::any_word, "Wave steps made before this one, modulo 2^32."),
+                  member<&U::first_count>("1", {0, 16000}, "Drops where the word is below every threshold."),
+                  member<&U::columns>("texel", {1, 65536}, "Columns of the wave."),
+                  member<&U::rows>("texel", {1, 65536}, "Rows of the wave."),
+                  member<&U::boundary>("1", {0, 2}, "0: reflecting, 1: periodic, 2: fixed."),
+                  member<&U::threshold_count>("1", {0, 16000}, "Thresholds in the list."),
+                  member<&U::shelter_columns>("1", {0, 8192}, "Columns of the shelter; 0: there is none."),
+                  member<&U::shelter_rows>("1", {0, 8192}, "Its rows."),
+                  member<&U::object_count>("1", {0, 1 << 16}, "Records of objects in the list.")});
   }
   template <class B>
   struct Io {

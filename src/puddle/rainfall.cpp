@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
+#include "image/texture.h"
 #include "math/constants.h"
 #include "rain/rain.h"
 #include "rainref/error.h"
 #include "random/draws.h"
+#include "scene/rows_of_text.h"
 
 namespace rainref::puddle {
 namespace {
@@ -63,6 +67,7 @@ Rainfall::Rainfall(const Settings& s, double stored_per_metre, Shelter shelter)
   }
 }
 
+template <class W>
 std::vector<Drop> drops_of(const RainfallUniforms& u, const RainTables& tables) {
   const auto& [craters, thresholds, shelter, objects] = tables;
   constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
@@ -83,25 +88,24 @@ std::vector<Drop> drops_of(const RainfallUniforms& u, const RainTables& tables) 
   std::vector<Drop> out;
   const std::uint64_t seed = u.seed[0] | static_cast<std::uint64_t>(u.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(u.threshold_count));
-  const random::Draws& draws = random::draws();
-  const std::uint32_t word = draws.block(seed, random::Purpose::puddle_drop_count, u.step, 0)[0];
-  const auto passed = static_cast<std::uint32_t>(std::upper_bound(used.begin(), used.end(), word) - used.begin());
-  const auto drawn = u.first_count + static_cast<int>(draws.count(passed, static_cast<std::uint32_t>(used.size())));
+  const auto drawn = W::count(W::block(seed, random::Purpose::puddle_drop_count, u.step, 0)[0], u.first_count, used);
   const int count = craters.empty() ? 0 : drawn;
   for (int i = 0; i < count; ++i) {
-    const random::Block r = draws.block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
+    const auto r = W::block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
     if (!shelter.empty()) {
-      const std::uint32_t column = (draws.place(r[0], 16) * u.shelter_columns) >> 16, row = (draws.place(r[1], 16) * u.shelter_rows) >> 16;
-      if (draws.place(r[3], 16) >= shelter[column + std::size_t{u.shelter_columns} * row].open) continue;
+      const std::uint32_t column = ((r[0] >> 16) * u.shelter_columns) >> 16, row = ((r[1] >> 16) * u.shelter_rows) >> 16;
+      if ((r[3] >> 16) >= shelter[column + std::size_t{u.shelter_columns} * row].open) continue;
     }
-    Drop drop = craters[draws.choice(r[2], 10)];
-    drop.x = static_cast<float>(draws.fine((draws.place(r[0], 16) * u.columns) >> 8, 8, 0)) * 0x1p-8f;
-    drop.y = static_cast<float>(draws.fine((draws.place(r[1], 16) * u.rows) >> 8, 8, 1)) * 0x1p-8f;
+    Drop drop = craters[r[2] >> 22];
+    drop.x = static_cast<float>(((r[0] >> 16) * u.columns) >> 8) * 0x1p-8f;
+    drop.y = static_cast<float>(((r[1] >> 16) * u.rows) >> 8) * 0x1p-8f;
     add_with_images(drop, {u.columns, u.rows, u.boundary}, out);
   }
   out.insert(out.end(), objects.begin(), objects.begin() + u.object_count);
   return out;
 }
+template std::vector<Drop> drops_of<random::Words>(const RainfallUniforms&, const RainTables&);
+template std::vector<Drop> drops_of<random::PerturbedWords>(const RainfallUniforms&, const RainTables&);
 
 std::vector<Drop> Rainfall::drops(std::int64_t step, std::span<const Drop> objects) const {
   return drops_of(uniforms(step, objects.size()), {craters_, count_.thresholds(), shelter_.cells, objects});
@@ -122,6 +126,70 @@ RainfallUniforms Rainfall::uniforms(std::int64_t step, std::size_t objects) cons
   u.shelter_rows = static_cast<std::uint32_t>(shelter_.rows);
   u.object_count = static_cast<std::int32_t>(objects);
   return u;
+}
+
+namespace {
+
+constexpr std::size_t most_roofs = 64;
+constexpr double farthest_roof = 1e4;  // [m]
+constexpr int most_shelter_texels = 8192;
+
+ShelterCell open(double share) { return {static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * 65536 + 0.5)}; }
+/// Share of [from, to] that lies in [low, high].
+double covered(double from, double to, double low, double high) {
+  return std::max(std::min(to, high) - std::max(from, low), 0.0) / (to - from);
+}
+
+}  // namespace
+
+std::vector<Roof> parse_roofs(std::string_view text) {
+  std::vector<Roof> roofs;
+  for (const std::string_view row : scene::split(text, ';')) {
+    if (row.empty()) continue;
+    const auto fail = [&] {
+      throw Error(ExitCode::usage,
+                  fmt::format("rain.shelter, roof {}: expected \"x0 z0 x1 z1\", the lower corner first, numbers of at most "
+                              "{:g} m, and at most {} roofs; found '{}'",
+                              roofs.size() + 1, farthest_roof, most_roofs, row));
+    };
+    double at[4];
+    const std::vector<std::string_view> words = scene::words_of(row);
+    if (words.size() != 4 || roofs.size() == most_roofs) fail();
+    for (std::size_t k = 0; k < 4; ++k) {
+      at[k] = number_from<double>(words[k]).value_or(2 * farthest_roof);
+      if (!(std::abs(at[k]) <= farthest_roof)) fail();
+    }
+    if (!(at[0] < at[2] && at[1] < at[3])) fail();
+    roofs.push_back({at[0], at[1], at[2], at[3]});
+  }
+  return roofs;
+}
+
+Shelter shelter_of(const Settings& s, const Image& picture) {
+  const std::vector<Roof> roofs = parse_roofs(s.shelter);
+  Shelter shelter;
+  if (!picture.empty()) {
+    if (!roofs.empty()) throw Error(ExitCode::usage, "rain.shelter: expected none beside rain.shelter_image");
+    if (std::max(picture.width(), picture.height()) > most_shelter_texels)
+      throw Error(ExitCode::usage, fmt::format("rain.shelter_image: expected at most {0}x{0} texels, found {1}x{2}", most_shelter_texels,
+                                               picture.width(), picture.height()));
+    const TextureData texels(picture, Address::clamp, Address::clamp);
+    const Texture& t = texels.view();
+    shelter = {picture.width(), picture.height(), {}};
+    for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(shelter.columns) * shelter.rows; ++k)
+      shelter.cells.push_back(open(t.texels[t.channels * k]));
+  } else if (!roofs.empty()) {
+    shelter = {s.grid[0], s.grid[1], {}};
+    for (int row = 0; row < shelter.rows; ++row) {
+      for (int column = 0; column < shelter.columns; ++column) {
+        double share = 1;
+        const double x = (column - 0.5 * shelter.columns) * s.cell_size, z = (row - 0.5 * shelter.rows) * s.cell_size;
+        for (const Roof& r : roofs) share -= covered(x, x + s.cell_size, r.x0, r.x1) * covered(z, z + s.cell_size, r.z0, r.z1);
+        shelter.cells.push_back(open(share));
+      }
+    }
+  }
+  return shelter;
 }
 
 }  // namespace rainref::puddle

@@ -3,14 +3,32 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
-#include "puddle/shelter.h"
 #include "puddle/uniforms.h"
-#include "random/poisson.h"
 #include "rainref/puddle.h"
+#include "random/poisson.h"
+#include "random/words.h"
 
 namespace rainref::puddle {
+
+/// A roof over [x0, x1] x [z0, z1], world [m].
+struct Roof {
+  double x0, z0, x1, z1;
+};
+/// "x0 z0 x1 z1; ..." Throws Error(usage), naming the roof and the key rain.shelter, for any other text, more than 64 roofs, and corners in
+/// the other order or beyond 10 km.
+std::vector<Roof> parse_roofs(std::string_view text);
+
+/// In how many of 65536 drops over a cell one falls; row-major, row 0 = lowest z. None: everywhere all of them.
+struct Shelter {
+  int columns = 0, rows = 0;
+  std::vector<ShelterCell> cells;
+};
+/// Of rain.shelter: cells of the wave's grid, each by the share of it that no roof covers (of roofs that overlap in a cell which both
+/// cover in part, less). Of a picture (Surroundings::shelter): its texels, rounded to the nearest. Throws Error(usage) for both.
+Shelter shelter_of(const Settings& settings, const Image& picture);
 
 /// [texels]; a smaller crater would not be resolved, so its energy is spread.
 inline constexpr double least_crater_radius = 3;
@@ -33,7 +51,8 @@ struct RainTables {
 };
 /// The drops of a step, from what the GPU takes: the count by thresholds, ascending, place, size and whether a roof holds it off from a
 /// hash of (seed, step, i); behind them the records of objects. Throws Error(port_files) when the uniforms name more thresholds, size
-/// classes, drops, objects or another shelter than there can be.
+/// classes, drops, objects or another shelter than there can be. W: random::Words or PerturbedWords.
+template <class W = random::Words>
 std::vector<Drop> drops_of(const RainfallUniforms& uniforms, const RainTables& tables);
 
 /// Drops of step k are a function of (seed, k): the count by a Poisson table, place and size from a hash of (seed, k, i).

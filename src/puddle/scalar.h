@@ -4,10 +4,7 @@
 
 #include "image/footprint.h"
 #include "image/texture.h"
-#include "math/perturbed.h"
-#include "math/enclosure.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
+#include "math/numbers.h"
 #include "puddle/display.pass.h"
 #include "puddle/raindrops.pass.h"
 #include "puddle/shade.pass.h"
@@ -21,10 +18,7 @@ using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
-#include "image/sampling_perturbed-inl.h"
-#include "image/sampling-inl.h"
-#include "image/sampling_enclosed-inl.h"
-#include "image/sampling_rearranged-inl.h"
+#include "image/sampling_numbers-inl.h"
 #include "image/environment-inl.h"
 #include "puddle/raindrops.pass.h"
 #include "puddle/wave_step.pass.h"

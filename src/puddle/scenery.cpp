@@ -1,9 +1,18 @@
 #include "puddle/scenery.h"
 
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include <fmt/format.h>
+
 #include "cache/kept_images.h"
 #include "cache/remembered.h"
-#include "puddle/environment.h"
+#include "image/colour.h"
+#include "image/memory.h"
+#include "math/constants.h"
 #include "puddle/ground.h"
+#include "rainref/error.h"
 
 namespace rainref::puddle {
 namespace {
@@ -75,6 +84,119 @@ std::shared_ptr<const Bed> bed_of(const Settings& s) {
         if (is_natural) bed.shore = make_shore(s, bed.depths.view());
         return bed;
       });
+}
+
+namespace {
+
+// 4-channel floats of an image in the code that this variant's pass expects.
+zeroed::Array<float> recode(const Image& image, bool is_encoded, Variant variant, const Rows& rows) {
+  // Floats are read where they lie.
+  const bool is_plain = info(image.format()).kind == FormatInfo::float32;
+  std::optional<TextureData> decoded;
+  if (!is_plain) decoded.emplace(image, Address::clamp, Address::clamp, rows);
+  const int c = image.channels();
+  const std::size_t width = static_cast<std::size_t>(image.width());
+  const std::size_t texels = width * image.height() * 4;
+  zeroed::Array<float> out;
+  // With room for what build_mips adds, or all would move.
+  out.reserve(texels + (variant == Variant::corrected ? mip_bytes(image.width(), image.height(), 4) / sizeof(float) : 0));
+  out.resize(texels);
+  rows(image.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const std::size_t first = static_cast<std::size_t>(y) * width;
+      const float* in = is_plain ? image.row<float>(y) : decoded->view().texels + first * c;
+      float* to = out.data() + first * 4;
+      for (std::size_t i = 0; i < width; ++i) {
+        for (int k = 0; k < 3; ++k) {
+          // Resampled panoramas have slightly negative texels; radiance has none.
+          const float x = std::max(in[i * c + (k < c ? k : 0)], 0.0f);
+          if (is_encoded == (variant == Variant::as_published))
+            to[i * 4 + k] = x;
+          else
+            to[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
+        }
+        to[i * 4 + 3] = c == 4 ? in[i * c + 3] : 1;
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+TextureData prepare_environment(const Surroundings& s, Variant variant, const Rows& rows) {
+  const Image& image = s.environment;
+  if (image.empty()) throw Error(ExitCode::usage, "environment.image: expected an image, found none");
+  zeroed::Array<float> texels = recode(image, s.environment_is_encoded, variant, rows);
+  int width = image.width(), height = image.height();
+  if (s.environment_is_cube) {
+    if (width == 6 * height) {
+      zeroed::Array<float> column(texels.size());
+      const std::size_t face_row = static_cast<std::size_t>(height) * 4;
+      for (int face = 0; face < 6; ++face) {
+        for (int y = 0; y < height; ++y) {
+          std::memcpy(column.data() + (static_cast<std::size_t>(face) * height + y) * face_row,
+                      texels.data() + (static_cast<std::size_t>(y) * 6 + face) * face_row, face_row * sizeof(float));
+        }
+      }
+      texels.swap(column);
+      width = height;
+      height = 6 * width;
+    }
+    if (height != 6 * width) {
+      throw Error(ExitCode::usage, fmt::format("environment.image: a cube needs six square faces in a row or a column, found {}x{}",
+                                               image.width(), image.height()));
+    }
+  }
+  const Address around = s.environment_is_cube ? Address::clamp : Address::repeat;
+  TextureData texture(std::move(texels), 4, width, height, around, Address::clamp);
+  if (variant == Variant::corrected) {
+    // A cube's levels end where a face is one texel.
+    int levels = Texture::max_levels;
+    if (s.environment_is_cube) {
+      levels = 1;
+      for (int side = width; side > 1 && side % 2 == 0; side /= 2) ++levels;
+    }
+    texture.build_mips(levels, rows);
+  }
+  return texture;
+}
+
+TextureData prepare_ground(const Image& ground, bool is_encoded, Variant variant, const Rows& rows) {
+  TextureData texture(recode(ground, is_encoded, variant, rows), 4, ground.width(), ground.height(), Address::repeat, Address::repeat);
+  if (variant == Variant::corrected) texture.build_mips(Texture::max_levels, rows);
+  return texture;
+}
+
+std::array<float, 3> ambient_radiance(const Texture& t, bool is_cube) {
+  const int w = t.width[0], h = t.height[0];
+  double sum[3] = {};
+  for (int y = 0; y < h; ++y) {
+    double row[3] = {};
+    const float* texels = t.texels + static_cast<std::size_t>(y) * w * t.channels;
+    if (is_cube) {
+      const int face = y / w;
+      const double r = 2 * (y % w + 0.5) / w - 1;
+      for (int x = 0; x < w; ++x) {
+        const double s = 2 * (x + 0.5) / w - 1, length_sq = 1 + s * s + r * r;
+        const double up = face == 2 ? 1 : face == 3 ? -1 : -r;
+        if (up <= 0) continue;
+        const double weight = up / (length_sq * length_sq) * 4 / (static_cast<double>(w) * w);  // cos(theta) d(omega)
+        for (int k = 0; k < 3; ++k) row[k] += weight * texels[x * t.channels + k];
+      }
+    } else {
+      // The integral of sin cos over the row's elevations, exactly: half the difference of the squared sines.
+      const double low = std::max(0.0, (static_cast<double>(y) / h - 0.5) * pi), high = ((y + 1.0) / h - 0.5) * pi;
+      if (high <= low) continue;
+      const double sine_low = sin_real(Real64(low)).v, sine_high = sin_real(Real64(high)).v;
+      const double weight = 0.5 * (sine_high * sine_high - sine_low * sine_low) * (2 * pi / w);
+      for (int x = 0; x < w; ++x) {
+        for (int k = 0; k < 3; ++k) row[k] += weight * texels[x * t.channels + k];
+      }
+    }
+    for (int k = 0; k < 3; ++k) sum[k] += row[k];
+  }
+  return {static_cast<float>(sum[0] / pi), static_cast<float>(sum[1] / pi), static_cast<float>(sum[2] / pi)};
 }
 
 }  // namespace rainref::puddle

@@ -14,17 +14,14 @@
 namespace rainref::puddle {
 
 /// The sine hash as published, which no GPU reproduces.
-struct GroundNoisePass {
+struct GroundNoisePass : pass::Takes<GroundNoiseUniforms> {
   static constexpr pass::About about{"ground_noise",
                                      "The sine hash of the ground point, which shade takes as data.",
                                      {1, capture::Judge::input_only},
                                      {},
                                      {"dot", "length", "normalize"}};
-  using Uniforms = GroundNoiseUniforms;
   static scene::UniformBlock uniforms() {
-    return scene::uniform_block<Uniforms>(
-        "GroundNoiseUniforms",
-        with_camera<Uniforms>({scene::member<&Uniforms::puddle_depth>("puddle_depth", "m", {0, 100}, "Depth of the ground under y = 0.")}));
+    return block(with_camera<Uniforms>({member<&U::puddle_depth>("m", {0, 100}, "Depth of the ground under y = 0.")}));
   }
   template <class B>
   struct Io {
@@ -34,39 +31,34 @@ struct GroundNoisePass {
   };
 };
 
-struct ShadePass {
+struct ShadePass : pass::Takes<ShadeUniforms> {
   static constexpr pass::About about{
       "shade", "Reflection, refraction, water and ground: linear radiance.", {1}, {2}, {"dot", "length", "normalize"}};
-  using Uniforms = ShadeUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "ShadeUniforms",
-        with_camera<U>(
-            {member<&U::tint>("tint", "1", scene::share, "Colour of the water's body, linear RGB."),
-             member<&U::reflectivity>("reflectivity", "1", scene::share, "Weight of the reflection."),
-             member<&U::rotation>("rotation", "1", scene::component, "Cosine and sine of env_rotation."),
-             member<&U::ground_scale>("ground_scale", "1/m", {0, 100}, "Tiles of the ground in a metre."),
-             member<&U::water_turbidity>("water_turbidity", "1/m", {0, 1000}, "Extinction of light in the water."),
-             member<&U::puddle_depth>("puddle_depth", "m", {0, 100}, "as-published: depth of the ground under y = 0."),
-             member<&U::fog_depth>("fog_depth", "1/m", {0, 10}, "Extinction of the fog."),
-             member<&U::use_checkerboard>("use_checkerboard", "1", scene::flag, "1: checkerboard ground, 0: image."),
-             member<&U::environment_is_cube>("environment_is_cube", "1", scene::flag, "1: cube faces, 0: latitude/longitude."),
-             member<&U::ambient>("ambient", "1", scene::radiance, "corrected: radiance of a white diffuse level ground."),
-             member<&U::gloss_level>("gloss_level", "1", scene::mip_level, "corrected: mip level of the environment in wet ground."),
-             member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
-             member<&U::shore_width>("shore_width", "m", scene::share, "corrected: depth over which wet ground turns into water."),
-             member<&U::ground_footprint>("ground_footprint", "1/m", {0, 1e9},
-                                          "corrected: texels of the ground under a pixel at distance 1."),
-             member<&U::fog_colour>("fog_colour", "1", scene::radiance, "corrected: radiance of the fog."),
-             member<&U::exact_fresnel>("exact_fresnel", "1", scene::flag, "corrected: 1: Fresnel's equations, 0: Schlick."),
-             member<&U::wetness>("wetness", "1", scene::share, "corrected: reflectance of the wet ground over that of water."),
-             member<&U::background_level>("background_level", "1", scene::mip_level,
-                                          "corrected: mip level of the environment behind the scene."),
-             member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water."),
-             member<&U::ground_reach>("ground_reach", "1", {0, 1000},
-                                      "corrected: extents of the puddle over which the ground turns into the environment's; 0: never.")}));
+    return block(with_camera<U>(
+        {member<&U::tint>("1", scene::share, "Colour of the water's body, linear RGB."),
+         member<&U::reflectivity>("1", scene::share, "Weight of the reflection."),
+         member<&U::rotation>("1", scene::component, "Cosine and sine of env_rotation."),
+         member<&U::ground_scale>("1/m", {0, 100}, "Tiles of the ground in a metre."),
+         member<&U::water_turbidity>("1/m", {0, 1000}, "Extinction of light in the water."),
+         member<&U::puddle_depth>("m", {0, 100}, "as-published: depth of the ground under y = 0."),
+         member<&U::fog_depth>("1/m", {0, 10}, "Extinction of the fog."),
+         member<&U::use_checkerboard>("1", scene::flag, "1: checkerboard ground, 0: image."),
+         member<&U::environment_is_cube>("1", scene::flag, "1: cube faces, 0: latitude/longitude."),
+         member<&U::ambient>("1", scene::radiance, "corrected: radiance of a white diffuse level ground."),
+         member<&U::gloss_level>("1", scene::mip_level, "corrected: mip level of the environment in wet ground."),
+         member<&U::inverse_size>("1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+         member<&U::shore_width>("m", scene::share, "corrected: depth over which wet ground turns into water."),
+         member<&U::ground_footprint>("1/m", {0, 1e9}, "corrected: texels of the ground under a pixel at distance 1."),
+         member<&U::fog_colour>("1", scene::radiance, "corrected: radiance of the fog."),
+         member<&U::exact_fresnel>("1", scene::flag, "corrected: 1: Fresnel's equations, 0: Schlick."),
+         member<&U::wetness>("1", scene::share, "corrected: reflectance of the wet ground over that of water."),
+         member<&U::background_level>("1", scene::mip_level, "corrected: mip level of the environment behind the scene.")
+             .guarded("the host always gives 0"),
+         member<&U::mirror_level>("1", scene::mip_level, "corrected: mip level of the environment in the water.")
+             .guarded("the host always gives 1"),
+         member<&U::ground_reach>("1", {0, 1000},
+                                  "corrected: extents of the puddle over which the ground turns into the environment's; 0: never.")}));
   }
   template <class Bound>
   static std::string fault(const Bound& b) {
@@ -125,7 +117,7 @@ struct GroundPoint {
 };
 template <class N>
 RAINREF_FN GroundPoint<N> ground_as_published(const Vec3<N>& view, const Surface<N>& s, float puddle_depth) {
-  const Vec3<N> bent = refract(view, s.normal, 1.0f / water_ior);
+  const Vec3<N> bent = guard<N>(refract(view, s.normal, 1.0f / water_ior), "the ray enters the denser medium");
   const N distance = intersect_plane(s.position, bent, N(-puddle_depth));
   return {distance, s.position.x + bent.x * distance, s.position.z + bent.z * distance};
 }
@@ -209,7 +201,7 @@ template <class N>
 RAINREF_FN N share_beyond(const ShadeUniforms& u, N across, N along) {
   const N half(0.5f), zero(0.0f);
   const N out_x = max(abs(across) - half, zero), out_z = max(abs(along) - half, zero);
-  return smoothstep(0.0f, u.ground_reach, sqrt(square(out_x) + square(out_z)));
+  return guard_below<N>(smoothstep(0.0f, u.ground_reach, sqrt(square(out_x) + square(out_z))), "a distance is nowhere negative");
 }
 // Water over a bed of varying depth, wet ground around it. Coverage w goes from 0 (wet ground) to 1 (water) over the
 // first shore_width metres of depth; normal, gloss and the refracted offset follow w, so the shore has no seam.
@@ -244,11 +236,11 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const Vec3<N> mirrored = reflect(view, normal);
   // A mirror ray that dips below the horizon would meet the water again: it is turned up.
   const Vec3<N> up_mirrored{mirrored.x, abs(mirrored.y), mirrored.z};
-  const Vec3<N> look = rotate_y(select(hit, up_mirrored, view), u.rotation);
-  const N gloss = select(hit, mix(N(u.gloss_level), N(u.mirror_level), water), N(u.background_level));
+  const Vec3<N> look = rotate_y(guard<N>(select(hit, up_mirrored, view), for_lanes), u.rotation);
+  const N gloss = guard<N>(select(hit, mix(N(u.gloss_level), N(u.mirror_level), water), N(u.background_level)), for_lanes);
   const Vec3<N> reflected = sample_environment(environment, u.environment_is_cube != 0, look, gloss);
 
-  const Vec3<N> bent = refract(view, normal, 1.0f / water_ior);
+  const Vec3<N> bent = guard<N>(refract(view, normal, 1.0f / water_ior), "the ray enters the denser medium");
   const N column = max(depth, zero), path = column / max(-bent.y, N(0.05f));
   const N gx = p.x + path * bent.x, gz = p.z + path * bent.z;
   Vec3<N> albedo;
@@ -260,8 +252,10 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
     albedo = Vec3<N>(texel[0], texel[1], texel[2]);
   }
   const auto under_water = column > zero;
-  if (any(under_water))
-    albedo = select(under_water, mix(Vec3<N>(u.tint), albedo, transmittance(N(u.water_turbidity), path + column)), albedo);
+  if (any(under_water)) {
+    const Vec3<N> dimmed = mix(Vec3<N>(u.tint), albedo, transmittance(N(u.water_turbidity), path + column));
+    albedo = guard<N>(select(under_water, dimmed, albedo), for_lanes);
+  }
   const Vec3<N> body = albedo * Vec3<N>(u.ambient);
   Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
   if (u.fog_depth > 0.0f) surface = mix(Vec3<N>(u.fog_colour), surface, transmittance(N(u.fog_depth), distance));
@@ -273,7 +267,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
       surface = select(leaves, mix(surface, background(u, environment, view), own), surface);
     }
   }
-  return select(hit, surface, reflected);
+  return guard<N>(select(hit, surface, reflected), for_lanes);
 }
 
 struct GroundNoisePassText {

@@ -7,28 +7,23 @@
 
 namespace rainref::puddle {
 
-struct SurfaceHitPass {
+struct SurfaceHitPass : pass::Takes<SurfaceHitUniforms> {
   static constexpr pass::About about{
       "surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {1}, {2}, {"dot", "length", "normalize"}};
-  using Uniforms = SurfaceHitUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "SurfaceHitUniforms",
-        with_camera<U>(
-            {member<&U::half_size>("half_size", "m", {0, 1e5}, "Half the puddle's extent."),
-             member<&U::epsilon>("epsilon", "m", {1e-5, 1}, "Distance that counts as a hit."),
-             member<&U::texel>("texel", "1", scene::share, "1 over the wave's columns and rows."),
-             member<&U::max_steps>("max_steps", "1", {1, 4096}, "Most steps of the march."),
-             member<&U::normal_gain>("normal_gain", "1", {0, 1e5}, "Factor from a height difference to a slope."),
-             member<&U::height_scale>("height_scale", "m", {0, 2}, "corrected: height = scale * stored + bias."),
-             member<&U::height_bias>("height_bias", "m", {-1, 0}, "corrected: see height_scale."),
-             member<&U::surface_top>("surface_top", "m", {0, 1e6}, "corrected: no height lies above this, or below its negative."),
-             member<&U::surface_slope>("surface_slope", "1", {0, 1e9}, "corrected: no slope of the surface is above this."),
-             member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
-             member<&U::bounds_scale>("bounds_scale", "1", scene::share, "corrected: texture coordinates of bounds to one of the water."),
-             member<&U::bounds_reach>("bounds_reach", "m", {0, 1e6}, "corrected: a texel of bounds holds this far around its points.")}));
+    return block(
+        with_camera<U>({member<&U::half_size>("m", {0, 1e5}, "Half the puddle's extent."),
+                        member<&U::epsilon>("m", {1e-5, 1}, "Distance that counts as a hit."),
+                        member<&U::texel>("1", scene::share, "1 over the wave's columns and rows."),
+                        member<&U::max_steps>("1", {1, 4096}, "Most steps of the march."),
+                        member<&U::normal_gain>("1", {0, 1e5}, "Factor from a height difference to a slope."),
+                        member<&U::height_scale>("m", {0, 2}, "corrected: height = scale * stored + bias."),
+                        member<&U::height_bias>("m", {-1, 0}, "corrected: see height_scale."),
+                        member<&U::surface_top>("m", {0, 1e6}, "corrected: no height lies above this, or below its negative."),
+                        member<&U::surface_slope>("1", {0, 1e9}, "corrected: no slope of the surface is above this."),
+                        member<&U::inverse_size>("1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+                        member<&U::bounds_scale>("1", scene::share, "corrected: texture coordinates of bounds to one of the water."),
+                        member<&U::bounds_reach>("m", {0, 1e6}, "corrected: a texel of bounds holds this far around its points.")}));
   }
   template <class B>
   struct Io {
@@ -77,13 +72,15 @@ RAINREF_FN N scene_distance(const SurfaceHitUniforms& u, const T& wave, const Ve
                         max(abs(p.z) - N(u.half_size[2]), zero)});
 }
 
+inline constexpr char until_done[] = "one invocation alone ends its march when it is done: the other side is for lanes";
 template <class N>
 struct MarchState {
   Vec3<N> position;
   N distance, iterations;
   template <class M>
   friend RAINREF_FN MarchState select(M m, const MarchState& a, const MarchState& b) {
-    return {select(m, a.position, b.position), select(m, a.distance, b.distance), select(m, a.iterations, b.iterations)};
+    return {guard<N>(select(m, a.position, b.position), until_done), guard<N>(select(m, a.distance, b.distance), until_done),
+            guard<N>(select(m, a.iterations, b.iterations), until_done)};
   }
 };
 
@@ -143,7 +140,8 @@ struct DescentState {
   N t, above, step, iterations;
   template <class M>
   friend RAINREF_FN DescentState select(M m, const DescentState& a, const DescentState& b) {
-    return {select(m, a.t, b.t), select(m, a.above, b.above), select(m, a.step, b.step), select(m, a.iterations, b.iterations)};
+    return {guard<N>(select(m, a.t, b.t), until_done), guard<N>(select(m, a.above, b.above), until_done),
+            guard<N>(select(m, a.step, b.step), until_done), guard<N>(select(m, a.iterations, b.iterations), until_done)};
   }
 };
 
@@ -246,9 +244,9 @@ RAINREF_FN SurfaceHit<N> landed(const SurfaceHitUniforms& u, const T& wave, cons
     hit_t = select(close, t + state.above * min(one / max(closing, least), N(2.0f) * over.stride), t);
     out.normal = select(on_water, normalize(Vec3<N>(gx, one, gz)), out.normal);
   }
-  out.position = select(ray.down, ray.origin + hit_t * ray.d, ray.origin);
+  out.position = guard<N>(select(ray.down, ray.origin + hit_t * ray.d, ray.origin), for_lanes);
   out.iterations = state.iterations;
-  out.flag = select(ray.down, one, zero);
+  out.flag = guard<N>(select(ray.down, one, zero), for_lanes);
   return out;
 }
 

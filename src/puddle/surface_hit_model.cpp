@@ -15,7 +15,7 @@
 #include "capture/bound_texture.h"
 #include "math/whole.h"
 #include "puddle/scalar.h"
-#include "puddle/evaluations.h"
+#include "puddle/info.h"
 
 namespace rainref::puddle {
 namespace {

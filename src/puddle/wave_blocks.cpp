@@ -2,7 +2,7 @@
 // room of the level before that. Bands of rows go through all steps at once, each step `reach` rows narrower at both ends than the
 // step before (a trapezoid of rows and steps); what is left between two bands are triangles, made afterwards. Nothing is
 // made twice, and every row is made from the same rows as one step at a time makes it from.
-#include "puddle/wave_blocks.h"
+#include "puddle/kernels.h"
 
 #include <algorithm>
 #include <iterator>

@@ -14,23 +14,18 @@
 namespace rainref::puddle {
 
 /// Its lanes are written by hand, in place over one plane of each level: see kernels_wave.cpp.
-struct WaveStepPass {
+struct WaveStepPass : pass::Takes<WaveStepUniforms> {
   static constexpr pass::About about{
       "wave_step", "The next level of the water from the newest and the previous one.", {1}, {2}, {"the four neighbours", "length"}};
-  using Uniforms = WaveStepUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "WaveStepUniforms",
-        {member<&U::damping>("damping", "1", scene::share, "as-published: factor of the new level; corrected: gamma of a step."),
-         member<&U::step>("step", "texel", {1, 8}, "as-published: offset of the neighbours."),
-         member<&U::courant_sq>("courant_sq", "1", {0, 0.5}, "corrected: Courant number squared, times (1 + gamma) / 2."),
-         member<&U::drop_count>("drop_count", "1", {0, 1 << 20}, "Drops in the list."),
-         member<&U::rest>("rest", "1", scene::share, "Stored value of level water."),
-         member<&U::rim_damping>("rim_damping", "1", scene::share, "corrected: share of the wave that the rim takes at the edge itself."),
-         member<&U::rim_inverse>("rim_inverse", "1/texel", {0, 2}, "corrected: one over the width of the rim."),
-         member<&U::size>("size", "texel", {0, 8192}, "corrected: columns and rows of the wave.")});
+    return block({member<&U::damping>("1", scene::share, "as-published: factor of the new level; corrected: gamma of a step."),
+                  member<&U::step>("texel", {1, 8}, "as-published: offset of the neighbours."),
+                  member<&U::courant_sq>("1", {0, 0.5}, "corrected: Courant number squared, times (1 + gamma) / 2."),
+                  member<&U::drop_count>("1", {0, 1 << 20}, "Drops in the list."),
+                  member<&U::rest>("1", scene::share, "Stored value of level water."),
+                  member<&U::rim_damping>("1", scene::share, "corrected: share of the wave that the rim takes at the edge itself."),
+                  member<&U::rim_inverse>("1/texel", {0, 2}, "corrected: one over the width of the rim."),
+                  member<&U::size>("texel", {0, 8192}, "corrected: columns and rows of the wave.")});
   }
   template <class B>
   struct Io {
@@ -175,7 +170,7 @@ struct WaveStepPassText {
     std::vector<Drop> found;
     for (const Drop& d : io.drops.records) {
       const float reach = (corrected ? d.radius : 4.0f) + 1.5f;
-      if (pass::meets_all<N>() || (std::abs(d.x - cx) < reach && std::abs(d.y - cy) < reach)) found.push_back(d);
+      if (io.drops.takes(std::abs(d.x - cx) < reach && std::abs(d.y - cy) < reach)) found.push_back(d);
     }
     const std::span<const Drop> near = found;
     io.wave.in_storage([&]<class Storage>(Storage) {

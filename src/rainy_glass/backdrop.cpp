@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "cache/kept_images.h"
 #include "image/flipped.h"
-#include "night_street/night_street.h"
 #include "parallel/rows.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/storage.h"
 #include "scene/panorama_view.h"
 
 namespace rainref::rainy_glass {
@@ -17,8 +17,9 @@ namespace {
 
 using scene::Vector3;
 
-/// Glazing bars: dark round profiles, lit a little from the left, at the pane's u = k spacing + spacing / 2.
+/// Glazing bars before a pane: dark round profiles, lit a little from the left, at the pane's u = k spacing + spacing / 2.
 void add_bars(const Settings& s, const BackdropOptions& o, Surroundings& around, const Rows& rows) {
+  if (s.shape != Shape::pane || !(o.bar_spacing > 0)) return;
   Image surface, orientation;
   make_surface(s, {}, surface, orientation, rows);
   const auto place = [&](float u) {
@@ -88,37 +89,41 @@ Image defocused(const Image& image, double radius, const parallel::Executor& exe
   return out;
 }
 
-Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, const parallel::Executor& executor, const Image& panorama) {
-  Surroundings around;
+Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, const scene::Scenery& street,
+                           const parallel::Executor& executor) {
   const double radius = options.defocus * s.height;
-  if (panorama.empty()) {
-    const night_street::Street street({s.seed});
-    const scene::Camera eye = camera(s);
-    cache::Recipe recipe("rainy_glass street");
-    recipe.add(s.seed).add(static_cast<std::uint64_t>(s.width)).add(static_cast<std::uint64_t>(s.height));
-    for (const Vector3& v : {eye.position, eye.target, eye.up}) recipe.add({v.x, v.y, v.z});
-    recipe.add({eye.vertical_fov_deg, radius});
-    // Both at once: in focus the street is needed no more.
-    std::vector<Image> kept = cache::images(recipe, {{Format::rgba32f, s.width, s.height}, {Format::r32f, s.width, s.height}}, [&] {
-      night_street::Street::View view = street.view(eye, s.width, s.height, backdrop_far, executor);
-      std::vector<Image> both;
-      both.push_back(defocused(view.colour, radius, executor));
-      both.push_back(std::move(view.depth));
-      return both;
-    });
-    around.colour = std::move(kept[0]);
-    around.depth = std::move(kept[1]);
-    if (s.use_probe) around.probe = street.panorama(1024, 512, camera(s).position, executor);
-  } else {
-    around.colour = scene::panorama_view(panorama, camera(s), s.width, s.height, executor);
-    around.depth = Image(Format::r32f, s.width, s.height);
-    for (int y = 0; y < s.height; ++y) std::fill_n(around.depth.row<float>(y), s.width, static_cast<float>(backdrop_far));
-    if (s.use_probe) around.probe = copy_of(panorama);
-    around.colour = cache::image(cache::Recipe("rainy_glass defocused").add({radius}).add(around.colour),
-                                 {Format::rgba32f, around.colour.width(), around.colour.height()},
-                                 [&] { return defocused(around.colour, radius, executor); });
-  }
-  if (s.shape == Shape::pane && options.bar_spacing > 0) add_bars(s, options, around, parallel::rows_of(executor));
+  const scene::Camera eye = camera(s);
+  cache::Recipe recipe(fmt::format("rainy_glass {}", street.name()));
+  recipe.add(s.seed).add(static_cast<std::uint64_t>(s.width)).add(static_cast<std::uint64_t>(s.height));
+  for (const Vector3& v : {eye.position, eye.target, eye.up}) recipe.add({v.x, v.y, v.z});
+  recipe.add({eye.vertical_fov_deg, radius});
+  // Both at once: in focus the street is needed no more.
+  std::vector<Image> kept = cache::images(recipe, {{Format::rgba32f, s.width, s.height}, {Format::r32f, s.width, s.height}}, [&] {
+    scene::Scenery::View view = street.view(eye, s.width, s.height, backdrop_far, executor);
+    std::vector<Image> both;
+    both.push_back(defocused(view.colour, radius, executor));
+    both.push_back(std::move(view.depth));
+    return both;
+  });
+  Surroundings around;
+  around.colour = std::move(kept[0]);
+  around.depth = std::move(kept[1]);
+  if (s.use_probe) around.probe = street.panorama(1024, 512, eye.position, executor);
+  add_bars(s, options, around, parallel::rows_of(executor));
+  return around;
+}
+
+Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, const Image& panorama, const parallel::Executor& executor) {
+  const double radius = options.defocus * s.height;
+  Surroundings around;
+  around.colour = scene::panorama_view(panorama, camera(s), s.width, s.height, executor);
+  around.depth = Image(Format::r32f, s.width, s.height);
+  for (int y = 0; y < s.height; ++y) std::fill_n(around.depth.row<float>(y), s.width, static_cast<float>(backdrop_far));
+  if (s.use_probe) around.probe = copy_of(panorama);
+  around.colour = cache::image(cache::Recipe("rainy_glass defocused").add({radius}).add(around.colour),
+                               {Format::rgba32f, around.colour.width(), around.colour.height()},
+                               [&] { return defocused(around.colour, radius, executor); });
+  add_bars(s, options, around, parallel::rows_of(executor));
   return around;
 }
 

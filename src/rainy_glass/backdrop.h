@@ -1,8 +1,8 @@
-// A scene to see through the glass where a user brings no picture: the street at night or a panorama, behind the glazing bars of a
-// conservatory.
+// A scene to see through the glass where a user brings no picture: a street or a panorama, behind the glazing bars of a conservatory.
 #pragma once
 
 #include "rainref/rainy_glass.h"
+#include "scene/scenery.h"
 
 namespace rainref::rainy_glass {
 
@@ -12,10 +12,12 @@ struct BackdropOptions {
   double bar_width = 0.04;   ///< [m]
 };
 
-/// Colour (rgba32f) and depth of the street in the camera of `settings`, or of a panorama (scene/panorama_view.h), which is as far
-/// as the sky and the probe too. The same bits on every machine.
-Surroundings make_backdrop(const Settings& settings, const BackdropOptions& options, const parallel::Executor& executor,
-                           const Image& panorama = {});
+/// Colour (rgba32f) and depth of the street in the camera of `settings`, and the probe. The same bits on every machine.
+Surroundings make_backdrop(const Settings& settings, const BackdropOptions& options, const scene::Scenery& street,
+                           const parallel::Executor& executor);
+/// The same of a panorama (scene/panorama_view.h), which is as far as the sky and the probe too.
+Surroundings make_backdrop(const Settings& settings, const BackdropOptions& options, const Image& panorama,
+                           const parallel::Executor& executor);
 constexpr double backdrop_far = 1000;  ///< depth of the sky [m]
 
 /// Each texel the mean of those within `radius` texels, by centres; edges repeat. rgba32f.

@@ -21,23 +21,18 @@ constexpr pass::Out map_of(std::string_view name, std::string_view channels, std
   return {.name = name, .sentence = channels, .encoding = encoding, .format_key = "maps.storage"};
 }
 
-struct BakeRaindropsPass {
+struct BakeRaindropsPass : pass::Takes<BakeRaindropsUniforms> {
   static constexpr pass::About about{"bake_raindrops",
                                      "The raindrop map: normals, time offsets and heights of droplets on a tile. Once, before frame 0.",
                                      {1},
                                      {1},
                                      {"1 + slope squared"}};
-  using Uniforms = BakeRaindropsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "BakeRaindropsUniforms",
-        {member<&U::inverse_size>("inverse_size", "1", scene::share, "1 over the map's columns and rows."),
-         member<&U::droplet_count>("droplet_count", "1", {0, 1 << 16}, "Droplets in the list."),
-         member<&U::normal_scale>("normal_scale", "1", {0, 10}, "Slope of the water over the gradient of the height."),
-         member<&U::neutral>("neutral", "1", scene::share, "Stored value of a flat surface's normal."),
-         member<&U::span>("span", "1", scene::share, "Stored value of a unit less neutral.")});
+    return block({member<&U::inverse_size>("1", scene::share, "1 over the map's columns and rows."),
+                  member<&U::droplet_count>("1", {0, 1 << 16}, "Droplets in the list."),
+                  member<&U::normal_scale>("1", {0, 10}, "Slope of the water over the gradient of the height."),
+                  member<&U::neutral>("1", scene::share, "Stored value of a flat surface's normal."),
+                  member<&U::span>("1", scene::share, "Stored value of a unit less neutral.")});
   }
   static std::vector<Droplet> near(const Uniforms&, std::span<const Droplet> all, bool corrected, int columns, const parallel::Tile& t) {
     return droplets_near(all, corrected, columns, t.x0, t.y0, t.x1, t.y1);
@@ -55,22 +50,17 @@ struct BakeRaindropsPass {
   };
 };
 
-struct BakeRivuletsPass {
+struct BakeRivuletsPass : pass::Takes<BakeRivuletsUniforms> {
   static constexpr pass::About about{
       "bake_rivulets", "The rivulet map: normals of rivulets, and their flow. Once, before frame 0.", {1}, {1}, {"1 + slope squared"}};
-  using Uniforms = BakeRivuletsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "BakeRivuletsUniforms",
-        {member<&U::inverse_size>("inverse_size", "1", scene::share, "1 over the map's columns and rows."),
-         member<&U::trail_count>("trail_count", "1", {0, 1 << 16}, "Rivulets in the list."),
-         member<&U::normal_scale>("normal_scale", "1", {0, 1e4}, "Slope of the water over the gradient of the height."),
-         member<&U::neutral>("neutral", "1", scene::share, "Stored value of 0."),
-         member<&U::span>("span", "1", scene::share, "Stored value of 1 less neutral."),
-         member<&U::flow_cells>("flow_cells", "1", {1, 256}, "Cells of the flow's coarser octave along a side."),
-         member<&U::flow_gain>("flow_gain", "1", {0, 10}, "Factor of the noise before it is held in [-1, 1].")});
+    return block({member<&U::inverse_size>("1", scene::share, "1 over the map's columns and rows."),
+                  member<&U::trail_count>("1", {0, 1 << 16}, "Rivulets in the list."),
+                  member<&U::normal_scale>("1", {0, 1e4}, "Slope of the water over the gradient of the height."),
+                  member<&U::neutral>("1", scene::share, "Stored value of 0."),
+                  member<&U::span>("1", scene::share, "Stored value of 1 less neutral."),
+                  member<&U::flow_cells>("1", {1, 256}, "Cells of the flow's coarser octave along a side."),
+                  member<&U::flow_gain>("1", {0, 10}, "Factor of the noise before it is held in [-1, 1].")});
   }
   static std::vector<Trail> near(const Uniforms&, std::span<const Trail> all, bool, int columns, const parallel::Tile& t) {
     return trails_near(all, columns, t.x0, t.y0, t.x1, t.y1);

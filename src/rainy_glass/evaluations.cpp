@@ -1,4 +1,4 @@
-#include "rainy_glass/evaluations.h"
+#include "rainy_glass/info.h"
 
 #include <algorithm>
 
@@ -10,7 +10,6 @@
 #include "pass/model.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/scalar.h"
 #include "rainy_glass/rain_on_glass_text.h"
 
 namespace rainref::rainy_glass {

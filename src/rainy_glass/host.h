@@ -1,11 +1,14 @@
 // What the host computes: uniforms and records of the bakes, in double, each rounded once; and the glass's geometry.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
+#include "base/memory.h"
 #include "base/rows.h"
 #include "image/texture.h"
+#include "rainref/image.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/uniforms.h"
 #include "scene/camera.h"
@@ -52,5 +55,23 @@ void make_surface(const Settings& settings, const Image& normals, Image& surface
 /// Least depth of each texel and its eight neighbours, less a margin for rounding: a bilinear lookup that gives more than z
 /// touches no texel of depth z or less.
 Image near_depth(const Image& depth, const Rows& rows = rows_here);
+
+/// Columns and rows of the pictures whose size is their own.
+struct PictureSizes {
+  std::array<int, 2> probe{1024, 512};
+  std::array<int, 2> raindrops{0, 0}, rivulets{0, 0};  ///< 0: baked
+};
+PictureSizes sizes_of(const Surroundings& surroundings);
+
+/// Memory of the constructor and of frames. The pictures themselves are their owner's.
+MemoryPeak memory(const Settings& settings, const PictureSizes& sizes = {});
+/// Throws Error(usage) where it does not fit.
+void check_memory(const Settings& settings, const PictureSizes& sizes = {});
+
+/// Four channels as halves, to nearest even; negative colours, which resampled pictures have, become 0, those beyond the
+/// halves 65504.
+Image colour_as_half(const Image& image, const Rows& rows = rows_here);
+/// A map in its storage format, to nearest even.
+Image stored_map(const Image& map, Format format);
 
 }  // namespace rainref::rainy_glass

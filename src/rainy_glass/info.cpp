@@ -4,7 +4,7 @@
 #include "pass/info.h"
 #include "rainy_glass/bake.pass.h"
 #include "rainy_glass/rain_on_glass.pass.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -13,19 +13,16 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 EffectInfo make() {
-  const UniformBlock droplet = record<Droplet>(
-      "Droplet", {member<&Droplet::x>("x", "1", "Centre, in tiles."), member<&Droplet::y>("y", "1", "Centre."),
-                  member<&Droplet::radius>("radius", "1", "Of a disc that holds it, in tiles."),
-                  member<&Droplet::height>("height", "1", "At the centre."),
-                  member<&Droplet::m00>("m00", "1", "q = M d is 1 long at the rim."), member<&Droplet::m01>("m01", "1", "M is symmetric."),
-                  member<&Droplet::m11>("m11", "1", "See m00."), member<&Droplet::offset>("offset", "1", "Of its timer.")});
+  const UniformBlock droplet =
+      record<Droplet>({member<&Droplet::x>("1", "Centre, in tiles."), member<&Droplet::y>("1", "Centre."),
+                       member<&Droplet::radius>("1", "Of a disc that holds it, in tiles."), member<&Droplet::height>("1", "At the centre."),
+                       member<&Droplet::m00>("1", "q = M d is 1 long at the rim."), member<&Droplet::m01>("1", "M is symmetric."),
+                       member<&Droplet::m11>("1", "See m00."), member<&Droplet::offset>("1", "Of its timer.")});
   const UniformBlock trail = record<Trail>(
-      "Trail", {member<&Trail::x>("x", "1", "Centre of the head, in tiles."), member<&Trail::y>("y", "1", "Centre of the head."),
-                member<&Trail::half_width>("half_width", "1", "Of the head."),
-                member<&Trail::inverse_length>("inverse_length", "1", "1 over the length of the tail."),
-                member<&Trail::height>("height", "1", "Of the head."), member<&Trail::wiggle>("wiggle", "1", "Amplitude of the winding."),
-                member<&Trail::wiggle_rate>("wiggle_rate", "1", "Turns of the winding in a tile."),
-                member<&Trail::wiggle_phase>("wiggle_phase", "1", "At the head, in turns.")});
+      {member<&Trail::x>("1", "Centre of the head, in tiles."), member<&Trail::y>("1", "Centre of the head."),
+       member<&Trail::half_width>("1", "Of the head."), member<&Trail::inverse_length>("1", "1 over the length of the tail."),
+       member<&Trail::height>("1", "Of the head."), member<&Trail::wiggle>("1", "Amplitude of the winding."),
+       member<&Trail::wiggle_rate>("1", "Turns of the winding in a tile."), member<&Trail::wiggle_phase>("1", "At the head, in turns.")});
 
   EffectInfo info;
   info.name = "rainy_glass";
@@ -35,38 +32,55 @@ EffectInfo make() {
       pass::info_of<RainOnGlassPass>(),
       pass::display_info("rain_on_glass"),
   };
-  const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
+  const std::array<double, 2> signed_one{-1, 1};
+  const auto append = [&](const std::vector<BufferInfo>& more) { pass::append(info.buffers, more); };
   info.buffers = {
-      {"droplets", "records", "Droplets of the raindrop map, largest first; they do not overlap.", "1", one, "none", "none", "none", "",
-       "Droplet"},
-      {"trails", "records", "Rivulets of the rivulet map.", "1", one, "none", "none", "none", "", "Trail"},
-      {"lattice", "rgba32f", "Unit gradients of the flow across (x, y) and along (z, w) the glass.", "1", signed_one},
+      {.name = "droplets",
+       .format = "records",
+       .sentence = "Droplets of the raindrop map, largest first; they do not overlap.",
+       .record = "Droplet"},
+      {.name = "trails", .format = "records", .sentence = "Rivulets of the rivulet map.", .record = "Trail"},
+      {.name = "lattice",
+       .format = "rgba32f",
+       .sentence = "Unit gradients of the flow across (x, y) and along (z, w) the glass.",
+       .range = signed_one},
   };
-  const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
   append(pass::buffers_of<BakeRaindropsPass>());
   append(pass::buffers_of<BakeRivuletsPass>());
   append({
-      {"surface", "rgba32f", "Place on the glass u, v; distance along the view axis, 0 beside the glass; 0.", "m, m, m, 1", {-10, 10}},
-      {"orientation", "rgba16f", "World normal toward the rain; 1 on the glass.", "1", signed_one},
-      {"scene", "rgba16f", "The scene without the glass, linear radiance.", "1", one, "none", "linear Rec. 709", "unused"},
-      {"scene_depth", "r32f", "Its depth along the view axis.", "m", {0, 1000}, "none", "none", "none", "", "", correct},
-      {"near_depth",
-       "r32f",
-       "Least depth of a texel and its eight neighbours, times 1 - 2^-16.",
-       "m",
-       {0, 1000},
-       "none",
-       "none",
-       "none",
-       "",
-       "",
-       correct},
-      {"probe", "rgba32f", "Radiance by direction, with mips.", "1", one, "none", "linear Rec. 709", "unused",
-       "latitude/longitude: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down"},
+      {.name = "surface",
+       .format = "rgba32f",
+       .sentence = "Place on the glass u, v; distance along the view axis, 0 beside the glass; 0.",
+       .unit = "m, m, m, 1",
+       .range = {-10, 10}},
+      {.name = "orientation", .format = "rgba16f", .sentence = "World normal toward the rain; 1 on the glass.", .range = signed_one},
+      {.name = "scene",
+       .format = "rgba16f",
+       .sentence = "The scene without the glass, linear radiance.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused"},
+      {.name = "scene_depth",
+       .format = "r32f",
+       .sentence = "Its depth along the view axis.",
+       .unit = "m",
+       .range = {0, 1000},
+       .variant = correct},
+      {.name = "near_depth",
+       .format = "r32f",
+       .sentence = "Least depth of a texel and its eight neighbours, times 1 - 2^-16.",
+       .unit = "m",
+       .range = {0, 1000},
+       .variant = correct},
+      {.name = "probe",
+       .format = "rgba32f",
+       .sentence = "Radiance by direction, with mips.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused",
+       .orientation =
+           "latitude/longitude: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down"},
   });
   append(pass::buffers_of<RainOnGlassPass>());
-  info.buffers.push_back(
-      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"});
+  info.buffers.push_back(pass::display_buffer());
   info.records = {droplet, trail};
   return info;
 }

@@ -3,28 +3,20 @@
 #include <fmt/format.h>
 
 #include "effect/scene_pictures.h"
-#include "night_street/memory.h"
 #include "parallel/rows.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
-#include "rainy_glass/evaluations.h"
 #include "rainy_glass/info.h"
-#include "rainy_glass/memory.h"
+#include "rainy_glass/host.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/shown.h"
-#include "rainy_glass/storage.h"
+#include "scene/scenery_memory.h"
 
 namespace rainref::rainy_glass {
 namespace {
 
-Image depth_of(const Instance::Sequences& sequences, const Image& colour, int frame, effect::Inputs& inputs) {
-  const std::int64_t picture = sequences.depth->shown_in(frame);
-  const image_io::Picture read = sequences.depth->read(picture, inputs);
-  try {
-    return effect::depth_of(read, sequences.depth_scale, backdrop_far, colour);
-  } catch (const Error& e) {
-    throw sequences.depth->about(e, picture);
-  }
+Image depth_of(const Instance::Sequences& s, const Image& colour, int frame, effect::Inputs& inputs) {
+  return effect::depth_in(*s.depth, frame, s.depth_scale, backdrop_far, colour, inputs);
 }
 Image colour_of(const Instance::Sequences& sequences, int frame, effect::Inputs& inputs) {
   return effect::linear_of(sequences.colour.read(sequences.colour.shown_in(frame), inputs));
@@ -56,9 +48,10 @@ Surroundings surroundings_of(const scene::Config& config, const Settings& settin
     if (corrected) s.depth = depth_of(seen, s.colour, 0, inputs);
     if (seen.colour.is_sequence() || (seen.depth && seen.depth->is_sequence())) sequences = std::move(seen);
   } else {
-    Settings street = settings;
-    street.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
-    s = make_backdrop(street, backdrop_from(config), executor, panorama);
+    Settings seen = settings;
+    seen.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
+    s = panorama.empty() ? make_backdrop(seen, backdrop_from(config), *effect::street_of(inputs, {settings.seed}), executor)
+                         : make_backdrop(seen, backdrop_from(config), panorama, executor);
   }
   if (settings.use_probe && s.probe.empty()) {
     if (config.text("glass.probe_image").empty())
@@ -85,15 +78,21 @@ effect::RunMemory memory_of(const scene::Config& config) {
   if (effect::is_named(config, "scene.image") || effect::is_named(config, "scene.panorama")) {
     m.peak.hold(colour + depth);
   } else {
-    m.peak.then(night_street::view_memory(s.width, s.height));
-    if (s.use_probe) m.peak.then(night_street::panorama_memory(1024, 512));
-    m.peak.release(night_street::normal_bytes(s.width, s.height));
+    m.peak.then(scene::view_memory(s.width, s.height));
+    if (s.use_probe) m.peak.then(scene::panorama_memory(1024, 512));
   }
   m.peak.pass(colour);                                    // out of focus
   m.peak.pass(colour + image_bytes(m, Format::rgba16f));  // the glass, for its bars
   m.peak.then(memory(s));
   if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(3 * colour + 3 * depth);  // decoded, turned over, as it is taken
   return m;
+}
+
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  std::optional<Instance::Sequences> sequences;
+  Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
+  return std::make_unique<Instance>(settings, std::move(around), std::move(sequences), executor);
 }
 
 }  // namespace
@@ -138,18 +137,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"rainy_glass",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            std::optional<Instance::Sequences> sequences;
-            Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
-            return std::make_unique<Instance>(settings, std::move(around), std::move(sequences), executor);
-          }};
+  return {"rainy_glass", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::rainy_glass

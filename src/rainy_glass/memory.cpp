@@ -1,4 +1,3 @@
-#include "rainy_glass/memory.h"
 
 #include <fmt/format.h>
 

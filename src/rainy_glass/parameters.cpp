@@ -10,8 +10,8 @@ namespace {
 
 using namespace rainref::scene;
 
-std::vector<MemberParameter<Settings>> made() {
-  std::vector<MemberParameter<Settings>> table{
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table{
       choice<&Settings::shape>("glass.shape", {{"pane", Shape::pane}, {"sphere", Shape::sphere}, {"image", Shape::image}},
                                "An upright pane across the view, a ball, or the normals of glass.normal_image."),
       real<&Settings::distance>("glass.distance", "m", 0.01, 1000,
@@ -76,18 +76,13 @@ std::vector<MemberParameter<Settings>> made() {
       real<&Settings::camera_up>("camera.up", "1", -1, 1, "Direction that is up in the picture."),
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 170, "Vertical field of view."),
   };
-  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
-  return table;
-}
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 
 }  // namespace
 
 std::span<const scene::Parameter> parameters() {
-  static const std::vector<scene::Parameter> all = parameters_of(members());
+  static const std::vector<scene::Parameter> all = parameters_of(members(), {effect::sequence_parameters()});
   return all;
 }
 

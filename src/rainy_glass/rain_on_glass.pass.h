@@ -9,47 +9,40 @@
 namespace rainref::rainy_glass {
 
 /// Its lanes are written by hand, because a scene key chooses how the maps are stored: see kernels_picture.cpp.
-struct RainOnGlassPass {
+struct RainOnGlassPass : pass::Takes<RainOnGlassUniforms> {
   static constexpr pass::About about{
       "rain_on_glass", "The scene seen through the wet glass: linear radiance.", {1}, {1}, {"dot", "1 - normal squared"}};
-  using Uniforms = RainOnGlassUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "RainOnGlassUniforms",
-        {member<&U::pixel>("pixel", "1", scene::share, "1 over the picture's columns and rows."),
-         member<&U::time>("time", "s", scene::frame_time, "as-published: frame number over frame rate, rounded once."),
-         member<&U::rain_amount>("rain_amount", "1", scene::share, "1: every droplet shows."),
-         member<&U::drop_tiles>("drop_tiles", "1/m", {0, 1000}, "Tiles of the raindrop map in a metre."),
-         member<&U::rivulet_tiles>("rivulet_tiles", "1/m", {0, 1000}, "Tiles of the rivulet map in a metre."),
-         member<&U::drop_rate>("drop_rate", "1/s", {0, 1000}, "as-published: cycles of a droplet in a second."),
-         member<&U::flow_rate>("flow_rate", "1/s", {0, 1000}, "as-published: cycles of the flow in a second."),
-         member<&U::flow_strength>("flow_strength", "1", {0, 10},
-                                   "Tiles by which full flow moves a rivulet in a cycle; corrected: across."),
-         member<&U::distortion>("distortion", "1", scene::component, "as-published: pictures per unit of the summed channels."),
-         member<&U::use_probe>("use_probe", "1", scene::flag, "1: the reflection probe, 0: the scene's picture."),
-         member<&U::probe_level>("probe_level", "1", {0, 16}, "Mip level of the probe."),
-         member<&U::drop_phase>("drop_phase", "1", scene::share, "corrected: fraction of the droplets' cycle."),
-         member<&U::flow_phase>("flow_phase", "1", scene::share, "corrected: fraction of the flow's cycle."),
-         member<&U::scroll>("scroll", "1", scene::share, "corrected: way of the rivulets down the glass, fraction of a tile."),
-         member<&U::run_strength>("run_strength", "1", {0, 1e11},
-                                  "corrected: tiles by which full flow moves a rivulet along the glass in a cycle."),
-         member<&U::drop_neutral>("drop_neutral", "1", scene::share, "corrected: stored value of 0 in the raindrop map."),
-         member<&U::drop_scale>("drop_scale", "1", {1, 3}, "corrected: normal over stored value less neutral."),
-         member<&U::rivulet_neutral>("rivulet_neutral", "1", scene::share, "corrected: stored value of 0 in the rivulet map."),
-         member<&U::rivulet_scale>("rivulet_scale", "1", {1, 3}, "corrected: as drop_scale."),
-         member<&U::sharpness>("sharpness", "1", {0, 1e4}, "corrected: 1 over the height in which a rim turns visible."),
-         member<&U::impact>("impact", "1", scene::share, "corrected: share of the cycle in which a droplet spreads."),
-         member<&U::bend>("bend", "1", scene::share, "corrected: refractive index of water less 1."),
-         member<&U::rivulet_amount>("rivulet_amount", "1", {0, 4}, "corrected: weight of the rivulets' slopes."),
-         member<&U::rain_to>("rain_to", "1", {-300, 300},
-                             "corrected: its product with the normal is the share of the rain that the glass meets."),
-         member<&U::right>("right", "1", scene::component, "Unit vector to the right of the picture, world."),
-         member<&U::half_width>("half_width", "1", {0, 1e6}, "Half the width of the image plane at distance 1."),
-         member<&U::up>("up", "1", scene::component, "Unit vector to the top of the picture."),
-         member<&U::half_height>("half_height", "1", {0, 12}, "Half the height of the image plane at distance 1."),
-         member<&U::forward>("forward", "1", scene::component, "Unit vector into the picture.")});
+    return block(
+        {member<&U::pixel>("1", scene::share, "1 over the picture's columns and rows."),
+         member<&U::time>("s", scene::frame_time, "as-published: frame number over frame rate, rounded once."),
+         member<&U::rain_amount>("1", scene::share, "1: every droplet shows."),
+         member<&U::drop_tiles>("1/m", {0, 1000}, "Tiles of the raindrop map in a metre."),
+         member<&U::rivulet_tiles>("1/m", {0, 1000}, "Tiles of the rivulet map in a metre."),
+         member<&U::drop_rate>("1/s", {0, 1000}, "as-published: cycles of a droplet in a second."),
+         member<&U::flow_rate>("1/s", {0, 1000}, "as-published: cycles of the flow in a second."),
+         member<&U::flow_strength>("1", {0, 10}, "Tiles by which full flow moves a rivulet in a cycle; corrected: across."),
+         member<&U::distortion>("1", scene::component, "as-published: pictures per unit of the summed channels."),
+         member<&U::use_probe>("1", scene::flag, "1: the reflection probe, 0: the scene's picture."),
+         member<&U::probe_level>("1", {0, 16}, "Mip level of the probe."),
+         member<&U::drop_phase>("1", scene::share, "corrected: fraction of the droplets' cycle."),
+         member<&U::flow_phase>("1", scene::share, "corrected: fraction of the flow's cycle."),
+         member<&U::scroll>("1", scene::share, "corrected: way of the rivulets down the glass, fraction of a tile."),
+         member<&U::run_strength>("1", {0, 1e11}, "corrected: tiles by which full flow moves a rivulet along the glass in a cycle."),
+         member<&U::drop_neutral>("1", scene::share, "corrected: stored value of 0 in the raindrop map."),
+         member<&U::drop_scale>("1", {1, 3}, "corrected: normal over stored value less neutral."),
+         member<&U::rivulet_neutral>("1", scene::share, "corrected: stored value of 0 in the rivulet map."),
+         member<&U::rivulet_scale>("1", {1, 3}, "corrected: as drop_scale."),
+         member<&U::sharpness>("1", {0, 1e4}, "corrected: 1 over the height in which a rim turns visible."),
+         member<&U::impact>("1", scene::share, "corrected: share of the cycle in which a droplet spreads."),
+         member<&U::bend>("1", scene::share, "corrected: refractive index of water less 1."),
+         member<&U::rivulet_amount>("1", {0, 4}, "corrected: weight of the rivulets' slopes."),
+         member<&U::rain_to>("1", {-300, 300}, "corrected: its product with the normal is the share of the rain that the glass meets."),
+         member<&U::right>("1", scene::component, "Unit vector to the right of the picture, world."),
+         member<&U::half_width>("1", {0, 1e6}, "Half the width of the image plane at distance 1."),
+         member<&U::up>("1", scene::component, "Unit vector to the top of the picture."),
+         member<&U::half_height>("1", {0, 12}, "Half the height of the image plane at distance 1."),
+         member<&U::forward>("1", scene::component, "Unit vector into the picture.")});
   }
   template <class B>
   struct Io {
@@ -208,7 +201,8 @@ RAINREF_FN Two<N> prism(const RainOnGlassUniforms& u, const Vec3<N>& normal, N s
 /// The share of that by which what lies at this depth is moved.
 template <class N>
 RAINREF_FN N share_beyond(const GlassPixel<N>& p) {
-  return saturate(N(1.0f) - p.distance / max(p.own_depth, N(1e-3f)));
+  constexpr const char* is_behind = "what lies behind the glass is further away than the glass, which is in front of the eye";
+  return guard<N>(saturate(N(1.0f) - p.distance / guard<N>(max(p.own_depth, N(1e-3f)), is_behind)), is_behind);
 }
 // Where something nearer than the glass lies under any texel of the lookup the pixel shows its own scene texel.
 template <class N, class Maps>

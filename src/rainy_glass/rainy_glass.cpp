@@ -2,7 +2,6 @@
 #include "rainref/rainy_glass.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,9 +12,7 @@
 #include "rainref/error.h"
 #include "rainy_glass/bake.pass.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/memory.h"
 #include "rainy_glass/rain_on_glass.pass.h"
-#include "rainy_glass/storage.h"
 #include "state/items.h"
 
 namespace rainref::rainy_glass {

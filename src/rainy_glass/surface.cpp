@@ -1,6 +1,5 @@
 // The glass as the camera sees it: place, distance and normal at each pixel.
 #include <algorithm>
-#include <cmath>
 
 #include "math/constants.h"
 #include "math/half.h"

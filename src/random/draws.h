@@ -1,4 +1,4 @@
-// How a pass of whole numbers draws from the hash. Its arithmetic has no number to replace, so its mistakes stand here.
+// The perturbed words: a pass of whole numbers that is written over them draws as a port with a mistake does.
 #pragma once
 
 #include <array>
@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "random/counter.h"
+#include "math/perturbed.h"
+#include "random/words.h"
 
 namespace rainref::random {
 
@@ -68,18 +69,10 @@ struct Draws {
     const std::uint32_t all = upper(word, bits, is_place_of_low_bits);
     return place_bits > 0 && place_bits < bits ? all >> (bits - place_bits) << (bits - place_bits) : all;
   }
-  /// A column (0) or row (1) in fractions of so many bits.
-  std::uint32_t fine(std::uint32_t place, int bits, std::size_t axis) const { return is_whole[axis] ? place >> bits << bits : place; }
   /// The upper bits of a word, as the number of a class.
   std::uint32_t choice(std::uint32_t word, int bits) const {
     return upper(choice_shift < 0 ? word : word << (32 - bits - choice_shift), bits, is_choice_of_low_bits);
   }
-  /// The row that a counter is made of, of a cell in this row of its layer and that row of the buffer.
-  std::uint32_t row(std::uint32_t of_layer, std::uint32_t of_buffer) const { return is_row_of_buffer ? of_buffer : of_layer; }
-  /// Whether there is one, where a word is below the share that has one.
-  bool holds(bool is_below) const { return is_below != counts_above; }
-  /// Of so many thresholds those that are counted where the word is not below `passed` of them.
-  std::uint32_t count(std::uint32_t passed, std::uint32_t all) const { return counts_above ? all - passed : passed; }
 
  private:
   std::uint32_t other_counter(std::uint32_t counter, std::size_t k) const;
@@ -98,6 +91,66 @@ class DrawsScope {
 
  private:
   Draws saved_;
+};
+
+/// A product of upper bits of word `number` of a block, which lie behind so many binary digits.
+struct Scaled {
+  std::uint32_t v;
+  int digits;
+  std::size_t number;
+  Scaled operator>>(int n) const { return {v >> n, digits - n, number}; }
+  operator std::uint32_t() const { return v; }
+  /// A column (word 0) or a row (word 1) may lose its fraction.
+  explicit operator float() const {
+    const auto& is_whole = draws().is_whole;
+    return static_cast<float>(number < is_whole.size() && is_whole[number] ? v >> digits << digits : v);
+  }
+};
+/// The upper bits of a word: what is done with them says what they are.
+struct UpperBits {
+  std::uint32_t word;
+  int bits;
+  std::size_t number;  ///< of the word in its block
+  operator std::uint32_t() const { return word >> (32 - bits); }
+  /// A class: the index of a table.
+  operator std::size_t() const { return draws().choice(word, bits); }
+  /// A place: a share of so many, or what is compared with where something is open.
+  Scaled operator*(std::uint32_t of) const { return {draws().place(word, bits) * of, bits, number}; }
+  bool operator>=(std::uint32_t open) const { return draws().place(word, bits) >= open; }
+  /// Whether there is one: below the share that has one.
+  bool operator<(std::uint32_t share) const { return (word >> (32 - bits) < share) != draws().counts_above; }
+};
+struct PerturbedWord {
+  std::uint32_t v, b;  ///< b: the second counter of its block
+  std::size_t number;
+  UpperBits operator>>(int n) const { return {v, 32 - n, number}; }
+};
+struct PerturbedBlock {
+  Block words;
+  std::uint32_t b;
+  PerturbedWord operator[](std::size_t k) const { return {words[k], b, k}; }
+  /// Of which nothing more is mistaken.
+  operator Block() const { return words; }
+};
+/// As Words, by draws().
+struct PerturbedWords {
+  static PerturbedBlock block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) {
+    return {draws().block(seed, purpose, a, b), b};
+  }
+  static float uniform(const PerturbedWord& word) { return random::uniform(draws().place(word.v, 24) << 8); }
+  template <class T, class Of = std::identity>
+  static std::int32_t count(const PerturbedWord& word, std::int32_t first, std::span<const T> thresholds, Of threshold = {}) {
+    if (draws().counts_one_draw && word.b > 0) return 0;
+    const std::int32_t passed = Words::count(word.v, 0, thresholds, threshold);
+    return first + (draws().counts_above ? static_cast<std::int32_t>(thresholds.size()) - passed : passed);
+  }
+  static std::uint32_t counted_from(std::int32_t first, std::int32_t at) {
+    return draws().is_row_of_buffer ? static_cast<std::uint32_t>(at) : Words::counted_from(first, at);
+  }
+};
+template <>
+struct WordsOf<perturbed::Perturbed> {
+  using type = PerturbedWords;
 };
 
 }  // namespace rainref::random

@@ -6,6 +6,7 @@
 
 #include "math/real64.h"
 #include "rainref/error.h"
+#include "random/words.h"
 
 namespace rainref::random {
 namespace {
@@ -52,8 +53,6 @@ PoissonTable::PoissonTable(double mean) {
   thresholds_.erase(thresholds_.begin(), some);
 }
 
-int PoissonTable::count(std::uint32_t word) const {
-  return first_ + static_cast<int>(std::upper_bound(thresholds_.begin(), thresholds_.end(), word) - thresholds_.begin());
-}
+int PoissonTable::count(std::uint32_t word) const { return Words::count(word, first_, std::span<const std::uint32_t>(thresholds_)); }
 
 }  // namespace rainref::random

@@ -39,10 +39,10 @@ bool reaches(std::int64_t vacuous, std::int64_t of, double share) {
   return vacuous > 0 && static_cast<double>(vacuous) > (1 - share) * static_cast<double>(of);
 }
 Width width_of(const QuantityJudgement& q, double codes, double value, double share) {
-  return {codes, reaches(q.vacuous, q.elements - q.free, share), value, q.unit};
+  return {codes, reaches(q.vacuous, q.sampled(), share), value, q.unit};
 }
 Width width_of(const OutputJudgement& o, double codes, double share, Width (*of_quantity)(const QuantityJudgement&)) {
-  Width w{codes, reaches(o.vacuous, o.elements - o.free, share), -1, ""};
+  Width w{codes, reaches(o.vacuous, o.sampled(), share), -1, ""};
   if (codes < most_codes || is_vacuous(w)) return w;
   for (const QuantityJudgement& q : o.quantities)
     if (const Width own = of_quantity(q); w.value < 0 || own.codes > w.codes) w = {own.codes, false, own.value, own.unit};
@@ -58,7 +58,7 @@ bool fails_worse(const QuantityJudgement& a, const QuantityJudgement& b) {
 void add(Figures& to, const Figures& f) {
   for (auto sum : {&Figures::invocations, &Figures::failing, &Figures::ambiguous, &Figures::other_branch, &Figures::gave_up,
                    &Figures::elements, &Figures::outside, &Figures::differing, &Figures::vacuous, &Figures::loose, &Figures::atypical,
-                   &Figures::free, &Figures::typical, &Figures::unbounded, &Figures::rearranged})
+                   &Figures::free, &Figures::typical, &Figures::unbounded, &Figures::rearranged, &Figures::unsampled})
     to.*sum += f.*sum;
   to.median_width = wider(to.median_width, f.median_width);
   to.p99_width = wider(to.p99_width, f.p99_width);
@@ -92,6 +92,7 @@ Figures figures_of(const OutputJudgement& o) {
   f.typical = o.typical;
   f.unbounded = o.unbounded;
   f.rearranged = o.rearranged;
+  f.unsampled = o.unsampled;
   f.median_width = median_width(o);
   f.p99_width = p99_width(o);
   return f;
@@ -146,8 +147,9 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
   };
   t.got = text(f.got, f.got_is_negative_zero);
   t.expected = text(f.expected, f.expected_is_negative_zero);
-  t.accepted = f.low == f.high && f.low == f.expected ? t.expected
-               : f.low == f.high                      ? enclosed::code_text(kind, f.low)
+  t.accepted = f.low == INT64_MIN                       ? "any number"  // a range without ends, whose codes are none of the format
+               : f.low == f.high && f.low == f.expected ? t.expected
+               : f.low == f.high                        ? enclosed::code_text(kind, f.low)
                                  : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
   t.distance = f.not_a_number ? "is not a number" : fmt::format("off by {} code{}", f.distance, f.distance == 1 ? "" : "s");
   const QuantityJudgement* quantity = quantity_at(o, f);
@@ -170,6 +172,31 @@ bool fails_worse(const OutputJudgement& a, const OutputJudgement& b) {
   return !of_b && (of_a || a.failing > b.failing);
 }
 
+std::vector<Shown> shown_of(const PassJudgement& p) {
+  std::vector<const CaseJudgement*> failing, cases;
+  const CaseJudgement* sample = nullptr;
+  const auto differing = [](const CaseJudgement& c) { return figures_of(c).differing; };
+  for (const CaseJudgement& c : p.cases) {
+    if (c.status == Status::fail || c.status == Status::known)
+      failing.push_back(&c);
+    else if (!c.outputs.empty() && (!sample || differing(c) >= differing(*sample)))
+      sample = &c;  // what differs most shows most; of equals the last
+  }
+  if (!failing.empty()) cases.push_back(failing[0]);
+  std::stable_sort(failing.begin(), failing.end(), [](const auto* a, const auto* b) { return a->failing > b->failing; });
+  for (const CaseJudgement* c : failing)
+    if (cases.size() < pictured_failures && c != cases[0]) cases.push_back(c);
+  if (sample) cases.push_back(sample);
+  std::vector<Shown> out;
+  for (const CaseJudgement* c : cases) {
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    for (const OutputJudgement& o : c->outputs)
+      if (c->failing == 0 || o.failing > 0) out.push_back({c, &o});
+    std::stable_sort(out.begin() + first, out.end(), [](const Shown& a, const Shown& b) { return fails_worse(*a.output, *b.output); });
+  }
+  return out;
+}
+
 std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
   std::vector<QuantitiesOfOutput> all;
   for (const CaseJudgement& c : p.cases) {
@@ -183,7 +210,7 @@ std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
         QuantityJudgement& to = found->quantities[k];
         const QuantityJudgement& from = o.quantities[k];
         for (auto count : {&QuantityJudgement::elements, &QuantityJudgement::failing, &QuantityJudgement::vacuous,
-                           &QuantityJudgement::loose, &QuantityJudgement::free})
+                           &QuantityJudgement::loose, &QuantityJudgement::free, &QuantityJudgement::unsampled})
           to.*count += from.*count;
         for (auto figure : {&QuantityJudgement::median_codes, &QuantityJudgement::p99_codes, &QuantityJudgement::median_width,
                             &QuantityJudgement::p99_width, &QuantityJudgement::farthest})
@@ -196,7 +223,7 @@ std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
 
 std::string coverage_text(const judge::PassCoverage& c, std::size_t shown) {
   if (c.alternatives == 0) return "";
-  std::string out = fmt::format("exercises {} of {} alternatives", c.taken, c.alternatives);
+  std::string out = fmt::format("exercises {} of {} alternatives{}", c.taken, c.alternatives, c.is_sampled ? " by a sample" : "");
   if (!c.reasons.empty()) out += fmt::format(", {} with a reason not", c.reasons.size());
   if (shown == 0) return c.never.empty() ? out : fmt::format("{}, {} without one", out, c.never.size());
   for (std::size_t k = 0; k < std::min(shown, c.never.size()); ++k) out += (k == 0 ? "; never: " : "; ") + c.never[k];
@@ -221,15 +248,25 @@ bool is_broken(const PassJudgement& p) {
 }
 bool has_unknown_cause(const PassJudgement& p) { return p.causes_sought && p.causes.empty() && figures_of(p).outside > 0 && !is_broken(p); }
 
+std::string sample_text(const PassJudgement& p) {
+  const Figures f = figures_of(p);
+  return f.unsampled == 0 ? ""
+                          : fmt::format("widths and shares are those of a sample of {} of {} elements (--exhaustive computes all)",
+                                        f.sampled(), f.judged());
+}
+
 std::string half_text(const PassJudgement& p) {
   if (!p.half_mode_voted) return "";
   const auto [rne, rtz, either] = p.half_votes;
   const char* found = p.half_mode == HalfMode::rne   ? "to nearest"
                       : p.half_mode == HalfMode::rtz ? "toward zero"
                                                      : "sometimes to nearest, sometimes toward zero";
-  if (rne == rtz && p.half_mode != HalfMode::either) return "stores to half: nothing tells how they round";
-  return fmt::format("stores to half round {} (invocations outside if to nearest: {}, toward zero: {}, either way: {})", found, rne, rtz,
-                     either);
+  if (rne == rtz && p.half_mode != HalfMode::either)
+    return p.half_is_least[0] || p.half_is_least[1] ? "stores to half: nothing that had to be computed tells how they round"
+                                                    : "stores to half: nothing tells how they round";
+  const auto text = [&](std::int64_t count, std::size_t k) { return fmt::format("{}{}", p.half_is_least[k] ? "at least " : "", count); };
+  return fmt::format("stores to half round {} (invocations outside if to nearest: {}, toward zero: {}, either way: {})", found,
+                     text(rne, 0), text(rtz, 1), text(either, 2));
 }
 
 std::vector<std::string> not_judged(const PortJudgement& j) {

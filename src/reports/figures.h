@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -29,12 +30,14 @@ Width p99_width(const judge::OutputJudgement& output);
 struct Figures {
   std::int64_t invocations = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
   std::int64_t elements = 0, outside = 0, differing = 0, vacuous = 0, loose = 0, atypical = 0, free = 0;
-  std::int64_t typical = 0, unbounded = 0, rearranged = 0;
+  std::int64_t typical = 0, unbounded = 0, rearranged = 0, unsampled = 0;
   Width median_width, p99_width;
 
   /// Elements that a bound was asked for.
   std::int64_t judged() const { return elements - free; }
-  std::int64_t bounded() const { return judged() - vacuous; }
+  /// Those of the sample: shares and widths are of these.
+  std::int64_t sampled() const { return judged() - unsampled; }
+  std::int64_t bounded() const { return sampled() - vacuous; }
 };
 Figures figures_of(const judge::OutputJudgement& output);
 Figures figures_of(const judge::CaseJudgement& c);
@@ -70,6 +73,17 @@ FailureText failure_text(const judge::OutputJudgement& output, const judge::Fail
 const judge::QuantityJudgement* worst_quantity(const judge::OutputJudgement& output);
 /// Whether one output fails worse than another, by the same measure.
 bool fails_worse(const judge::OutputJudgement& a, const judge::OutputJudgement& b);
+
+/// At most this many failing cases of a pass are looked at: the first, and those with most failures.
+inline constexpr std::size_t pictured_failures = 4;
+/// An output that is looked at in pictures or field by field.
+struct Shown {
+  const judge::CaseJudgement* c;
+  const judge::OutputJudgement* output;
+};
+/// What is looked at of a pass, in this order: failing cases, then the one of the others that differs most. A failing case shows
+/// the outputs that fail, the worst first; another case shows all.
+std::vector<Shown> shown_of(const judge::PassJudgement& pass);
 /// The quantities of one output over all cases of a pass: counts are sums, widths and distances the largest.
 struct QuantitiesOfOutput {
   std::string output;
@@ -95,6 +109,8 @@ bool is_broken(const judge::PassJudgement& pass);
 /// Whether it fails and nothing says why.
 bool has_unknown_cause(const judge::PassJudgement& pass);
 
+/// "widths and shares are those of a sample of 65536 of 8294400 elements (--exhaustive computes all)"; "" where all were computed.
+std::string sample_text(const judge::PassJudgement& pass);
 /// How stores to half were found to round, as a sentence; "" where the pass stores no half or the profile settles it.
 std::string half_text(const judge::PassJudgement& pass);
 

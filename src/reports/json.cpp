@@ -1,5 +1,7 @@
 #include "reports/json.h"
 
+#include <limits>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -42,24 +44,20 @@ Json failure_json(const OutputJudgement& o, const Failure& f) {
   out["distance"] = f.not_a_number ? Json() : Json(f.distance);
   out["value_distance"] = judge::value_distance(kind, f);
   out["not_a_number"] = f.not_a_number;
+  const FailureText t = failure_text(o, f);
+  if (!o.records) out["text"] = {{"place", t.place}, {"got", t.got}, {"accepted", t.accepted}, {"expected", t.expected}, {"off", t.value}};
   return out;
 }
 
 /// The library writes null for a distance without end.
 Json quantity_json(const QuantityJudgement& q) {
-  return {{"name", q.name},
-          {"unit", q.unit},
-          {"extent", q.extent},
-          {"elements", q.elements},
-          {"failing", q.failing},
-          {"vacuous", q.vacuous},
-          {"loose", q.loose},
-          {"free", q.free},
-          {"median_codes", q.median_codes},
-          {"p99_codes", q.p99_codes},
-          {"median_width", q.median_width},
-          {"p99_width", q.p99_width},
-          {"farthest", q.farthest}};
+  return {{"name", q.name},           {"unit", q.unit},
+          {"extent", q.extent},       {"elements", q.elements},
+          {"failing", q.failing},     {"vacuous", q.vacuous},
+          {"loose", q.loose},         {"free", q.free},
+          {"sampled", q.sampled()},   {"median_codes", q.median_codes},
+          {"p99_codes", q.p99_codes}, {"median_width", q.median_width},
+          {"p99_width", q.p99_width}, {"farthest", q.farthest}};
 }
 
 /// Pairs of a verdict (0 equal, 1 inside, 2 warned of, 3 outside) and how many texels in a row have it, row 0 first.
@@ -81,6 +79,7 @@ Json output_json(const OutputJudgement& o) {
     out["width"] = o.width;
     out["height"] = o.height;
   }
+  out["shape"] = shape_text(o);
   out["elements"] = o.elements;
   out["counted"] = name(o.counted);
   out["failing"] = o.failing;
@@ -94,12 +93,17 @@ Json output_json(const OutputJudgement& o) {
   out["unbounded"] = o.unbounded;
   out["rearranged"] = o.rearranged;
   out["free"] = o.free;
+  out["sampled"] = o.sampled();
   out["median_width"] = o.median_width;
   out["p99_width"] = o.p99_width;
+  out["median_text"] = width_text(median_width(o));
+  out["p99_text"] = width_text(p99_width(o));
   out["rearranged_median_width"] = o.rearranged_median_width < 0 ? Json() : Json(o.rearranged_median_width);
   out["rearranged_p99_width"] = o.rearranged_p99_width < 0 ? Json() : Json(o.rearranged_p99_width);
   out["quantities"] = Json::array();
   for (const QuantityJudgement& q : o.quantities) out["quantities"].push_back(quantity_json(q));
+  const QuantityJudgement* worst = worst_quantity(o);
+  out["worst_quantity"] = worst ? Json(worst->name) : Json();
   out["known"] = o.known.empty() ? Json() : Json(o.known);
   out["worst"] = Json::array();
   for (const Failure& f : o.worst) out["worst"].push_back(failure_json(o, f));
@@ -117,6 +121,7 @@ Json case_json(const CaseJudgement& c) {
            {"ambiguous", c.ambiguous},
            {"other_branch", c.other_branch},
            {"gave_up", c.gave_up},
+           {"stride", c.stride},
            {"rearranged", c.rearranged},
            {"rearranged_distance", c.rearranged_distance},
            {"expanded", c.expanded},
@@ -133,26 +138,90 @@ Json reasons_of(const PassCoverage& coverage) {
   return out;
 }
 
-Json pass_json(const PassJudgement& p) {
+Json figures_json(const Figures& f) {
+  return {{"invocations", f.invocations},
+          {"failing", f.failing},
+          {"ambiguous", f.ambiguous},
+          {"other_branch", f.other_branch},
+          {"gave_up", f.gave_up},
+          {"elements", f.elements},
+          {"outside", f.outside},
+          {"differing", f.differing},
+          {"bounded", f.bounded()},
+          {"vacuous", f.vacuous},
+          {"loose", f.loose},
+          {"free", f.free},
+          {"sampled", f.sampled()},
+          {"median_text", width_text(f.median_width)},
+          {"p99_text", width_text(f.p99_width)}};
+}
+
+/// What fails worst in the case that is looked at first, or null.
+Json worst_json(const PassJudgement& p) {
+  const std::vector<Shown> shown = shown_of(p);
+  if (shown.empty() || shown[0].c->failing == 0) return Json();
+  const QuantityJudgement* q = worst_quantity(*shown[0].output);
+  if (!q) return Json();
+  return {{"case", shown[0].c->id},
+          {"output", shown[0].output->name},
+          {"quantity", q->name},
+          {"off", q->farthest <= std::numeric_limits<double>::max() ? Json(quantity_text(q->farthest, q->unit)) : Json()}};
+}
+
+/// Each quantity over all cases of a pass. Its widths have no unit: that stands beside them.
+Json quantities_json(const PassJudgement& p) {
+  const auto text = [](Width w) {
+    w.unit.clear();
+    return in_unit(w);
+  };
+  Json out = Json::array();
+  for (const QuantitiesOfOutput& o : quantities_of(p)) {
+    for (const QuantityJudgement& q : o.quantities) {
+      Json row{{"output", o.output}, {"counted", name(o.counted)}};
+      row.update(quantity_json(q));
+      row["median_text"] = text(median_width(q));
+      row["p99_text"] = text(p99_width(q));
+      out.push_back(std::move(row));
+    }
+  }
+  return out;
+}
+
+Json pass_json(const PassJudgement& p, const PageSource& source) {
+  const auto sentence = source.sentences.find(p.pass);
   Json out{{"pass", p.pass},
            {"formula", p.formula},
+           {"sentence", sentence == source.sentences.end() ? "" : sentence->second},
+           {"takes", Json::array()},
            {"status", name(p.status)},
            {"reason", p.reason},
            {"inputs_are_good", p.inputs_are_good},
            {"half_mode", name(p.half_mode)},
            {"half_mode_voted", p.half_mode_voted},
+           {"half_text", half_text(p)},
+           {"sample_text", sample_text(p)},
            {"half_votes", {{"rne", p.half_votes[0]}, {"rtz", p.half_votes[1]}, {"either", p.half_votes[2]}}},
+           {"half_is_least", {{"rne", p.half_is_least[0]}, {"rtz", p.half_is_least[1]}, {"either", p.half_is_least[2]}}},
            {"where", p.where},
            {"coverage",
             {{"exercised", p.coverage.taken},
              {"alternatives", p.coverage.alternatives},
              {"never", p.coverage.never},
-             {"reasons", reasons_of(p.coverage)}}},
+             {"reasons", reasons_of(p.coverage)},
+             {"sampled", p.coverage.is_sampled},
+             {"text", coverage_text(p.coverage, 0)}}},
+           {"figures", figures_json(figures_of(p))},
+           {"quantities", quantities_json(p)},
+           {"worst", worst_json(p)},
+           {"cause_is_unknown", has_unknown_cause(p)},
            {"causes", Json::array()},
            {"cases", Json::array()}};
+  for (const capture::PackEdge& e : source.edges)
+    if (e.pass == p.pass) out["takes"].push_back({{"input", e.input}, {"from", e.from}, {"previous", e.previous}});
   for (const Cause& c : p.causes)
     out["causes"].push_back({{"name", c.name},
                              {"sentence", c.sentence},
+                             {"counted", element_word(c)},
                              {"explained", c.explained},
                              {"of", c.of},
                              {"inside", c.inside},
@@ -163,12 +232,13 @@ Json pass_json(const PassJudgement& p) {
 
 }  // namespace
 
-std::string report_json(const PortJudgement& j, int exit_code) {
+std::string report_json(const PortJudgement& j, int exit_code, const PageSource& source) {
   Json out{{"format", "rainref.judgement"},
            {"version", 1},
            {"rainref", {{"version", version()}, {"golden_generation", golden_generation}}},
            {"status", name(j.status)},
            {"exit_code", exit_code},
+           {"counts", count_text(j)},
            {"reason", j.reason},
            {"first_bad_pass", j.first_bad_pass.empty() ? Json() : Json(j.first_bad_pass)},
            {"pack", j.pack},
@@ -187,7 +257,7 @@ std::string report_json(const PortJudgement& j, int exit_code) {
   for (const judge::FileFault& f : j.files)
     out["files"].push_back(
         {{"pass", f.pass}, {"case", f.id}, {"buffer", f.output}, {"exit_code", static_cast<int>(f.code)}, {"error", f.text}});
-  for (const PassJudgement& p : j.passes) out["passes"].push_back(pass_json(p));
+  for (const PassJudgement& p : j.passes) out["passes"].push_back(pass_json(p, source));
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

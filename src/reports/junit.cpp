@@ -116,10 +116,11 @@ Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome unt
   suite.remark = fmt::format("{} {}\n", name(p.status), p.reason);
   if (f.elements > 0) {
     suite.remark += fmt::format("bounded {}, median width {}, 99 % below {}, ambiguous {}, vacuous {}, loose {}, atypical {}, free {}\n",
-                                share_text(f.bounded(), f.judged()), width_text(f.median_width), width_text(f.p99_width), f.ambiguous,
-                                share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged()), f.atypical, f.free);
+                                share_text(f.bounded(), f.sampled()), width_text(f.median_width), width_text(f.p99_width), f.ambiguous,
+                                share_text(f.vacuous, f.sampled()), share_text(f.loose, f.sampled()), f.atypical, f.free);
   }
-  if (const std::string half = half_text(p); !half.empty()) suite.remark += half + "\n";
+  for (const std::string& text : {sample_text(p), half_text(p)})
+    if (!text.empty()) suite.remark += text + "\n";
   return suite;
 }
 

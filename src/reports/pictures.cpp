@@ -218,11 +218,7 @@ std::uint64_t largest_difference(const Display& d, const Array& expected, const 
 
 }  // namespace
 
-const std::string& verdict_colour(int verdict) {
-  static const std::array<std::string, 4> texts{hex(verdict_colours[0]), hex(verdict_colours[1]), hex(verdict_colours[2]),
-                                                hex(verdict_colours[3])};
-  return texts[static_cast<std::size_t>(verdict & 3)];
-}
+std::string verdict_colour(int verdict) { return hex(verdict_colours[static_cast<std::size_t>(verdict & 3)]); }
 std::string difference_colour(std::int64_t codes, std::uint64_t largest) { return hex(difference_rgb(codes, largest)); }
 
 std::vector<View> views_of(const OutputJudgement& o, const capture::CaseOutput& output, const Array& port) {

@@ -40,7 +40,7 @@ struct View {
 std::vector<View> views_of(const judge::OutputJudgement& output, const capture::CaseOutput& expected, const capture::Array& port);
 
 /// The colours of the verdict map, "#rrggbb": equal, inside, atypical, outside.
-const std::string& verdict_colour(int verdict);
+std::string verdict_colour(int verdict);
 /// The colour of a difference of `codes` where `largest` has the strongest, "#rrggbb".
 std::string difference_colour(std::int64_t codes, std::uint64_t largest);
 

@@ -25,9 +25,10 @@ PageSource source_of(const Passes& from) {
 
 }  // namespace
 
-PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::filesystem::path& port) {
+PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::filesystem::path& port,
+                       std::shared_ptr<judge::ReadBuffers> buffers) {
   PageSource source = source_of(*pack);
-  source.read = [pack, files = std::make_shared<PortFiles>(port, pack->effect, pack->variant)](
+  source.read = [pack, files = std::make_shared<PortFiles>(port, pack->effect, pack->variant, std::move(buffers))](
                     const std::string& id, const std::string& output) -> std::optional<OutputBuffers> {
     for (const capture::PackCase& c : pack->cases) {
       if (c.id != id) continue;

@@ -26,8 +26,9 @@ struct PageSource {
   /// Reads an output of a case again; nothing where it cannot be had. Null: no pictures.
   std::function<std::optional<OutputBuffers>(const std::string& id, const std::string& output)> read;
 };
-/// Of a port's outputs for a pack.
-PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::filesystem::path& port);
+/// Of a port's outputs for a pack. `buffers`: what the judge read of them; null: nothing is kept.
+PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::filesystem::path& port,
+                       std::shared_ptr<judge::ReadBuffers> buffers = nullptr);
 /// Of the dumps of a port's own run, recomputed from its inputs. The executor of the options must outlive it.
 PageSource page_source(std::shared_ptr<const judge::ShadowPlan> plan, const std::filesystem::path& folder,
                        const std::vector<judge::DumpedRun>& dumped, const judge::ValidateOptions& options);

@@ -49,12 +49,12 @@ std::vector<std::string> row_of(const PassJudgement& p) {
   return {name(p.status),
           p.pass,
           fmt::format("{} of {}", f.failing, f.invocations),
-          share_text(f.bounded(), f.judged()),
+          share_text(f.bounded(), f.sampled()),
           width_text(f.median_width),
           width_text(f.p99_width),
           fmt::format("{}", f.ambiguous),
-          share_text(f.vacuous, f.judged()),
-          share_text(f.loose, f.judged())};
+          share_text(f.vacuous, f.sampled()),
+          share_text(f.loose, f.sampled())};
 }
 
 /// How a list's fields are bounded: those with a width, then how many have one value.
@@ -103,7 +103,8 @@ std::vector<std::string> remarks_on(const PassJudgement& p, bool is_verbose) {
   for (const QuantitiesOfOutput& o : quantities_of(p))
     if (const std::string fields = o.counted == judge::Counted::fields ? fields_text(o) : ""; !fields.empty()) out.push_back(fields);
   if (f.free > 0) out.push_back(fmt::format("{} of {} elements are free: declared as not reproducible", f.free, f.elements));
-  if (const std::string half = half_text(p); !half.empty()) out.push_back(half);
+  for (const std::string& text : {half_text(p), sample_text(p)})
+    if (!text.empty()) out.push_back(text);
   if (p.status == Status::warn)
     for (const Cause& c : p.causes) out.push_back(cause_text(c, "warned"));
   if (is_verbose && !p.coverage.never.empty()) out.push_back(coverage_text(p.coverage, p.coverage.never.size()));
@@ -177,6 +178,14 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
   return out;
 }
 
+/// Passes of which not every envelope was asked.
+std::vector<std::string> sampled_passes(const PortJudgement& j) {
+  std::vector<std::string> out;
+  for (const PassJudgement& p : j.passes)
+    if (!sample_text(p).empty()) out.push_back(p.pass);
+  return out;
+}
+
 }  // namespace
 
 std::string report_text(const PortJudgement& j, bool is_verbose) {
@@ -187,6 +196,8 @@ std::string report_text(const PortJudgement& j, bool is_verbose) {
   if (!j.files.empty()) out += "\nmissing, or cannot be used:\n";
   for (const judge::FileFault& f : j.files) out += wrapped("  " + f.text, 4);
   for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
+  if (const std::vector<std::string> some = sampled_passes(j); !some.empty())
+    out += wrapped(fmt::format("note: widths and shares of {} are those of samples; --exhaustive computes all", fmt::join(some, ", ")), 2);
   out += fmt::format("\n{}: {} against {}, profile {}", name(j.status), j.port, j.pack, j.profile);
   if (!j.device.empty()) out += fmt::format(", {} {}", j.api, j.device);
   if (const std::string counts = count_text(j); !counts.empty()) out += fmt::format(" ({})", counts);

@@ -10,7 +10,7 @@
 #include <array>
 #include <concepts>
 #include <functional>
-#include <span>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +19,6 @@
 #include "rainref/variant.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
-#include "scene/variant_names.h"
 
 namespace rainref::scene {
 
@@ -167,10 +166,13 @@ auto storage(std::string key, std::initializer_list<Format> formats, std::string
   return choice<Path...>(std::move(key), std::move(choices), std::move(sentence));
 }
 
+/// The table's, and behind them more of no member.
 template <class S>
-std::vector<Parameter> parameters_of(const std::vector<MemberParameter<S>>& table) {
+std::vector<Parameter> parameters_of(const std::vector<MemberParameter<S>>& table,
+                                     std::initializer_list<std::vector<Parameter>> more = {}) {
   std::vector<Parameter> out;
   for (const MemberParameter<S>& m : table) out.push_back(m.parameter);
+  for (const std::vector<Parameter>& others : more) out.insert(out.end(), others.begin(), others.end());
   return out;
 }
 /// Sets the members that the scene's variant uses; the others stay as they are.

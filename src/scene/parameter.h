@@ -10,7 +10,11 @@
 #include <variant>
 #include <vector>
 
+#include "rainref/variant.h"
+
 namespace rainref::scene {
+
+inline constexpr const char *published = name(Variant::as_published), *correct = name(Variant::corrected);
 
 /// `choice` is a text out of a list; the vectors are arrays in a scene file.
 enum class Type : std::uint8_t { boolean, integer, integer2, real, real2, real3, choice, text };

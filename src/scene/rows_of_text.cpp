@@ -1,7 +1,5 @@
 #include "scene/rows_of_text.h"
 
-#include <algorithm>
-
 namespace rainref::scene {
 namespace {
 

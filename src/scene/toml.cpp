@@ -12,7 +12,6 @@
 
 #include "base/floating_point.h"
 #include "scene/check.h"
-#include "scene/toml_reader.h"
 #include "scene/unexercised.h"
 
 namespace rainref::scene {

@@ -4,7 +4,6 @@
 
 #include "rainref/error.h"
 #include "scene/check.h"
-#include "scene/toml_reader.h"
 
 namespace rainref::scene {
 namespace {

@@ -8,12 +8,35 @@
 #include <fmt/format.h>
 
 #include "rainref/error.h"
-#include "scene/reserved_words.h"
 
 namespace rainref::scene {
 namespace {
 
 constexpr std::size_t row = 16;
+
+/// Keywords, reserved words and built-in types of C, C++, CUDA, GLSL 4.60, HLSL and WGSL in lower case, a space before and after each.
+constexpr std::string_view reserved_words =
+    " abstract active alias alignas alignof and and_eq array as asm asm_fragment async atomic atomic_uint "
+    "attribute auto await become bitand bitor bool bool2 bool3 bool4 break buffer bvec2 bvec3 bvec4 case cast "
+    "catch cbuffer centroid char class co_await co_return co_yield coherent column_major common compile "
+    "compile_fragment compl concept const const_assert const_cast consteval constexpr constinit continue "
+    "continuing crate debugger decltype default delete demote demote_to_helper diagnostic discard do double "
+    "double2 double3 double4 dvec2 dvec3 dvec4 dword dynamic_cast else enable enum explicit export extends "
+    "extern external f16 f32 fallthrough false filter final finally fixed flat float float2 float3 float4 fn for "
+    "friend from fxgroup get globallycoherent goto groupshared half half2 half3 half4 highp i32 if image impl "
+    "implements import in inline inout input instanceof int int2 int3 int4 interface invariant ivec2 ivec3 ivec4 "
+    "layout let line lineadj linear long loop lowp macro macro_rules mat2 mat3 mat4 match matrix mediump meta "
+    "mod module move mut mutable namespace new nil noexcept noinline nointerpolation non_coherent noncoherent "
+    "noperspective not not_eq null nullptr of operator or or_eq out output override package packoffset partition "
+    "pass patch pixelfragment point precise precision premerge priv private protected ptr pub public readonly "
+    "ref regardless register reinterpret_cast require requires resource restrict return row_major sample sampler "
+    "sampler_comparison self set shared short signed sizeof smooth snorm stateblock static static_assert "
+    "static_cast std string struct subroutine super superp switch target tbuffer technique technique10 template "
+    "texture this thread_local throw trait triangle triangleadj true try type typedef typeid typename typeof u32 "
+    "uint uint2 uint3 uint4 uniform union unless unorm unsafe unsigned unsized use using uvec2 uvec3 uvec4 var "
+    "varying vec2 vec2f vec2i vec2u vec3 vec3f vec3i vec3u vec4 vec4f vec4i vec4u vector vertexfragment virtual "
+    "void volatile wchar_t wgsl where while with writeonly xor xor_eq yield ";
+bool is_reserved_word(std::string_view word) { return reserved_words.find(fmt::format(" {} ", word)) != std::string_view::npos; }
 
 [[noreturn]] void broken(const UniformBlock& block, const std::string& why) {
   throw Error(ExitCode::internal, fmt::format("layout {}: {}", block.name, why));
@@ -119,19 +142,18 @@ bool same_layout(const UniformBlock& a, const UniformBlock& b) {
          });
 }
 
+double component_of(const Member& m, const std::byte* bytes, int k) {
+  const std::byte* at = bytes + m.offset + 4 * static_cast<std::size_t>(k);
+  return m.scalar == Scalar::float32 ? static_cast<double>(loaded<float>(at))
+         : m.scalar == Scalar::int32 ? static_cast<double>(loaded<std::int32_t>(at))
+                                     : static_cast<double>(loaded<std::uint32_t>(at));
+}
 std::string value_fault(const UniformBlock& block, const std::byte* bytes) {
   for (const Member& m : block.members) {
     for (int k = 0; k < m.components; ++k) {
       const Range range = m.range.value_or(Range{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
-      const std::byte* at = bytes + m.offset + 4 * static_cast<std::size_t>(k);
-      double value = 0, low = range.low, high = range.high;
-      if (m.scalar == Scalar::float32) {
-        value = loaded<float>(at);
-        low = static_cast<float>(low);
-        high = static_cast<float>(high);
-      } else {
-        value = m.scalar == Scalar::int32 ? static_cast<double>(loaded<std::int32_t>(at)) : static_cast<double>(loaded<std::uint32_t>(at));
-      }
+      const auto as_stored = [&](double end) { return m.scalar == Scalar::float32 ? static_cast<float>(end) : end; };
+      const double value = component_of(m, bytes, k), low = as_stored(range.low), high = as_stored(range.high);
       const bool is_fit = std::isfinite(value) && low <= value && value <= high && (!range.is_whole || value == std::floor(value));
       if (is_fit) continue;
       const std::string name = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);

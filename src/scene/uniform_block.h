@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -34,7 +35,14 @@ struct Member {
   std::string unit;
   std::string sentence;
   std::optional<Range> range = std::nullopt;  ///< none: any finite number
+  std::string guard = "";                     ///< why no scene gives a component a number other than 0 and 1; "": some does
+  int guarded_component = 0;
 
+  Member guarded(std::string why, int which = 0) && {
+    guard = std::move(why);
+    guarded_component = which;
+    return std::move(*this);
+  }
   std::size_t size() const { return 4 * static_cast<std::size_t>(components); }
   /// What std140, std430 and WGSL ask of the offset: 4, 8, 16, 16 for 1 to 4 components.
   std::size_t alignment() const { return components == 1 ? 4 : components == 2 ? 8 : 16; }
@@ -58,6 +66,8 @@ void validate_record(const UniformBlock& record);
 /// Whether both give the same bytes the same names.
 bool same_layout(const UniformBlock& a, const UniformBlock& b);
 
+/// A component of a member of a block of these bytes.
+double component_of(const Member& member, const std::byte* bytes, int component);
 /// Why these bytes are none that the block may hold, or "": "step is 200, expected 1 to 8". A float that is no number or
 /// infinite is out of every range. The ends are rounded to float, as the values are. `bytes` has the block's size.
 std::string value_fault(const UniformBlock& block, const std::byte* bytes);
@@ -104,10 +114,26 @@ std::size_t offset_of(M S::*pointer) {
   return static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&object));
 }
 
+/// What GCC and Clang write of a template's argument in the name of a function: "[... NAME = &scope::x; ...]" gives x.
+consteval std::string_view last_name(std::string_view function, std::string_view argument) {
+  const std::size_t from = function.find(argument) + argument.size();
+  const std::string_view whole = function.substr(from, function.find_first_of(";]", from) - from);
+  return whole.substr(whole.rfind(':') + 1);
+}
+template <auto P>
+consteval std::string_view name_of() {
+  return last_name(__PRETTY_FUNCTION__, "P = ");
+}
+template <class S>
+consteval std::string_view name_of() {
+  return last_name(__PRETTY_FUNCTION__, "S = ");
+}
+static_assert(name_of<&Range::is_whole>() == "is_whole" && name_of<Range>() == "Range");
+
 template <class S, class M>
-Member member(M S::*pointer, std::string name, std::string unit, std::optional<Range> range, std::string sentence) {
+Member member(M S::*pointer, std::string_view name, std::string unit, std::optional<Range> range, std::string sentence) {
   static_assert(Shape<M>::components >= 1 && Shape<M>::components <= 4, "vectors have 2 to 4 components; no arrays");
-  return {std::move(name),
+  return {std::string(name),
           scalar_of<typename Shape<M>::Component>(),
           Shape<M>::components,
           offset_of(pointer),
@@ -123,16 +149,16 @@ UniformBlock validated_record(UniformBlock record);
 
 }  // namespace detail
 
-/// The member that P points to: member<&WaveStepUniforms::damping>("damping", "1", share, "Share of …"). Type and offset are
+/// The member that P points to: member<&WaveStepUniforms::damping>("1", share, "Share of …"). Name, type and offset are
 /// taken from the struct, whose vectors are float[3], std::array<float, 3> or a glm vector, of float, int32 or uint32.
 template <auto P>
-Member member(std::string name, std::string unit, Range range, std::string sentence) {
-  return detail::member(P, std::move(name), std::move(unit), range, std::move(sentence));
+Member member(std::string unit, Range range, std::string sentence) {
+  return detail::member(P, detail::name_of<P>(), std::move(unit), range, std::move(sentence));
 }
 /// Of a record, whose fields may be any finite numbers.
 template <auto P>
-Member member(std::string name, std::string unit, std::string sentence) {
-  return detail::member(P, std::move(name), std::move(unit), std::nullopt, std::move(sentence));
+Member member(std::string unit, std::string sentence) {
+  return detail::member(P, detail::name_of<P>(), std::move(unit), std::nullopt, std::move(sentence));
 }
 
 /// The members of a struct that is itself the member P of another, as members of that other: offsets moved, and names
@@ -142,19 +168,19 @@ std::vector<Member> nested(const std::string& prefix, std::vector<Member> member
   return detail::moved(std::move(members), detail::offset_of(P), prefix);
 }
 
-/// The block that struct S is, validated. S has no alignment of its own, so the compiler adds no padding unseen: what
+/// The block that struct S is, of its name, validated. S has no alignment of its own, so the compiler adds no padding unseen: what
 /// padding it needs are members of it, which are not listed here.
 template <class S>
-UniformBlock uniform_block(std::string name, std::vector<Member> members) {
+UniformBlock uniform_block(std::vector<Member> members) {
   static_assert(alignof(S) == 4, "padding must be written out");
-  return detail::validated_block({std::move(name), sizeof(S), std::move(members)});
+  return detail::validated_block({std::string(detail::name_of<S>()), sizeof(S), std::move(members)});
 }
 
 /// The same for the element struct of a storage buffer.
 template <class S>
-UniformBlock record(std::string name, std::vector<Member> members) {
+UniformBlock record(std::vector<Member> members) {
   static_assert(alignof(S) == 4, "padding must be written out");
-  return detail::validated_record({std::move(name), sizeof(S), std::move(members)});
+  return detail::validated_record({std::string(detail::name_of<S>()), sizeof(S), std::move(members)});
 }
 
 }  // namespace rainref::scene

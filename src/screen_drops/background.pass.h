@@ -8,20 +8,15 @@
 
 namespace rainref::screen_drops {
 
-struct BackgroundPass {
+struct BackgroundPass : pass::Takes<BackgroundUniforms> {
   static constexpr pass::About about{"background", "The scene out of focus, without water. Once, before frame 0.", {1}, {1}};
-  using Uniforms = BackgroundUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "BackgroundUniforms",
-        {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "as-published: columns and rows of the picture."),
-         member<&U::level>("level", "1", {0, 16}, "Mip level of the lookups."),
-         member<&U::weight>("weight", "1", scene::share, "corrected: of a tap."),
-         member<&U::scale>("scale", "1", scene::share, "corrected: texture coordinates of the scene in a pixel."),
-         member<&U::offset>("offset", "1", scene::share, "corrected: those of the picture's corner."),
-         member<&U::tap_count>("tap_count", "1", {0, 4096}, "corrected: taps in the list.")});
+    return block({member<&U::resolution>("pixel", scene::whole(1, 65536), "as-published: columns and rows of the picture."),
+                  member<&U::level>("1", {0, 16}, "Mip level of the lookups."),
+                  member<&U::weight>("1", scene::share, "corrected: of a tap."),
+                  member<&U::scale>("1", scene::share, "corrected: texture coordinates of the scene in a pixel."),
+                  member<&U::offset>("1", scene::share, "corrected: those of the picture's corner."),
+                  member<&U::tap_count>("1", {0, 4096}, "corrected: taps in the list.")});
   }
   template <class B>
   struct Io {

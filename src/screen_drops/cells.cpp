@@ -5,30 +5,33 @@
 
 namespace rainref::screen_drops {
 
-CellLine::CellLine(const CellsUniforms& uniforms, int row) : u_(uniforms) {
+template <class W>
+CellLine<W>::CellLine(const CellsUniforms& uniforms, int row) : u_(uniforms) {
   for (int l = 0; l < layers; ++l) {
     const std::int32_t line = row - u_.first_row[l];
     if (line < 0 || line >= u_.rows[l]) continue;
     layer_ = static_cast<std::uint32_t>(l);
-    line_ = random::draws().row(static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(row)) << 16;
+    line_ = W::counted_from(u_.first_row[l], row) << 16;
     columns_ = u_.columns[l];
   }
 }
-void CellLine::draw_clock(int column, DrawnCell& drawn) const {
+template <class W>
+void CellLine<W>::draw_clock(int column, DrawnCell& drawn) const {
   const std::uint64_t seed = u_.seed[0] | static_cast<std::uint64_t>(u_.seed[1]) << 32;
-  const random::Block own = random::draws().block(seed, random::Purpose::screen_cell, static_cast<std::uint32_t>(column) | line_, layer_);
+  const random::Block own = W::block(seed, random::Purpose::screen_cell, static_cast<std::uint32_t>(column) | line_, layer_);
   drawn.length = u_.shortest + ((own[0] >> 16) * u_.span >> 16);
   drawn.start = (own[1] >> 16) * drawn.length >> 16;
 }
-void CellLine::draw_cycle(int column, std::uint32_t time, DrawnCell& drawn) const {
+template <class W>
+void CellLine<W>::draw_cycle(int column, std::uint32_t time, DrawnCell& drawn) const {
   const std::uint64_t seed = u_.seed[0] | static_cast<std::uint64_t>(u_.seed[1]) << 32;
   const std::uint32_t cycle = time / drawn.length;
-  const random::Block drop =
-      random::draws().block(seed, random::Purpose::screen_drop, static_cast<std::uint32_t>(column) | line_, cycle * layers + layer_);
+  const auto drop = W::block(seed, random::Purpose::screen_drop, static_cast<std::uint32_t>(column) | line_, cycle * layers + layer_);
   drawn.begin = cycle * drawn.length;
-  drawn.cycle = {random::draws().holds((drop[0] >> 16) < u_.keep), cycle, 0, drop[1] >> 16, drop[2] >> 16, drop[3] >> 16};
+  drawn.cycle = {(drop[0] >> 16) < u_.keep, cycle, 0, drop[1] >> 16, drop[2] >> 16, drop[3] >> 16};
 }
-CellState CellLine::at(int column, DrawnCell& drawn) const {
+template <class W>
+CellState CellLine<W>::at(int column, DrawnCell& drawn) const {
   if (column >= columns_) return {};
   const bool is_new = drawn.length == 0;
   if (is_new) draw_clock(column, drawn);
@@ -39,10 +42,13 @@ CellState CellLine::at(int column, DrawnCell& drawn) const {
   s.phase = ((time - drawn.begin) << 16) / drawn.length;
   return s;
 }
-CellState CellLine::at(int column) const {
+template <class W>
+CellState CellLine<W>::at(int column) const {
   DrawnCell drawn;
   return at(column, drawn);
 }
+template class CellLine<random::Words>;
+template class CellLine<random::PerturbedWords>;
 
 void cells_rows(const CellsUniforms& u, std::span<DrawnCell> drawn, Image& cells, int begin, int end) {
   using N = scalar::Scalar<float>;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "rainref/image.h"
+#include "random/words.h"
 #include "screen_drops/uniforms.h"
 
 namespace rainref::screen_drops {
@@ -22,7 +23,8 @@ struct DrawnCell {
   CellState cycle{};                    ///< phase 0
 };
 /// A row of the buffer of cells. A cell has a cycle of its own length, and starts within it; each cycle draws place and size
-/// anew.
+/// anew. W: random::Words or PerturbedWords.
+template <class W = random::Words>
 class CellLine {
  public:
   CellLine(const CellsUniforms& uniforms, int row);

@@ -11,23 +11,19 @@
 namespace rainref::screen_drops {
 
 /// No lanes: whole numbers are drawn one cell at a time, which cells_rows keeps from frame to frame.
-struct CellsPass {
+struct CellsPass : pass::Takes<CellsUniforms> {
   static constexpr pass::About about{"cells", "The drop that each cell of four grids holds now.", {}, {1}};
-  using Uniforms = CellsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("CellsUniforms",
-                                   {member<&U::seed>("seed", "1", scene::any_word, "Low and high word of the seed."),
-                                    member<&U::tick>("tick", "ms", scene::any_word, "The frame's time, modulo 2^32."),
-                                    member<&U::keep>("keep", "1", {0, 65536}, "Of 65536 cells hold a drop."),
-                                    member<&U::columns>("columns", "cell", {1, 65536}, "Columns of each layer."),
-                                    member<&U::rows>("rows", "cell", {1, 65536}, "Rows of each layer."),
-                                    member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of the buffer where each layer begins."),
-                                    member<&U::shortest>("shortest", "ms", {1, 65535}, "Shortest cycle."),
-                                    member<&U::span>("span", "ms", {0, 65535}, "Longest cycle less shortest."),
-                                    member<&U::largest>("largest", "cell", scene::share, "Radius of a layer's largest drop."),
-                                    member<&U::impact>("impact", "1", scene::share, "Share of the cycle in which a drop spreads.")});
+    return block(
+        {member<&U::seed>("1", scene::any_word, "Low and high word of the seed."),
+         member<&U::tick>("ms", scene::any_word, "The frame's time, modulo 2^32."),
+         member<&U::keep>("1", {0, 65536}, "Of 65536 cells hold a drop."),
+         member<&U::columns>("cell", {1, 65536}, "Columns of each layer."), member<&U::rows>("cell", {1, 65536}, "Rows of each layer."),
+         member<&U::first_row>("texel", {0, 1 << 24}, "Row of the buffer where each layer begins.")
+             .guarded("the first layer begins in row 0"),
+         member<&U::shortest>("ms", {1, 65535}, "Shortest cycle."), member<&U::span>("ms", {0, 65535}, "Longest cycle less shortest."),
+         member<&U::largest>("cell", scene::share, "Radius of a layer's largest drop."),
+         member<&U::impact>("1", scene::share, "Share of the cycle in which a drop spreads.")});
   }
   template <class Bound>
   static std::string fault(const Bound& b) {
@@ -62,7 +58,8 @@ RAINREF_FN CellDrop<N> cell_drop(const CellsUniforms& c, N size, N x, N y, N pha
   const N reach = N(c.largest) / sqrt(one + N(3.0f) * size);
   const N share = min(phase * uniform_quotient(1.0f, c.impact, N()), (one - phase) * uniform_quotient(1.0f, 1.0f - c.impact, N()));
   const N room = one - N(2.0f) * reach;
-  return {half + (x - half) * room, half + (y - half) * room, reach * sqrt(max(share, N(0.0f))), phase};
+  return {half + (x - half) * room, half + (y - half) * room, reach * sqrt(guard<N>(max(share, N(0.0f)), "the share is nowhere negative")),
+          phase};
 }
 /// What a texel holds of a cell that drew this.
 template <class N, class Result>
@@ -76,7 +73,7 @@ RAINREF_FN void give_cell(const CellsUniforms& u, const CellState& s, const Resu
 struct CellsPassText {
   template <class N, bool, class Io>
   static RAINREF_FN void run(const CellsUniforms& u, const Io& io, int column, int row) {
-    give_cell<N>(u, CellLine(u, row).at(column), io.cells);
+    give_cell<N>(u, CellLine<typename random::WordsOf<N>::type>(u, row).at(column), io.cells);
   }
 };
 #endif

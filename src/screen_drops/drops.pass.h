@@ -12,30 +12,24 @@ inline constexpr std::string_view drops_sentence = "The scene through the drops 
 inline constexpr pass::Out drops_colour{
     .name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
 
-struct PublishedDropsPass {
+struct PublishedDropsPass : pass::Takes<PublishedDropsUniforms> {
   static constexpr pass::About about{"drops", drops_sentence, {2}, {}, {"dot", "length", "normalize"}};
-  using Uniforms = PublishedDropsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "PublishedDropsUniforms",
-        {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
-         member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
-         member<&U::grid>("grid", "cell/pixel", scene::share, "Cells of layer 1 in a pixel."),
-         member<&U::keep>("keep", "1", scene::share, "Times keep_from - layer: the noise below which a cell holds a drop."),
-         member<&U::refraction>("refraction", "1", scene::component, "Pictures per unit of the normal."),
-         member<&U::printed_misprint>("printed_misprint", "1", scene::flag, "1: the displacement as the report prints it."),
-         member<&U::noise_nearest>("noise_nearest", "1", scene::flag, "1: noise is looked up unfiltered, texel floor(fract(u) size)."),
-         member<&U::layers>("layers", "1", scene::whole(1, most_published_layers), "Grids of cells."),
-         member<&U::water_step>("water_step", "1", scene::share, "1 over layers."),
-         member<&U::cell_angle>("cell_angle", "rad", {0, 100}, "Of the sine over a cell."),
-         member<&U::noise_middle>("noise_middle", "1", scene::share, "Noise that displaces nothing."),
-         member<&U::displacement>("displacement", "rad", {-100, 100}, "Of the grid per unit of noise."),
-         member<&U::keep_from>("keep_from", "1", {0, 100}, "Layer from which on no cell holds a drop."),
-         member<&U::threshold>("threshold", "1", {least_threshold, 2}, "Sum of the sines above which a drop is."),
-         member<&U::printed_normal>("printed_normal", "1", scene::flag,
-                                    "1: the normal as the report prints it, of the cosine of a sine.")});
+    return block({member<&U::resolution>("pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
+                  member<&U::time>("s", scene::frame_time, "Frame number over frame rate, rounded once."),
+                  member<&U::grid>("cell/pixel", scene::share, "Cells of layer 1 in a pixel."),
+                  member<&U::keep>("1", scene::share, "Times keep_from - layer: the noise below which a cell holds a drop."),
+                  member<&U::refraction>("1", scene::component, "Pictures per unit of the normal."),
+                  member<&U::printed_misprint>("1", scene::flag, "1: the displacement as the report prints it."),
+                  member<&U::noise_nearest>("1", scene::flag, "1: noise is looked up unfiltered, texel floor(fract(u) size)."),
+                  member<&U::layers>("1", scene::whole(1, most_published_layers), "Grids of cells."),
+                  member<&U::water_step>("1", scene::share, "1 over layers."),
+                  member<&U::cell_angle>("rad", {0, 100}, "Of the sine over a cell."),
+                  member<&U::noise_middle>("1", scene::share, "Noise that displaces nothing."),
+                  member<&U::displacement>("rad", {-100, 100}, "Of the grid per unit of noise."),
+                  member<&U::keep_from>("1", {0, 100}, "Layer from which on no cell holds a drop."),
+                  member<&U::threshold>("1", {least_threshold, 2}, "Sum of the sines above which a drop is."),
+                  member<&U::printed_normal>("1", scene::flag, "1: the normal as the report prints it, of the cosine of a sine.")});
   }
   template <class B>
   struct Io {
@@ -48,33 +42,28 @@ struct PublishedDropsPass {
   };
 };
 /// corrected. Its lanes are written by hand: see kernels.cpp.
-struct DropsPass {
+struct DropsPass : pass::Takes<DropsUniforms> {
   static constexpr pass::About about{"drops", drops_sentence, {}, {1}, {"dot", "length", "normalize"}};
-  using Uniforms = DropsUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "DropsUniforms",
-        {member<&U::cells_per_pixel>("cells_per_pixel", "cell/pixel", {0, 1e6}, "Of each layer."),
-         member<&U::offset_x>("offset_x", "cell", scene::share, "Place of the picture's corner in each layer."),
-         member<&U::offset_y>("offset_y", "cell", scene::share, "Place of the picture's corner in each layer."),
-         member<&U::pixels_per_cell>("pixels_per_cell", "pixel/cell", {0, 1e9}, "Of each layer."),
-         member<&U::level>("level", "1", {0, 32}, "Mip level at which each layer's drops see the scene."),
-         member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of cells where each layer begins."),
-         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-         member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
-         member<&U::sine>("sine", "1", scene::share, "Of the contact angle."),
-         member<&U::water_ior>("water_ior", "1", {1, 2}, "Refractive index of water."),
-         member<&U::inner>("inner", "1", scene::share, "Share of the background that the water's surface mirrors."),
-         member<&U::has_flow>("has_flow", "1", scene::flag, "1: height counts."),
-         member<&U::flow_slope>("flow_slope", "1/mm", {0, 1e9}, "Slope per difference of heights two texels apart."),
-         member<&U::flow_pixel>("flow_pixel", "1", scene::share, "1 over the picture's columns and rows."),
-         member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which flowing water begins to show."),
-         member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
-         member<&U::flow_level>("flow_level", "1", {0, 32}, "Mip level at which flowing water sees the scene."),
-         member<&U::flow_texel>("flow_texel", "1", scene::share, "1 over the columns and rows of height.")});
+    return block(
+        {member<&U::cells_per_pixel>("cell/pixel", {0, 1e6}, "Of each layer."),
+         member<&U::offset_x>("cell", scene::share, "Place of the picture's corner in each layer."),
+         member<&U::offset_y>("cell", scene::share, "Place of the picture's corner in each layer."),
+         member<&U::pixels_per_cell>("pixel/cell", {0, 1e9}, "Of each layer."),
+         member<&U::level>("1", {0, 32}, "Mip level at which each layer's drops see the scene."),
+         member<&U::first_row>("texel", {0, 1 << 24}, "Row of cells where each layer begins.").guarded("the first layer begins in row 0"),
+         member<&U::pixel>("1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+         member<&U::half_size>("1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+         member<&U::scene_scale>("1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+         member<&U::sine>("1", scene::share, "Of the contact angle."), member<&U::water_ior>("1", {1, 2}, "Refractive index of water."),
+         member<&U::inner>("1", scene::share, "Share of the background that the water's surface mirrors."),
+         member<&U::has_flow>("1", scene::flag, "1: height counts."),
+         member<&U::flow_slope>("1/mm", {0, 1e9}, "Slope per difference of heights two texels apart."),
+         member<&U::flow_pixel>("1", scene::share, "1 over the picture's columns and rows."),
+         member<&U::visible_from>("mm", {0, 10}, "Height at which flowing water begins to show."),
+         member<&U::visible_to>("mm", {0, 10}, "Height from which it shows fully."),
+         member<&U::flow_level>("1", {0, 32}, "Mip level at which flowing water sees the scene."),
+         member<&U::flow_texel>("1", scene::share, "1 over the columns and rows of height.")});
   }
   template <class B>
   struct Io {
@@ -141,9 +130,9 @@ RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, cons
     const bool printed = d.printed_normal != 0;
     const N x = cos(printed ? sine_x : px), y = cos(printed ? sine_y : py), z = mix(N(0.2f), two, t - half);
     const N inverse = one / sqrt(sum_any_order(square(x), square(y), square(z)));
-    out.layer = select(is_drop, layer, out.layer);
-    out.u = select(is_drop, u + x * inverse * N(d.refraction), out.u);
-    out.v = select(is_drop, v + y * inverse * N(d.refraction), out.v);
+    out.layer = guard<N>(select(is_drop, layer, out.layer), for_lanes);
+    out.u = guard<N>(select(is_drop, u + x * inverse * N(d.refraction), out.u), for_lanes);
+    out.v = guard<N>(select(is_drop, v + y * inverse * N(d.refraction), out.v), for_lanes);
   }
   return out;
 }
@@ -154,7 +143,7 @@ RAINREF_FN Window<N> drops_as_published(const PublishedDropsUniforms& d, const S
   const auto is_drop = drop.layer > N(0.0f);
   if (!any(is_drop)) return {background, drop.layer};
   const auto s = sample_bilinear<0, 3, N>(scene, drop.u, drop.v);
-  return {select(is_drop, Vec3<N>(s[0], s[1], s[2]), background), drop.layer * N(d.water_step)};
+  return {guard<N>(select(is_drop, Vec3<N>(s[0], s[1], s[2]), background), for_lanes), drop.layer * N(d.water_step)};
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
@@ -185,8 +174,9 @@ RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int co
     const Two<N> place = cell_place(u, l, px, py);
     const N qx = place.a, qy = place.b;
     const N cx = floor(qx), cy = floor(qy), pixels(u.pixels_per_cell[l]);
-    const auto drop =
-        load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l]));
+    const auto drop = guard<N>(
+        load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l])),
+        "the cells cover the picture");
     const N dx = (qx - cx) - drop[0], dy = (qy - cy) - drop[1], radius = drop[2];
     // The share of the pixel that the base covers; less for a base smaller than a pixel.
     const N cover = saturate((radius - length(dx, dy)) * pixels + half) * min(N(2.0f) * radius * pixels, one);
@@ -234,9 +224,11 @@ template <class N>
 RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Vec3<N>& ray, N slope_x, N slope_y) {
   const N one(1.0f), zero(0.0f);
   const Vec3<N> normal = normalize(Vec3<N>{slope_x, slope_y, sqrt(max(one - square(slope_x) - square(slope_y), N(0.04f)))});
-  const Vec3<N> inside = refract(ray, Vec3<N>{zero, zero, N(-1.0f)}, 1.0f / u.water_ior);
+  const Vec3<N> inside = guard<N>(refract(ray, Vec3<N>{zero, zero, N(-1.0f)}, 1.0f / u.water_ior), "the ray enters the denser medium");
   const Vec3<N> bent = refract(inside, N(-1.0f) * normal, u.water_ior);
-  return {bent, fresnel_dielectric(saturate(dot(bent, normal)), u.water_ior)};
+  const N cosine =
+      guard_below<N>(saturate(dot(bent, normal)), "a refracted ray leaves on the side of the normal; one that is reflected is 0");
+  return {bent, fresnel_dielectric(cosine, u.water_ior)};
 }
 /// What the pixel with this centre shows where it is wet.
 template <class N, class S>
@@ -259,8 +251,8 @@ RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, con
   const Surface<N> s = water_at<N>(u, cells, height, column, row);
   const auto wet = s.cover > zero;
   if (!any(wet)) return {background, zero};
-  return {select(wet, behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f)), background),
-          s.cover};
+  const Vec3<N> behind = behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f));
+  return {guard<N>(select(wet, behind, background), for_lanes), s.cover};
 }
 
 template <class Scene, class Noise>

@@ -1,8 +1,8 @@
-#include "screen_drops/evaluations.h"
+#include "screen_drops/info.h"
 
 #include "pass/display.h"
 #include "pass/model.h"
-#include "screen_drops/flow_info.h"
+#include "screen_drops/flow.h"
 #include "screen_drops/scalar.h"
 
 namespace rainref::screen_drops {

@@ -5,17 +5,21 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "capture/pass_info.h"
+#include "capture/pass_model.h"
 #include "drops/wet_glass.h"
 #include "math/constants.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/recorder.h"
 #include "scene/config.h"
+#include "scene/parameter.h"
+#include "state/items.h"
 
 namespace rainref::screen_drops {
 
@@ -31,7 +35,7 @@ struct FlowSettings {
 };
 /// What the keys of flow_parameters say. pane [m]: positive; rounding: of what is stored; both are the effect's own. The
 /// scene's variant is corrected. Throws Error(usage) as drops::settings_from does.
-FlowSettings flow_settings(const scene::Config& config, const std::string& prefix, const std::array<double, 2>& pane, Rounding rounding);
+FlowSettings flow_settings(const scene::Config& config, const std::array<double, 2>& pane, Rounding rounding);
 
 /// Its bits depend on neither the executor's threads nor the SIMD target.
 class Flow {
@@ -65,5 +69,21 @@ class Flow {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// What list() lists is afterwards as after warm_up(), which is called unless the state is in the cache (cache/kept_images.h).
+void warm_up_once(const FlowSettings& settings, const std::function<state::Items()>& list, const std::function<void()>& warm_up);
+
+/// Of corrected alone: flow.capacity, flow.height_size, ..., rain.rate, rain.smallest_drop, rain.wind, world.gravity. Size
+/// of the pane and rounding are keys of the effect.
+std::vector<scene::Parameter> flow_parameters();
+
+/// In the order of execution: spawn, integrate, merge, splat.
+std::vector<capture::PassInfo> flow_passes();
+/// What they exchange: drops, glass_frame, count_thresholds, spawn_masses, film, height.
+std::vector<capture::BufferInfo> flow_buffers();
+std::vector<scene::UniformBlock> flow_records();
+
+/// Each of the four passes bound to captured cases.
+std::vector<capture::PassEvaluations> flow_evaluations();
 
 }  // namespace rainref::screen_drops

@@ -1,13 +1,11 @@
-#include "screen_drops/flow_info.h"
 
 #include <algorithm>
 
 #include "drops/info.h"
-#include "drops/evaluations.h"
 #include "drops/settings.h"
-#include "drops/splat.h"
-#include "math/constants.h"
-#include "scene/variant_names.h"
+#include "drops/splat/splat.h"
+#include "pass/info.h"
+#include "scene/member_parameter.h"
 #include "screen_drops/flow.h"
 
 namespace rainref::screen_drops {
@@ -15,42 +13,37 @@ namespace {
 
 using namespace rainref::scene;
 
-template <class T>
-void append(std::vector<T>& all, std::vector<T> more) {
-  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+const std::vector<MemberParameter<FlowSettings>>& flow_members() {
+  using F = FlowSettings;
+  static const std::vector<MemberParameter<F>> table{
+      integer<&F::substeps>("flow.substeps", "1", 1, 64, "Steps of the drops in a frame.").only(correct),
+      real<&F::warm_up>("flow.warm_up", "s", 0, 3600, "Time that it has rained onto the pane before frame 0.").only(correct),
+      real<&F::wind>("rain.wind", "m/s", 0, 100,
+                     "Wind that drives the rain onto the pane; rain that falls straight misses upright glass. 2 m/s is a light breeze.")
+          .only(correct),
+      real<&F::gravity>("world.gravity", "m/s^2", 0, 100, "Acceleration of gravity.").only(correct)};
+  return table;
 }
 
 }  // namespace
 
-std::vector<Parameter> flow_parameters(const std::string& prefix) {
-  const auto key = [&](const char* name) { return prefix + "." + name; };
-  std::vector<Parameter> all = drops::still_parameters(prefix);
-  append(all, drops::corrected_only(drops::splat_parameters(prefix)));
-  std::erase_if(all, [&](const Parameter& p) { return p.key == key("rounding"); });
+std::vector<Parameter> flow_parameters() {
+  std::vector<Parameter> all = drops::still_parameters("flow");
+  pass::append(all, drops::corrected_only(drops::splat_parameters("flow")));
+  std::erase_if(all, [](const Parameter& p) { return p.key == "flow.rounding"; });
   // As wide to high as most screens.
-  std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.key == key("height_size"); })->default_value =
-      Integer2{1024, 576};
-  const FlowSettings standard;
-  append(all, {integer(key("substeps"), "1", 1, 64, standard.substeps, "Steps of the drops in a frame.").only(correct),
-               real(key("warm_up"), "s", 0, 3600, standard.warm_up, "Time that it has rained onto the pane before frame 0.").only(correct),
-               real("rain.wind", "m/s", 0, 100, standard.wind,
-                    "Wind that drives the rain onto the pane; rain that falls straight misses upright glass. 2 m/s is a light breeze.")
-                   .only(correct),
-               real("world.gravity", "m/s^2", 0, 100, standard.gravity, "Acceleration of gravity.").only(correct)});
+  std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.key == "flow.height_size"; })->default_value = Integer2{1024, 576};
+  pass::append(all, parameters_of(flow_members()));
   return all;
 }
 
-FlowSettings flow_settings(const Config& config, const std::string& prefix, const std::array<double, 2>& pane, Rounding rounding) {
-  const auto key = [&](const char* name) { return prefix + "." + name; };
+FlowSettings flow_settings(const Config& config, const std::array<double, 2>& pane, Rounding rounding) {
   FlowSettings s;
   s.fps = config.real("run.fps");
-  s.substeps = static_cast<int>(config.integer(key("substeps")));
   s.pane = pane;
-  s.gravity = config.real("world.gravity");
-  s.wind = config.real("rain.wind");
-  s.warm_up = config.real(key("warm_up"));
-  s.drops = drops::still_settings_from(config, prefix);
-  s.splat = drops::splat_keys(config, prefix, rounding);
+  apply(flow_members(), config, s);
+  s.drops = drops::still_settings_from(config, "flow");
+  s.splat = drops::splat_keys(config, "flow", rounding);
   return s;
 }
 
@@ -62,7 +55,7 @@ std::vector<capture::PassInfo> flow_passes() {
 
 std::vector<capture::BufferInfo> flow_buffers() {
   std::vector<capture::BufferInfo> all = drops::buffers();
-  append(all, drops::splat_buffers());
+  pass::append(all, drops::splat_buffers());
   return drops::corrected_only(std::move(all));
 }
 

@@ -1,7 +1,6 @@
 #include "screen_drops/host.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

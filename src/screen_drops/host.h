@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/memory.h"
 #include "base/rows.h"
 #include "rainref/screen_drops.h"
 #include "scene/camera.h"
@@ -47,5 +48,9 @@ Image make_noise(std::uint64_t seed, int side);
 Image stored_noise(const Image& noise);
 /// The scene and its mip levels, halves of halves, as rgba16f; negative colours become 0, those beyond the halves 65504.
 std::vector<Image> scene_levels(const Image& colour, const Rows& rows = rows_here);
+
+/// Memory of the constructor and of frames, with noise of noise_size texels a side. The inputs are their owner's. flow: as the effect takes
+/// it, after so many seconds of rain.
+MemoryPeak memory(const Settings& settings, const FlowSettings* flow = nullptr, double seconds = 0);
 
 }  // namespace rainref::screen_drops

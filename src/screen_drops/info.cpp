@@ -2,11 +2,11 @@
 
 #include "pass/display.h"
 #include "pass/info.h"
-#include "scene/variant_names.h"
+#include "scene/parameter.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.pass.h"
 #include "screen_drops/drops.pass.h"
-#include "screen_drops/flow_info.h"
+#include "screen_drops/flow.h"
 
 namespace rainref::screen_drops {
 namespace {
@@ -15,38 +15,34 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 EffectInfo make() {
-  const UniformBlock tap = record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."),
-                                               member<&Tap::y>("y", "1", "See x.")});
+  const UniformBlock tap =
+      record<Tap>({member<&Tap::x>("1", "From the pixel's place, in texture coordinates of the scene."), member<&Tap::y>("1", "See x.")});
 
   EffectInfo info;
   info.name = "screen_drops";
   info.passes = flow_passes();
-  for (const PassInfo& pass : std::vector<PassInfo>{
-           pass::info_of<BackgroundPass>(),
-           pass::info_of<CellsPass>(),
-           pass::info_of<PublishedDropsPass, DropsPass>(),
-           pass::display_info("drops"),
-       }) {
-    info.passes.push_back(pass);
-  }
-  const std::array<double, 2> one{0, 1};
+  pass::append(info.passes, {pass::info_of<BackgroundPass>(), pass::info_of<CellsPass>(), pass::info_of<PublishedDropsPass, DropsPass>(),
+                             pass::display_info("drops")});
   info.buffers = flow_buffers();
-  const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
+  const auto append = [&](const std::vector<BufferInfo>& more) { pass::append(info.buffers, more); };
   append({
-      {"scene", "rgba16f", "The scene without the glass and without blur, linear radiance, with mips.", "1", one, "none", "linear Rec. 709",
-       "unused"},
-      {"taps", "records", "Places that the background is the mean of.", "1", one, "none", "none", "none", "", "Tap", correct},
+      {.name = "scene",
+       .format = "rgba16f",
+       .sentence = "The scene without the glass and without blur, linear radiance, with mips.",
+       .colour_space = "linear Rec. 709",
+       .alpha = "unused"},
+      {.name = "taps", .format = "records", .sentence = "Places that the background is the mean of.", .record = "Tap", .variant = correct},
   });
   append(pass::buffers_of<BackgroundPass>());
   append({
-      {"noise", "rgba8", "Noise, a tile: x and y displace the grid; x keeps a cell's drop, y is its time offset, z its rate.", "1", one,
-       "none", "none", "none", "", "", published},
+      {.name = "noise",
+       .format = "rgba8",
+       .sentence = "Noise, a tile: x and y displace the grid; x keeps a cell's drop, y is its time offset, z its rate.",
+       .variant = published},
   });
   append(pass::buffers_of<CellsPass>());
   append(pass::buffers_of<PublishedDropsPass, DropsPass>());
-  append({
-      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"},
-  });
+  info.buffers.push_back(pass::display_buffer());
   info.records = flow_records();
   info.records.push_back(tap);
   return info;

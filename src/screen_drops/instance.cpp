@@ -6,14 +6,11 @@
 
 #include "effect/scene_pictures.h"
 #include "image/flipped.h"
-#include "night_street/memory.h"
-#include "night_street/night_street.h"
 #include "scene/panorama_view.h"
-#include "screen_drops/evaluations.h"
+#include "scene/scenery_memory.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/info.h"
-#include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
 #include "screen_drops/shown.h"
 
@@ -31,8 +28,8 @@ Inputs pictures(const scene::Config& config, const Settings& settings, std::opti
   if (!panorama.empty()) {
     in.colour = scene::panorama_view(panorama, scene_camera(settings), settings.width, settings.height, executor);
   } else if (config.text("scene.image").empty()) {
-    in.colour =
-        night_street::Street({settings.seed}).view(scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
+    const auto street = effect::street_of(files, {settings.seed});
+    in.colour = street->view(scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
   } else {
     const effect::PictureSource source(config, "scene.image", files);
     in.colour = effect::linear_of(source.read(source.shown_in(0), files));
@@ -49,13 +46,21 @@ effect::RunMemory memory_of(const scene::Config& config) {
   if (effect::is_named(config, "scene.image") || effect::is_named(config, "scene.panorama")) {
     m.peak.hold(image_bytes(m, Format::rgba32f));
   } else {
-    m.peak.then(night_street::view_memory(s.width, s.height));
-    m.peak.release(night_street::normal_bytes(s.width, s.height) + image_bytes(m, Format::r32f));
+    m.peak.then(scene::view_memory(s.width, s.height));
+    m.peak.release(image_bytes(m, Format::r32f));
   }
   const std::optional<FlowSettings> flow = flow_from(config, s);
   m.peak.then(memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));
   if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(4 * image_bytes(m, Format::rgba32f));  // decoded, turned over, its mips
   return m;
+}
+
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  const Settings settings = settings_from(config);
+  std::optional<effect::PictureSource> sequence;
+  Inputs seen = pictures(config, settings, sequence, executor, inputs);
+  const std::optional<FlowSettings> flow = flow_from(config, settings);
+  return std::make_unique<Instance>(settings, std::move(seen), std::move(sequence), flow ? &*flow : nullptr, executor);
 }
 
 }  // namespace
@@ -109,19 +114,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"screen_drops",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            const Settings settings = settings_from(config);
-            std::optional<effect::PictureSource> sequence;
-            Inputs seen = pictures(config, settings, sequence, executor, inputs);
-            const std::optional<FlowSettings> flow = flow_from(config, settings);
-            return std::make_unique<Instance>(settings, std::move(seen), std::move(sequence), flow ? &*flow : nullptr, executor);
-          }};
+  return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::screen_drops

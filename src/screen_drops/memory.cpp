@@ -1,11 +1,9 @@
-#include "screen_drops/memory.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/floating_point.h"
 #include "drops/host.h"
-#include "drops/memory.h"
 #include "image/memory.h"
 #include "screen_drops/cells.h"
 #include "screen_drops/flow.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "screen_drops/flow_info.h"
+#include "screen_drops/flow.h"
 #include "effect/picture_sequence.h"
 #include "scene/member_parameter.h"
 #include "screen_drops/uniforms.h"
@@ -12,8 +12,8 @@ namespace {
 
 using namespace rainref::scene;
 
-std::vector<MemberParameter<Settings>> made() {
-  std::vector<MemberParameter<Settings>> table{
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table{
       // The origin's constants.
       real<&Settings::grid>("drops.grid", "cell/pixel", 1e-4, 1, "Cells of the coarsest layer in a pixel; layer r has r times as many.")
           .only(published),
@@ -77,22 +77,13 @@ std::vector<MemberParameter<Settings>> made() {
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 150, "Vertical field of view; of a picture from a file, too."),
       boolean("flow.on", true, "Whether rain also brings drops that slide and merge.").only(correct),
   };
-  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
-  return table;
-}
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 
 }  // namespace
 
 std::span<const scene::Parameter> parameters() {
-  static const std::vector<scene::Parameter> all = [] {
-    std::vector<scene::Parameter> both = parameters_of(members());
-    for (const scene::Parameter& p : flow_parameters("flow")) both.push_back(p);
-    return both;
-  }();
+  static const std::vector<scene::Parameter> all = parameters_of(members(), {effect::sequence_parameters(), flow_parameters()});
   return all;
 }
 
@@ -101,7 +92,7 @@ Settings default_settings(Variant variant) { return scene::default_settings(memb
 
 std::optional<FlowSettings> flow_from(const scene::Config& config, const Settings& s) {
   if (s.variant != Variant::corrected || !config.boolean("flow.on")) return {};
-  return flow_settings(config, "flow", {s.pane_height * s.width / s.height, s.pane_height}, s.rounding);
+  return flow_settings(config, {s.pane_height * s.width / s.height, s.pane_height}, s.rounding);
 }
 
 }  // namespace rainref::screen_drops

@@ -4,11 +4,9 @@
 
 #include "image/footprint.h"
 #include "image/texture.h"
-#include "math/perturbed.h"
-#include "math/enclosure.h"
 #include "math/in_parts.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
+#include "math/numbers.h"
+#include "random/draws.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.pass.h"
 #include "screen_drops/drops.pass.h"
@@ -20,10 +18,7 @@ using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
-#include "image/sampling_perturbed-inl.h"
-#include "image/sampling-inl.h"
-#include "image/sampling_enclosed-inl.h"
-#include "image/sampling_rearranged-inl.h"
+#include "image/sampling_numbers-inl.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.pass.h"
 #include "math/in_parts-inl.h"

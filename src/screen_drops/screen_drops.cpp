@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,7 +19,6 @@
 #include "screen_drops/drops.pass.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
-#include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
 #include "state/items.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "effect/display.h"
+#include "effect/instance.h"
 #include "effect/run_memory.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"

@@ -8,10 +8,11 @@
 #include "base/floating_point.h"
 #include "image/flipped.h"
 #include "image_io/write.h"
+#include "night_street/night_street.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
 #include "simulation/picture_notes.h"
-#include "simulation/supersampling.h"
+#include "simulation/light_mean.h"
 
 namespace rainref::simulation {
 namespace {
@@ -81,10 +82,14 @@ effect::RunMemory memory_of(const scene::Config& scene) {
 }
 
 Opened::Opened(scene::Config config, const parallel::Executor& executor)
+    : Opened(std::move(config), executor, night_street::Street::make) {}
+
+Opened::Opened(scene::Config config, const parallel::Executor& executor, scene::MakeScenery street)
     : config_(std::move(config)),
       pass_config_(config_at_pass_size(config_)),
       executor_(executor),
       effect_(fitting(config_)),
+      inputs_{.files = {}, .warnings = {}, .notes = {}, .street = street},
       development_(development_from(config_)),
       samples_(static_cast<int>(config_.integer("run.supersample"))) {
   const FloatingPointGuard guard;
@@ -161,7 +166,7 @@ void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
 bool Opened::has_truth() {
   const FloatingPointGuard guard;
   const truth::EffectTracing* how = truth::tracing_of(effect_.name);
-  if (!tracing_ && how) tracing_ = how->make(pass_config_, *instance_, executor_);
+  if (!tracing_ && how) tracing_ = how->make(pass_config_, *instance_, inputs_, executor_);
   return tracing_ != nullptr;
 }
 

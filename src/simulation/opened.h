@@ -27,6 +27,8 @@ class Opened {
  public:
   /// Refuses what does not fit into memory, reads the scene's files and builds the effect. Throws Error.
   Opened(scene::Config config, const parallel::Executor& executor);
+  /// The same before another street than the one at night.
+  Opened(scene::Config config, const parallel::Executor& executor, scene::MakeScenery street);
 
   const scene::Config& config() const { return config_; }
   const effect::Inputs& inputs() const { return inputs_; }

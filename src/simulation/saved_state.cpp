@@ -10,7 +10,7 @@
 #include "rainref/error.h"
 #include "simulation/opened.h"
 #include "simulation/picture_notes.h"
-#include "state/load.h"
+#include "state/file.h"
 
 namespace rainref::simulation {
 namespace {

@@ -1,6 +1,6 @@
 #include "rainref/simulation.h"
 
-#include <algorithm>
+#include <mutex>
 #include <span>
 #include <utility>
 
@@ -9,15 +9,46 @@
 
 #include "base/floating_point.h"
 #include "base/read_file.h"
+#include "cache/kept_images.h"
+#include "night_street/night_street.h"
 #include "rainref/error.h"
 #include "scene/json.h"
 #include "scene/toml.h"
-#include "simulation/keeping.h"
 #include "simulation/opened.h"
 #include "simulation/own_scenes.h"
 #include "simulation/picture_notes.h"
 
 namespace rainref {
+namespace {
+
+/// Whether images are kept between runs was said, and can be said no more.
+struct Keeping {
+  std::mutex mutex{};
+  bool is_said = false, has_begun = false;
+};
+Keeping& keeping() {
+  static Keeping one;
+  return one;
+}
+
+/// Called before a Simulation is opened, by any thread: from the first on images are kept where keep_images said, or else where the command
+/// line keeps them.
+void begin_to_keep() {
+  const std::lock_guard lock(keeping().mutex);
+  if (!keeping().has_begun && !keeping().is_said) cache::keep_in(cache::folder_of_user());
+  keeping().has_begun = true;
+}
+
+}  // namespace
+
+void keep_images(const std::filesystem::path& folder) {
+  const FloatingPointGuard guard;
+  const std::lock_guard lock(keeping().mutex);
+  if (keeping().has_begun)
+    throw Error(ExitCode::usage, "keep_images: expected a call before the first simulation is opened, found one that was opened");
+  cache::keep_in(folder.empty() ? folder : std::filesystem::absolute(folder));
+  keeping().is_said = true;
+}
 
 struct Simulation::State {
   SceneText scene;
@@ -49,9 +80,14 @@ SceneText read_scene(const std::filesystem::path& file, std::vector<std::string>
   return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), found.string()};
 }
 
+std::shared_ptr<const scene::Scenery> street_at_night(std::uint64_t seed, bool clear_lane) {
+  const FloatingPointGuard guard;
+  return night_street::Street::make({seed, clear_lane});
+}
+
 Simulation::Simulation(const SceneText& scene, const parallel::Executor& executor) {
   const FloatingPointGuard guard;
-  simulation::begin_to_keep();
+  begin_to_keep();
   state_ = std::make_unique<State>(scene, executor);
 }
 Simulation::~Simulation() = default;

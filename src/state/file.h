@@ -55,4 +55,10 @@ class Saved {
   std::vector<Stored> items_;
 };
 
+/// Throws Error(usage), naming the item, what is expected and what was found, unless the items of `saved` are those listed: the same
+/// names in the same order, types, shapes (lengths within their limits), numbers within their ranges. Changes nothing.
+void require_fit(const Saved& saved, const Items& items);
+/// After require_fit: overwrites what is listed.
+void load(const Saved& saved, const Items& items);
+
 }  // namespace rainref::state

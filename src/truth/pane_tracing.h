@@ -1,25 +1,18 @@
 // What is traced of an effect on a pane of glass.
 #pragma once
 
-#include "truth/pixels.h"
 #include "truth/tracing.h"
 
 namespace rainref::truth {
 
-/// The compare of a view, from where its name means something else.
-template <class Running, class View>
-Comparison compare_pane(const Running& running, const View& view, const PictureOptions& options, const parallel::Executor& executor) {
-  return compare(running, view, options, executor);
-}
-
-/// View: what is known of an effect's pane, with scene(running), camera(), width(), height() and display(radiance, executor), and a
-/// compare(running, view, options, executor) beside it.
+/// View: what is known of an effect's pane, with scene(running), camera(), width(), height(), display(radiance, executor) and
+/// compare(running, options, executor).
 template <class View, class Instance>
 class PaneTracing : public Tracing {
  public:
   Comparison compare() override {
     look_outside();
-    return compare_pane(instance_.running(), view_, choice().picture, executor());
+    return view_.compare(instance_.running(), choice().picture, executor());
   }
 
  protected:

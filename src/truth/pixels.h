@@ -2,9 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "compositor/surface.h"
 #include "truth/difference.h"

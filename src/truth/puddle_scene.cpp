@@ -8,7 +8,7 @@
 #include "compositor/plates.h"
 #include "truth/puddle_ground.h"
 #include "math/constants.h"
-#include "puddle/environment.h"
+#include "puddle/scenery.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
 #include "rainref/error.h"
@@ -92,7 +92,7 @@ struct PuddleScene::State {
   puddle::Settings settings;
   puddle::Encoding encoding;
   TextureData environment, ground, relief;
-  std::unique_ptr<night_street::Street> street;
+  std::shared_ptr<const scene::Scenery> street;
   scene::Camera camera;
   Ringed water;
   Slopes slopes;
@@ -152,13 +152,13 @@ struct PuddleScene::State {
       sheet.sheet->assign(sheet.heights, executor);
       bed = sheet.sheet;
       scene.add(bed, Material::of(std::make_shared<PuddleGround>(look, bed.get())));
-      scene.add(surround(sheet.half_x, sheet.half_z, ground_height(d.border[0]), options.is_street ? in_street : everywhere),
+      scene.add(surround(sheet.half_x, sheet.half_z, ground_height(d.border[0]), options.street ? in_street : everywhere),
                 Material::of(std::make_shared<PuddleGround>(look, nullptr)));
     }
 
     const Rotation rotation(s.env_rotation);
-    if (options.is_street) {
-      street = std::make_unique<night_street::Street>();
+    if (options.street) {
+      street = options.street;
       // The ground around the water is level with the road.
       scene.set_environment(std::make_shared<StreetEnvironment>(*street, Vec(0, -ground_height(static_cast<float>(-s.puddle_depth)), 0),
                                                                 environment.view(), rotation));

@@ -5,6 +5,8 @@
 
 #include "compositor/picture.h"
 #include "rainref/puddle.h"
+#include "scene/scenery.h"
+#include "truth/difference.h"
 #include "truth/tracer_names.h"
 
 namespace rainref::truth {
@@ -20,8 +22,8 @@ class PuddleScene {
  public:
   struct Options {
     TracerOptions tracer;
-    bool is_street = false;  ///< the surroundings are the street itself, ray by ray, in place of a picture of it
-    int samples = 1;         ///< rays of a pixel, for the mip level of the ground
+    std::shared_ptr<const scene::Scenery> street = nullptr;  ///< the surroundings, ray by ray, in place of a picture of them
+    int samples = 1;                                         ///< rays of a pixel, for the mip level of the ground
   };
   /// Throws Error(usage) for as-published settings, which have no water in metres.
   PuddleScene(const puddle::Settings& settings, const puddle::Surroundings& surroundings, const Options& options,
@@ -33,12 +35,24 @@ class PuddleScene {
   void update(const puddle::Puddle& puddle, const parallel::Executor& executor);
   const Scene& scene() const;
   const scene::Camera& camera() const;
-  /// Numbers of the water's sheet and of the bed in the scene.
-  static constexpr std::uint32_t water_surface = 0, bed_surface = 1;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// How the march and shade of a puddle err in one picture, at pixel centres. `puddle` has rendered the water that `traced` was updated
+/// with; colours are compared at one ray a pixel.
+///   pixels                     pixels, water_in_both; water_in_passes_only and water_in_truth_only: along the shore
+///   hit_distance [m]           along the view ray, where both see water
+///   normal_angle [deg], ground_offset [m]: there; how far the refracted rays' ends on the bed lie apart
+///   colour, display            there: the channel that differs most, linear radiance, and code values of 255 of what is shown
+///   ground_display             the same where the truth sees ground
+///   schlick                    Schlick's reflectance minus Fresnel's at the true normal, where the truth sees water
+Comparison compare(const puddle::Puddle& puddle, const puddle::Settings& settings, const PuddleScene& traced, const ShadingOptions& options,
+                   const parallel::Executor& executor);
+
+/// The picture that the puddle's display makes of a radiance (rgba16f): vignette, exposure, sRGB. rgba8.
+Image display(const puddle::Settings& settings, const Image& radiance, const parallel::Executor& executor);
 
 }  // namespace rainref::truth

@@ -1,26 +1,20 @@
-#include "truth/puddle_truth.h"
+#include "truth/puddle_scene.h"
 
 #include <algorithm>
 #include <array>
 
 #include "compositor/interface.h"
-#include "math/constants.h"
-#include "math/real64.h"
 #include "pass/run.h"
 #include "puddle/display.pass.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
+#include "puddle/instance.h"
+#include "rainref/error.h"
+#include "truth/pixels.h"
+#include "truth/tracing.h"
 
 namespace rainref::truth {
 namespace {
-
-constexpr double degrees_per_radian = 57.29577951308232;
-
-double sign_of_largest(const double (&d)[3]) {
-  double best = d[0];
-  for (const double x : d) best = std::abs(x) > std::abs(best) ? x : best;
-  return best;
-}
 
 /// What shade takes for the end of the refracted ray: the bed's depth under the surface point, straight along the ray.
 Vec ground_of_passes(const Vec& point, const Vec& view, const Vec& normal, double depth) {
@@ -40,8 +34,8 @@ Image display(const puddle::Settings& settings, const Image& radiance, const par
   return picture;
 }
 
-PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settings, const PuddleScene& traced,
-                    const ShadingOptions& options, const parallel::Executor& executor) {
+Comparison compare(const puddle::Puddle& puddle, const puddle::Settings& settings, const PuddleScene& traced, const ShadingOptions& options,
+                   const parallel::Executor& executor) {
   const int width = settings.width, height = settings.height;
   const Scene& scene = traced.scene();
   const PictureOptions one_ray{options, 1};
@@ -52,8 +46,7 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
   const PrimaryRays primary(traced.camera(), width, height);
   const float f0 = reflectance_straight_on(static_cast<float>(water_refractive_index));
 
-  PuddleTruth out;
-  out.pixels = static_cast<std::size_t>(width) * height;
+  Comparison out;
   enum { distance, angle, offset, colour, code, ground_code, schlick };
   const auto add = [&](const char* name, const char* unit) { out.differences.emplace_back(name, unit, width, height); };
   add("hit_distance", "m");
@@ -103,8 +96,7 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
       if (is_water && is_truly_water) {
         const double length = glm::length(rays[x].direction);
         out.differences[distance].at(x, y) = glm::length(position - rays[x].origin) - hits[x].t * length;
-        const Vec cross = glm::cross(normal, normals[x]);
-        out.differences[angle].at(x, y) = degrees_per_radian * atan2_real(Real64(glm::length(cross)), Real64(dot(normal, normals[x]))).v;
+        out.differences[angle].at(x, y) = degrees_between(normal, normals[x]);
         if (beds[x].is_surface()) {
           const Vec there = ground_of_passes(position, view, normal, depth) - bent[x].at(beds[x].t);
           out.differences[offset].at(x, y) = std::sqrt(there.x * there.x + there.z * there.z);
@@ -116,29 +108,79 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
             compositor::scalar::fresnel_schlick(compositor::scalar::Number(cosine), f0).v -
             compositor::scalar::fresnel_dielectric(compositor::scalar::Number(cosine), water_refractive_index).v;
       }
-      const Half* passes = puddle.colour().row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
-      const Half* true_colour = truth.beauty.row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
-      const Unorm8* passes_code = puddle.picture().row<Unorm8>(y) + 4 * static_cast<std::ptrdiff_t>(x);
-      const Unorm8* true_code = shown.row<Unorm8>(y) + 4 * static_cast<std::ptrdiff_t>(x);
-      double d[3], c[3];
-      for (int k = 0; k < 3; ++k) {
-        d[k] = static_cast<double>(to_float(passes[k])) - to_float(true_colour[k]);
-        c[k] = static_cast<double>(passes_code[k].code) - true_code[k].code;
-      }
       if (is_water && is_truly_water) {
-        out.differences[colour].at(x, y) = sign_of_largest(d);
-        out.differences[code].at(x, y) = sign_of_largest(c);
+        out.differences[colour].at(x, y) = pixel_difference<Half>(puddle.colour(), truth.beauty, x, y);
+        out.differences[code].at(x, y) = pixel_difference<Unorm8>(puddle.picture(), shown, x, y);
       } else if (hits[x].is_surface() && !is_truly_water) {
-        out.differences[ground_code].at(x, y) = sign_of_largest(c);
+        out.differences[ground_code].at(x, y) = pixel_difference<Unorm8>(puddle.picture(), shown, x, y);
       }
     }
   });
-  for (const auto& c : counts) {
-    out.water_in_both += c[0];
-    out.water_in_passes_only += c[1];
-    out.water_in_truth_only += c[2];
-  }
+  std::array<std::size_t, 3> all{};
+  for (const auto& c : counts)
+    for (std::size_t k = 0; k < 3; ++k) all[k] += c[k];
+  out.pixels = {{"pixels", static_cast<std::size_t>(width) * height},
+                {"water_in_both", all[0]},
+                {"water_in_passes_only", all[1]},
+                {"water_in_truth_only", all[2]}};
   return out;
+}
+
+namespace {
+
+/// Null where rays see the passes' picture.
+std::shared_ptr<const scene::Scenery> street(const scene::Config& config, const effect::Inputs& inputs) {
+  if (config.text("compositor.surroundings") != "street") return nullptr;
+  if (!config.text("environment.image").empty()) {
+    throw Error(ExitCode::usage,
+                "compositor.surroundings: expected \"picture\", for environment.image names one; \"street\" is the street made here");
+  }
+  return effect::street_of(inputs, {});
+}
+
+class PuddleTracing : public Tracing {
+ public:
+  PuddleTracing(const scene::Config& config, const puddle::Instance& puddle, const effect::Inputs& inputs, const parallel::Executor& on)
+      : Tracing(choice_from(config), on),
+        puddle_(puddle),
+        scene_(puddle.settings(), puddle.surroundings(), {choice().tracer, street(config, inputs), choice().picture.samples}, on) {}
+
+  Comparison compare() override {
+    scene_.update(puddle_.running(), executor());
+    return truth::compare(puddle_.running(), puddle_.settings(), scene_, choice().picture.shading, executor());
+  }
+
+ private:
+  Picture picture() override {
+    scene_.update(puddle_.running(), executor());
+    return trace_picture(scene_.scene(), scene_.camera(), puddle_.settings().width, puddle_.settings().height, choice().picture,
+                         executor());
+  }
+  Image display(const Image& radiance) const override { return truth::display(puddle_.settings(), radiance, executor()); }
+
+  const puddle::Instance& puddle_;
+  PuddleScene scene_;
+};
+
+}  // namespace
+
+EffectTracing puddle_tracing() {
+  return {"puddle",
+          [] {
+            std::vector<scene::Parameter> all = parameters();
+            all.push_back(scene::choice("compositor.surroundings", {"picture", "street"}, "picture",
+                                        "What a traced ray sees beyond the puddle: the passes' picture of the surroundings, or the street "
+                                        "made here, ray by ray.")
+                              .only("corrected"));
+            return all;
+          },
+          [](const scene::Config& config, const effect::Instance& instance, const effect::Inputs& inputs,
+             const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
+            const auto& puddle = static_cast<const puddle::Instance&>(instance);
+            if (puddle.settings().variant != Variant::corrected) return nullptr;
+            return std::make_unique<PuddleTracing>(config, puddle, inputs, executor);
+          },
+          hold_traced};
 }
 
 }  // namespace rainref::truth

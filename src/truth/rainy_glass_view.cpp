@@ -5,14 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "compositor/face_patch.h"
 #include "compositor/optics.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/storage.h"
-#include "pass/display.h"
-#include "truth/uncovered.h"
+#include "truth/pane_truth.h"
 
 namespace rainref::truth {
 namespace {
@@ -124,11 +121,10 @@ class OutsideRoom : public Environment {
 
 }  // namespace
 
-RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings* unbarred,
-                               double thickness, const TracerOptions& tracer)
+RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surroundings& around, std::optional<Street> street, double thickness,
+                               const TracerOptions& tracer)
     : settings_(s),
       around_(&around),
-      unbarred_(unbarred),
       tracer_(tracer),
       camera_(checked(s, thickness)),
       basis_(camera_.basis()),
@@ -136,8 +132,8 @@ RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surrounding
       half_height_(camera_.half_height()),
       extent_(extent_of(s, basis_, half_width_, half_height_)),
       pane_(shape_of(s, extent_, thickness)),
-      street_({s.seed}) {
-  if (unbarred_) colour_ = TextureData(rainy_glass::colour_as_half(unbarred_->colour), Address::clamp, Address::clamp);
+      street_(std::move(street)) {
+  if (street_) colour_ = TextureData(rainy_glass::colour_as_half(street_->unbarred.colour), Address::clamp, Address::clamp);
 }
 
 void RainyGlassView::show(const Image& surface) {
@@ -150,7 +146,7 @@ RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction)
     const PictureRelief::Sight seen = pictures_->look(origin, direction);
     return {std::isinf(seen.distance) ? direction : origin + seen.distance * direction - camera_.position, seen.radiance};
   }
-  const night_street::Street::Sight seen = street_.look(origin, direction);
+  const scene::Scenery::Sight seen = street_->scenery->look(origin, direction);
   const bool is_sky = std::isinf(seen.distance);
   const Vec from_eye = is_sky ? direction : origin + seen.distance * direction - camera_.position;
   const double z = dot(from_eye, basis_.forward);
@@ -163,7 +159,7 @@ RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction)
   float deepest = 0;
   for (int y = std::max(row - 1, 0); y <= std::min(row + 1, settings_.height - 1); ++y) {
     for (int x = std::max(column - 1, 0); x <= std::min(column + 1, settings_.width - 1); ++x)
-      deepest = std::max(deepest, unbarred_->depth.row<float>(y)[x]);
+      deepest = std::max(deepest, street_->unbarred.depth.row<float>(y)[x]);
   }
   if (!(deepest >= 0.98 * (is_sky ? rainy_glass::backdrop_far : z) - 0.1)) return {from_eye, seen.radiance};
   using compositor::scalar::Number;
@@ -208,9 +204,7 @@ std::unique_ptr<Scene> RainyGlassView::scene(const rainy_glass::RainyGlass& rend
 }
 
 Image RainyGlassView::display(const Image& radiance, const parallel::Executor& executor) const {
-  Image picture(Format::rgba8, radiance.width(), radiance.height());
-  pass::display_run(settings_.exposure, settings_.rounding, radiance, picture).tiles(executor, 8);
-  return picture;
+  return display_of(settings_.exposure, settings_.rounding, radiance, executor);
 }
 
 }  // namespace rainref::truth

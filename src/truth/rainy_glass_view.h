@@ -1,5 +1,5 @@
-// The pane of rainy_glass as rays see it: the eye, glass of real thickness, water whose slopes the maps give, the street at night
-// or a picture with depths behind it, seen by a camera that focuses on the pane.
+// The pane of rainy_glass as rays see it: the eye, glass of real thickness, water whose slopes the maps give, a street or a
+// picture with depths behind it, seen by a camera that focuses on the pane.
 //
 // The effect knows no height of its water, and none can be had: a slope that is masked, or mixed of two phases, is the gradient of
 // no surface. So the truth here is a sheet too thin to matter, with these slopes: rays are met on the outer face and bent there,
@@ -12,9 +12,10 @@
 #include "compositor/pane_scene.h"
 #include "compositor/picture.h"
 #include "image/texture.h"
-#include "night_street/night_street.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/shown.h"
+#include "scene/scenery.h"
+#include "truth/difference.h"
 #include "truth/picture_relief.h"
 #include "truth/tracer_names.h"
 
@@ -22,10 +23,15 @@ namespace rainref::truth {
 
 class RainyGlassView {
  public:
-  /// around: what the passes take; unbarred: the same street without anything before the glass, or nothing where the scene comes in
-  /// pictures, which `show` hands over. Both must outlive the view. thickness [m]. Throws Error(usage) unless the settings are a corrected
-  /// pane before the grabbed scene, and for glass that reaches to the eye.
-  RainyGlassView(const rainy_glass::Settings& settings, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings* unbarred,
+  /// The street, and its picture without anything before the glass.
+  struct Street {
+    std::shared_ptr<const scene::Scenery> scenery;
+    rainy_glass::Surroundings unbarred;
+  };
+  /// around: what the passes take, which must outlive the view; street: nothing where the scene comes in pictures, which `show` hands over.
+  /// thickness [m]. Throws Error(usage) unless the settings are a corrected pane before the grabbed scene, and for glass that reaches to
+  /// the eye.
+  RainyGlassView(const rainy_glass::Settings& settings, const rainy_glass::Surroundings& around, std::optional<Street> street,
                  double thickness, const TracerOptions& tracer);
 
   /// The pictures that `around` has now, with what stands before the glass, where `surface` of the running effect says that it is, away.
@@ -60,16 +66,28 @@ class RainyGlassView {
   /// direction: unit.
   Met met(const Vec& origin, const Vec& direction) const;
 
+  /// What pass rain_on_glass makes of wet glass against what rays make of it; `rendered` has rendered a frame. Compared where the picture
+  /// looks through the glass; a pixel is wet where both the pass and the ray through its centre find water there.
+  ///   pixels       pixels; glass_pixels; wet_pixels, wet_in_pass_only, wet_in_truth_only; mirrored_pixels: wet ones whose ray meets the
+  ///                water's surface beyond the critical angle
+  ///   refraction [deg]        wet, not mirrored: between the place in the street that the pass shows and the one that the refracted
+  ///                           ray meets, as the eye sees them
+  ///   bend [deg]              there: how much further from the view ray the pass's place lies than the ray's
+  ///   colour, colour_dry      linear radiance, the channel that differs most: wet; neither wet
+  ///   display                 on the glass: code values of 255, the channel that differs most
+  /// Refraction by the ray through the pixel's centre, colours by options.samples rays.
+  Comparison compare(const rainy_glass::RainyGlass& rendered, const PictureOptions& options, const parallel::Executor& executor) const;
+
  private:
   rainy_glass::Settings settings_;
-  const rainy_glass::Surroundings *around_, *unbarred_;
+  const rainy_glass::Surroundings* around_;
   TracerOptions tracer_;
   scene::Camera camera_;
   scene::Camera::Basis basis_;
   double half_width_, half_height_;
   Extent extent_;  // of the pane on the glass
   Pane pane_;
-  night_street::Street street_;
+  std::optional<Street> street_;
   TextureData colour_;
   std::optional<PictureRelief> pictures_;
 };

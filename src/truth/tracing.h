@@ -2,16 +2,33 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "compositor/picture.h"
 #include "effect/effect.h"
+#include "scene/config.h"
 #include "truth/difference.h"
-#include "truth/parameters.h"
+#include "truth/tracer_names.h"
 
 namespace rainref::truth {
+
+/// Scene parameters of traced pictures, which the command line adds to those of an effect:
+/// compositor.picture, .samples, .depth and .embree_config, of corrected variants.
+std::vector<scene::Parameter> parameters();
+/// compositor.glass_thickness, of what is seen through a pane.
+scene::Parameter pane_thickness();
+/// Those and the thickness, of corrected panes.
+std::vector<scene::Parameter> pane_parameters();
+
+struct Choice {
+  bool is_traced = false;  ///< the picture is traced, not the passes'
+  PictureOptions picture;
+  TracerOptions tracer;
+};
+/// What a scene chose; where these parameters are not declared, the passes' picture.
+Choice choice_from(const scene::Config& config);
 
 /// The name under which traced pictures are recorded; no pass of an effect, so no pack holds it.
 inline constexpr std::string_view traced_pass = "compositor";
@@ -48,8 +65,10 @@ struct EffectTracing {
   const char* effect;
   /// What its scenes may say of it.
   std::vector<scene::Parameter> (*parameters)();
-  /// Null where this scene has no truth. Throws Error(usage) where it wants a traced picture that cannot be. All arguments must outlive it.
-  std::unique_ptr<Tracing> (*make)(const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor);
+  /// Null where this scene has no truth. Throws Error(usage) where it wants a traced picture that cannot be. Instance and executor must
+  /// outlive it. inputs: those that the instance was opened with.
+  std::unique_ptr<Tracing> (*make)(const scene::Config& config, const effect::Instance& instance, const effect::Inputs& inputs,
+                                   const parallel::Executor& executor);
   /// Adds what traced pictures take, where the scene wants them.
   void (*hold)(effect::RunMemory& memory, const scene::Config& config);
 };

@@ -1,14 +1,100 @@
 #include "truth/windshield_view.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "math/real64.h"
 #include "truth/falling_rain_index.h"
-#include "windshield/glass.h"
-#include "windshield/street.h"
+#include "truth/pane_tracing.h"
+#include "truth/pane_truth.h"
+#include "windshield/instance.h"
+#include "windshield/motion/glass.h"
+#include "windshield/scene/street.h"
+#include "windshield/shown.h"
 
 namespace rainref::truth {
+
+Image WindshieldView::display(const Image& radiance, const parallel::Executor& executor) const {
+  return display_of(settings_.picture.exposure, settings_.surface.rounding, radiance, executor);
+}
+
+Comparison WindshieldView::compare(const windshield::Windshield& rendered, const PictureOptions& options,
+                                   const parallel::Executor& executor) const {
+  const PaneTruth pane(rendered, *this, options, executor);
+  const windshield::ShownScene composite(settings_, rendered);
+  const Vec eye = camera().position;
+  const double way = distance(rendered);
+  Difference refraction = pane.difference("refraction", "deg"), refraction_film = pane.difference("refraction_film", "deg"),
+             colour = pane.difference("colour", ""), colour_film = pane.difference("colour_film", ""),
+             codes = pane.difference("display", "code");
+  std::atomic<std::size_t> glass = 0, drops = 0, mirrored = 0;
+  pane.each_pixel([&](int x, int y) {
+    const windshield::Shown pixel = composite.at(x, y);
+    if (!pixel.is_on_glass) return;
+    const bool is_drop = pixel.visibility >= 0.5;
+    ++glass;
+    drops += is_drop;
+    (is_drop ? colour : colour_film).at(x, y) = pane.colour_at(x, y);
+    codes.at(x, y) = pane.codes_at(x, y);
+    const StraightPath path = pane.path(x, y);
+    const bool is_wet = path.interfaces > 2;
+    if (is_drop && path.end == StraightPath::End::mirrored) ++mirrored;
+    if (path.end != StraightPath::End::out || is_drop != is_wet || (!is_drop && pixel.visibility > 0)) return;
+    const scene::Scenery::Sight seen = look(way, path.origin, path.direction);
+    const bool is_sky = std::isinf(seen.distance);
+    const Vec from_eye = is_sky ? path.direction : path.origin + seen.distance * path.direction - eye;
+    const Vec from_trick = pane.basis.forward + pixel.x * pane.basis.right + pixel.y * pane.basis.up;
+    (is_drop ? refraction : refraction_film).at(x, y) = degrees_between(from_trick, from_eye);
+  });
+  return {{{"glass_pixels", glass}, {"drop_pixels", drops}, {"mirrored_pixels", mirrored}},
+          {refraction, refraction_film, colour, colour_film, codes}};
+}
+
+namespace {
+
+class WindshieldTracing : public PaneTracing<WindshieldView, windshield::Instance> {
+ public:
+  WindshieldTracing(const scene::Config& config, const windshield::Instance& windshield, const effect::Inputs& inputs,
+                    const parallel::Executor& on)
+      : PaneTracing(
+            config, windshield,
+            WindshieldView(windshield.settings(), {config.real("compositor.glass_thickness"), config.real("compositor.glass_radius")},
+                           choice_from(config).tracer,
+                           windshield.has_street() ? windshield::street_of(windshield.settings(), inputs) : nullptr, on),
+            on) {}
+
+ private:
+  void look_outside() override {
+    if (!instance().has_street()) view().show(instance().running().scene_colour(), instance().running().scene_depth());
+  }
+};
+
+}  // namespace
+
+EffectTracing windshield_tracing() {
+  return {"windshield",
+          [] {
+            std::vector<scene::Parameter> all = parameters();
+            all.push_back(pane_thickness());
+            all.push_back(scene::real("compositor.glass_radius", "m", 0, 1e6, 0,
+                                      "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."));
+            return all;
+          },
+          [](const scene::Config& config, const effect::Instance& instance, const effect::Inputs& inputs,
+             const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
+            return std::make_unique<WindshieldTracing>(config, static_cast<const windshield::Instance&>(instance), inputs, executor);
+          },
+          [](effect::RunMemory& m, const scene::Config& config) {
+            // The pictures as rays look them up: floats, and their depths. Their size is not known yet; as the effect does, the street's
+            // counts.
+            const auto [width, height] = config.integer2("scene.size");
+            if (choice_from(config).is_traced && effect::is_named(config, "scene.image"))
+              m.peak.hold(static_cast<std::size_t>(width * height) * (4 + 1) * sizeof(float));
+            hold_traced(m, config);
+          }};
+}
+
 namespace {
 
 Vec vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
@@ -35,7 +121,7 @@ class OutsideCar : public Environment {
         out[i] = cabin;
         continue;
       }
-      const night_street::Street::Sight seen = view_.look(distance_, escaped_ray.origin, escaped_ray.direction);
+      const scene::Scenery::Sight seen = view_.look(distance_, escaped_ray.origin, escaped_ray.direction);
       // The fog of level 0 of the blur pyramid, by the length of the ray; there the sky is as far as can be.
       const double far = std::min(seen.distance, windshield::street_far), clear = exp_real(Real64(-s.blur.fog_density * far)).v;
       out[i] = falling_.through(escaped_ray.origin, escaped_ray.direction, seen.distance, (1 - clear) * fog + clear * seen.radiance);
@@ -64,13 +150,13 @@ class OutsideCar : public Environment {
 }  // namespace
 
 WindshieldView::WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
-                               const parallel::Executor& executor)
+                               std::shared_ptr<const scene::Scenery> street, const parallel::Executor& executor)
     : settings_(settings),
       tracer_(tracer),
       executor_(executor),
       panes_{Pane(shape_of(settings.corners, glass))},
       vehicle_(settings.vehicle),
-      street_({settings.seed, settings.clear_lane}) {
+      street_(std::move(street)) {
   for (const windshield::Corners& corners : settings.panes) panes_.emplace_back(shape_of(corners, {glass.thickness, 0}));
 }
 
@@ -79,13 +165,13 @@ void WindshieldView::show(const Image& colour, const Image& depth) {
   pictures_.emplace(camera(), half_height * settings_.picture.width / settings_.picture.height, half_height, colour, depth);
 }
 
-night_street::Street::Sight WindshieldView::look(double distance, const Vec& origin, const Vec& direction) const {
+scene::Scenery::Sight WindshieldView::look(double distance, const Vec& origin, const Vec& direction) const {
   if (pictures_) {
     const PictureRelief::Sight seen = pictures_->look(origin, direction);
     return {seen.radiance, seen.distance};
   }
   const Vec place = windshield::place_in_street(settings_.street_start, distance);
-  return street_.look(place + windshield::in_street(origin), windshield::in_street(direction));
+  return street_->look(place + windshield::in_street(origin), windshield::in_street(direction));
 }
 
 double WindshieldView::distance(const windshield::Windshield& rendered) const {

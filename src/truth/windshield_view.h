@@ -8,11 +8,12 @@
 
 #include "compositor/pane_scene.h"
 #include "compositor/picture.h"
-#include "night_street/night_street.h"
 #include "rainref/windshield.h"
+#include "scene/scenery.h"
+#include "truth/difference.h"
 #include "truth/picture_relief.h"
-#include "windshield/scene_keys.h"
 #include "truth/tracer_names.h"
+#include "windshield/parameters.h"
 
 namespace rainref::truth {
 
@@ -23,9 +24,9 @@ struct WindshieldGlass {
 
 class WindshieldView {
  public:
-  /// Throws Error(usage) for a pane that cannot be.
+  /// street: null where `show` hands over pictures. Throws Error(usage) for a pane that cannot be.
   WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
-                 const parallel::Executor& executor);
+                 std::shared_ptr<const scene::Scenery> street, const parallel::Executor& executor);
 
   /// Pictures in the street's place from now on, as the windshield has them: scene_colour() and scene_depth().
   void show(const Image& colour, const Image& depth);
@@ -45,9 +46,25 @@ class WindshieldView {
   const std::vector<Pane>& panes() const { return panes_; }
   /// What lies outside in the direction of a ray, without fog: of the pictures, or of the street for a car `distance` metres on.
   /// direction: unit. An infinite distance is the sky's.
-  night_street::Street::Sight look(double distance, const Vec& origin, const Vec& direction) const;
+  scene::Scenery::Sight look(double distance, const Vec& origin, const Vec& direction) const;
   scene::Camera camera() const { return windshield::camera(settings_.picture); }
   const windshield::Settings& settings() const { return settings_; }
+  int width() const { return settings_.picture.width; }
+  int height() const { return settings_.picture.height; }
+  /// The picture that the windshield's display makes of a radiance (rgba16f). rgba8.
+  Image display(const Image& radiance, const parallel::Executor& executor) const;
+
+  /// What composite makes of a wet windshield against what rays make of it, on the glass; `rendered` has rendered a frame, whose pictures
+  /// this view shows where it is not of the street. A pixel is a drop's where composite shows it as one by half or more, else the film's.
+  ///   pixels                   glass_pixels, drop_pixels; mirrored_pixels: drops' whose ray meets the water's surface beyond the critical
+  ///                            angle
+  ///   refraction [deg]         drops: between the place outside that composite shows and the one that the refracted ray meets, as the
+  ///                            eye sees them; not where the ray is mirrored
+  ///   refraction_film [deg]    the same where there is neither drop nor water: what the pane alone does
+  ///   colour, colour_film      linear radiance, the channel that differs most: drops, and the rest
+  ///   display                  everywhere: code values of 255, the channel that differs most
+  /// Refraction by the ray through the pixel's centre, colours by options.samples rays.
+  Comparison compare(const windshield::Windshield& rendered, const PictureOptions& options, const parallel::Executor& executor) const;
 
  private:
   windshield::Settings settings_;
@@ -55,7 +72,7 @@ class WindshieldView {
   const parallel::Executor& executor_;
   std::vector<Pane> panes_;
   windshield::Vehicle vehicle_;
-  night_street::Street street_;
+  std::shared_ptr<const scene::Scenery> street_;
   std::optional<PictureRelief> pictures_;
 };
 

@@ -1,12 +1,10 @@
-#include "windshield/evaluations.h"
+#include "windshield/info.h"
 
 #include "blur_pyramid/blur_pyramid.h"
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "pass/display.h"
 #include "pass/model.h"
 #include "windshield/scalar.h"
-#include "windshield/surface_scalar.h"
-#include "windshield/wipe_from_ends.h"
 
 namespace rainref::windshield {
 
@@ -40,6 +38,69 @@ const std::vector<capture::PassEvaluations>& evaluations() {
       {"interior", pass::bind<InteriorPass, scalar::InteriorPassText>},
       {"display", pass::bind_display}};
   return all;
+}
+
+namespace {
+
+using scalar::PlanePoint;
+
+/// Plane coordinates of a place on the glass, of a texture of so many texels.
+template <class N>
+PlanePoint<N> place_in_plane(const WipeTextureUniforms& u, const float* place, int width, int height) {
+  const N column = N(place[0]) * N(static_cast<float>(width)), row = N(place[1]) * N(static_cast<float>(height));
+  return PlanePoint<N>(N(u.frame[0]) * column + N(u.frame[1]) * row, N(u.frame[2]) * row);
+}
+template <class N>
+N distance_between(const PlanePoint<N>& p, const PlanePoint<N>& a, const PlanePoint<N>& b) {
+  return scalar::segment_distance(p.x, p.y, a.x, a.y, b.x, b.y);
+}
+template <class N>
+N sector_distance_from_ends(const WipeTextureUniforms& u, const Wiper& w, const PlanePoint<N>& p, int width, int height) {
+  const auto place = [&](const float* at) { return place_in_plane<N>(u, at, width, height); };
+  return scalar::sector_distance(w, p.x - N(w.pivot[0]), p.y - N(w.pivot[1]),
+                                 distance_between(p, place(w.previous_inner), place(w.previous_outer)),
+                                 distance_between(p, place(w.inner), place(w.outer)));
+}
+template <class N>
+N distance_from_pivot(const Wiper& w, const PlanePoint<N>& p) {
+  const auto end = [&](float radius) {
+    return PlanePoint<N>(N(w.pivot[0]) + N(radius) * N(w.axis[0]), N(w.pivot[1]) + N(radius) * N(w.axis[1]));
+  };
+  return distance_between(p, end(w.inner_radius), end(w.outer_radius));
+}
+
+struct WipeFromEnds {
+  pass::Bound<WipeTexturePass, scalar::WipeTexturePassText> of;
+  int width = of.width, height = of.height, values = of.values;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    const WipeTextureUniforms& u = of.uniforms;
+    of.with_cursors(x, y, out, [&](const auto& io) {
+      const PlanePoint<N> p = scalar::texel_in_plane<N>(u, x, y);
+      N coverage(0.0f);
+      for (int i = 0; i < u.wiper_count; ++i) {
+        const Wiper& w = io.wipers.data()[i];
+        const N distance = of.corrected ? sector_distance_from_ends(u, w, p, width, height) : distance_from_pivot(w, p);
+        coverage = max(coverage, scalar::coverage_at(distance, N(w.half_width), N(u.edge_width)));
+      }
+      if (of.corrected) {
+        const N since = scalar::time_since_wipe(u, io.wiped(), coverage);
+        io.new_height(scalar::wiped_height_corrected(io.height(), coverage));
+        io.new_mask(scalar::wiped_mask_corrected(u, since));
+        io.new_wiped(since);
+      } else {
+        io.new_height(scalar::wiped_height_as_published(u, io.height(), coverage));
+        io.new_mask(scalar::wiped_mask_as_published(u, io.mask(), coverage));
+      }
+    });
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<capture::PassModel> bind_wipe_from_ends(const capture::PassCase& c) {
+  return capture::model_of(WipeFromEnds{pass::bound<WipeTexturePass, scalar::WipeTexturePassText>(c)});
 }
 
 }  // namespace rainref::windshield

@@ -4,12 +4,12 @@
 #include <numeric>
 #include <set>
 
-#include "drops/evaluations.h"
+#include "drops/info.h"
 #include "math/whole.h"
 #include "pass/record_model.h"
-#include "windshield/motion_scalar.h"
-#include "windshield/evaluations.h"
-#include "windshield/wipe_drops.h"
+#include "windshield/info.h"
+#include "windshield/motion/kernels.h"
+#include "windshield/scalar.h"
 
 namespace rainref::windshield {
 namespace {
@@ -22,7 +22,7 @@ using enclosed::Enclosure;
 using perturbed::Perturbed;
 using Number = scalar::Scalar<float>;
 
-using WipedPass = pass::Bound<WipeDropsPass, motion_scalar::WipeDropsPassText>;
+using WipedPass = pass::Bound<WipeDropsPass, scalar::WipeDropsPassText>;
 
 /// What wipe_drops corrected takes.
 struct Sweep {
@@ -35,12 +35,12 @@ struct Sweep {
   int row(int texel) const { return texel / uniforms.columns; }
   float film(int texel) const { return *pass.captured.film.at(column(texel), row(texel)); }
   template <class N>
-  motion_scalar::WipedDrop<N> wiped(const Drop& drop) const {
+  scalar::WipedDrop<N> wiped(const Drop& drop) const {
     return pass.record<N, true>(drop);
   }
   template <class N>
-  motion_scalar::SweptTexel<N> swept(int texel) const {
-    return motion_scalar::swept_texel<N>(uniforms, wipers.data(), column(texel), row(texel));
+  scalar::SweptTexel<N> swept(int texel) const {
+    return scalar::swept_texel<N>(uniforms, wipers.data(), column(texel), row(texel));
   }
   /// Texels with water that a record may sweep.
   std::vector<int> wet_texels() const {
@@ -55,7 +55,7 @@ struct Sweep {
   }
 };
 
-constexpr std::uint64_t most = static_cast<std::uint64_t>(drops::most_mass);
+constexpr std::uint64_t most_units = static_cast<std::uint64_t>(drops::most_mass);
 /// Whole mass units, as the pass has them.
 std::uint64_t mass_units_of(float x) { return x > 0 ? static_cast<std::uint64_t>(std::min(x, drops::most_mass)) : 0; }
 
@@ -102,11 +102,11 @@ class SweptDrops : public capture::KeyedModel {
     const std::size_t first = out.size();
     for (const std::size_t i : groups_[static_cast<std::size_t>(group)]) {
       const Drop& drop = s_.drops[i];
-      const motion_scalar::WipedDrop<Enclosure> d = s_.wiped<Enclosure>(drop);
+      const scalar::WipedDrop<Enclosure> d = s_.wiped<Enclosure>(drop);
       const Place place = decided_place(s_.uniforms, d);
       // That the others of this place are in the group was settled beforehand.
       if (!std::binary_search(places_[i].begin(), places_[i].end(), place)) enclosed::give_up();
-      out.push_back(pass::keyed_record<motion_scalar::DropState<Enclosure>>(d, d.lives(), drop.id));
+      out.push_back(pass::keyed_record<scalar::DropState<Enclosure>>(d, d.lives(), drop.id));
       if (place == none) continue;
       const auto [taker, is_first] = takers.emplace(place, out.size() - 1);
       if (!is_first && drop.id < out[taker->second].id) taker->second = out.size() - 1;
@@ -116,7 +116,7 @@ class SweptDrops : public capture::KeyedModel {
       Enclosure& mass = out[at].floats[4];
       const std::uint64_t have = mass_units_of(mass.lo);
       const auto [least, greatest] = film_of(place);
-      const auto with = [&](std::uint64_t gained) { return static_cast<float>(std::min(have + gained, most)); };
+      const auto with = [&](std::uint64_t gained) { return static_cast<float>(std::min(have + gained, most_units)); };
       mass = Enclosure(with(least), with(greatest));
     }
   }
@@ -198,22 +198,23 @@ class SweptDrops : public capture::KeyedModel {
   std::vector<std::byte> list() const {
     std::map<Place, std::uint64_t> film;
     for (const int texel : s_.wet_texels()) {
-      const motion_scalar::SweptTexel<N> swept = s_.swept<N>(texel);
+      const scalar::SweptTexel<N> swept = s_.swept<N>(texel);
       const Place place = place_of(s_.uniforms, swept.wiper.v, swept.bin.v);
       if (place != none) film[place] += mass_units_of(s_.film(texel));
     }
     std::vector<Drop> out;
     std::map<Place, std::size_t> takers;
     for (const Drop& drop : s_.drops) {
-      const motion_scalar::WipedDrop<N> d = s_.wiped<N>(drop);
+      const scalar::WipedDrop<N> d = s_.wiped<N>(drop);
       if (!d.lives()) continue;
-      out.push_back(pass::stored<motion_scalar::DropState<N>>(d, drop));
+      out.push_back(pass::stored<scalar::DropState<N>>(d, drop));
       const Place place = place_of(s_.uniforms, d.wiper.v, d.bin.v);
       if (place == none) continue;
       const auto [taker, is_first] = takers.emplace(place, out.size() - 1);
       if (!is_first && drop.id < out[taker->second].id) taker->second = out.size() - 1;
     }
-    for (const auto& [place, at] : takers) out[at].mass = static_cast<float>(std::min(mass_units_of(out[at].mass) + film[place], most));
+    for (const auto& [place, at] : takers)
+      out[at].mass = static_cast<float>(std::min(mass_units_of(out[at].mass) + film[place], most_units));
     return pass::bytes_of(out);
   }
 
@@ -235,12 +236,12 @@ class WipeCorrected : public capture::ModelOf<WipedPass> {
 }  // namespace
 
 std::unique_ptr<PassModel> bind_windshield_frame(const PassCase& c) {
-  return pass::bind_records<WindshieldFramePass, motion_scalar::WindshieldFramePassText>(c);
+  return pass::bind_records<WindshieldFramePass, scalar::WindshieldFramePassText>(c);
 }
 
 std::unique_ptr<PassModel> bind_wipe_drops(const PassCase& c) {
-  if (!c.corrected()) return pass::bind_records<WipeDropsPass, motion_scalar::WipeDropsPassText>(c);
-  return std::make_unique<WipeCorrected>(pass::bound<WipeDropsPass, motion_scalar::WipeDropsPassText>(c));
+  if (!c.corrected()) return pass::bind_records<WipeDropsPass, scalar::WipeDropsPassText>(c);
+  return std::make_unique<WipeCorrected>(pass::bound<WipeDropsPass, scalar::WipeDropsPassText>(c));
 }
 
 }  // namespace rainref::windshield

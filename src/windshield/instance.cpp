@@ -8,11 +8,9 @@
 
 #include "effect/scene_pictures.h"
 #include "math/half.h"
-#include "windshield/evaluations.h"
 #include "windshield/info.h"
-#include "windshield/memory.h"
+#include "windshield/scene/street.h"
 #include "windshield/shown.h"
-#include "windshield/street.h"
 
 namespace rainref::windshield {
 namespace {
@@ -33,7 +31,23 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
+  ScenePictures named(config, inputs);
+  Surroundings first = named.read(0, inputs);
+  if (!named.are_named()) first.street = street_of(settings_from(config), inputs);
+  auto instance = std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
+  const double fog = instance->settings().blur.fog_density;
+  if (effect::is_named(config, "scene.image") && !effect::is_named(config, "scene.depth_image") && fog * street_far > 1)
+    inputs.warnings.push_back(fmt::format(
+        "scene.image: without scene.depth_image it lies {:g} m away, behind the fog of blur.fog_density {:g} (0: none)", street_far, fog));
+  return instance;
+}
+
 }  // namespace
+
+std::shared_ptr<const scene::Scenery> street_of(const Settings& settings, const effect::Inputs& inputs) {
+  return effect::street_of(inputs, {settings.seed, settings.clear_lane});
+}
 
 Instance::Instance(const scene::Config& config, Surroundings surroundings, ScenePictures named, const parallel::Executor& executor)
     : InstanceOf(config, std::move(surroundings), executor),
@@ -83,23 +97,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"windshield",
-          {"as-published", "corrected"},
-          parameters(),
-          &effect_info(),
-          &evaluations(),
-          memory_of,
-          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            ScenePictures named(config, inputs);
-            Surroundings first = named.read(0, inputs);
-            auto instance = std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
-            const double fog = instance->settings().blur.fog_density;
-            if (effect::is_named(config, "scene.image") && !effect::is_named(config, "scene.depth_image") && fog * street_far > 1)
-              inputs.warnings.push_back(fmt::format(
-                  "scene.image: without scene.depth_image it lies {:g} m away, behind the fog of blur.fog_density {:g} (0: none)",
-                  street_far, fog));
-            return instance;
-          }};
+  return {"windshield", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
 }
 
 }  // namespace rainref::windshield

@@ -4,17 +4,19 @@
 #include "drops/records.h"
 #include "effect/effect.h"
 #include "rainref/windshield.h"
-#include "windshield/scene_keys.h"
-#include "windshield/scene_pictures.h"
+#include "windshield/parameters.h"
+#include "windshield/scene/pictures.h"
 
 namespace rainref::windshield {
 
 /// What the registry holds.
 effect::Effect entry();
+/// The street that such a scene drives along where it names no pictures.
+std::shared_ptr<const scene::Scenery> street_of(const Settings& settings, const effect::Inputs& inputs);
 
 class Instance final : public effect::InstanceOf<Windshield> {
  public:
-  /// `surroundings`: the pictures of frame 0, or none: the street made here.
+  /// `surroundings`: the pictures of frame 0, or a street.
   Instance(const scene::Config& config, Surroundings surroundings, ScenePictures named, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
   bool has_street() const { return !named_.are_named(); }

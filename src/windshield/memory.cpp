@@ -1,16 +1,14 @@
-#include "windshield/memory.h"
+#include "windshield/parameters.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/floating_point.h"
 #include "drops/host.h"
-#include "drops/memory.h"
-#include "night_street/memory.h"
 #include "rain/rain.h"
 #include "rainref/windshield.h"
-#include "windshield/panes.h"
-#include "windshield/street.h"
+#include "scene/scenery_memory.h"
+#include "windshield/scene/street.h"
 #include "windshield/wet_pane.h"
 
 namespace rainref::windshield {
@@ -79,7 +77,7 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const bool own = scene[0] == 0;
   const auto [width, height] = own ? s.scene_size : scene;
   const std::uint64_t half = image(Format::rgba16f, width, height), view = half + image(Format::r32f, width, height);
-  MemoryPeak rendered = night_street::view_memory(width, height);
+  MemoryPeak rendered = scene::view_memory(width, height);
   rendered.pass(half);
   const bool moves = own && s.scene_moves;
   if (own && !moves) m.pass(rendered.peak());

@@ -1,7 +1,7 @@
 // What is seen through the panes and before them, with the windshield's drops or without.
 #include "base/floating_point.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/join_panes.pass.h"
 #include "windshield/windshield_state.h"
 
 namespace rainref::windshield {

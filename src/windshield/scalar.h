@@ -1,37 +1,46 @@
-// The scalar evaluations of the picture and of smear: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of
+// The scalar evaluations of every pass: Scalar, Enclosure, Rearranged and Perturbed. A namespace of their own, so that argument types of
 // this room do not pull them into the lanes.
 #pragma once
 
 #include "image/footprint.h"
 #include "image/texture.h"
-#include "math/perturbed.h"
-#include "math/enclosure.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
-#include "windshield/composite.pass.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
-#include "windshield/mist.pass.h"
-#include "windshield/smear.pass.h"
-#include "windshield/soften.pass.h"
-#include "windshield/surface_scalar.h"
+#include "math/numbers.h"
+#include "windshield/motion/windshield_frame.pass.h"
+#include "windshield/motion/wipe_drops.pass.h"
+#include "windshield/picture/composite.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/join_panes.pass.h"
+#include "windshield/picture/mist.pass.h"
+#include "windshield/picture/soften.pass.h"
+#include "windshield/surface/condense.pass.h"
+#include "windshield/surface/normals.pass.h"
+#include "windshield/surface/persist.pass.h"
+#include "windshield/surface/segment_distance_enclosed.h"
+#include "windshield/surface/smear.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
 
 namespace rainref::windshield::scalar {
 using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
+#include "drops/drop-inl.h"
+#include "windshield/motion/windshield_frame.pass.h"
+#include "windshield/motion/wipe_drops.pass.h"
+#include "windshield/surface/normals.pass.h"
+#include "windshield/surface/persist.pass.h"
+#include "windshield/surface/condense.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
 #include "math/optics-inl.h"
-#include "image/sampling_perturbed-inl.h"
-#include "image/sampling-inl.h"
-#include "image/sampling_enclosed-inl.h"
-#include "image/sampling_rearranged-inl.h"
-#include "windshield/composite.pass.h"
-#include "windshield/interior.pass.h"
-#include "windshield/join_panes.pass.h"
-#include "windshield/mist.pass.h"
-#include "windshield/smear.pass.h"
-#include "windshield/soften.pass.h"
+#include "image/sampling_numbers-inl.h"
+#include "windshield/picture/composite.pass.h"
+#include "windshield/picture/interior.pass.h"
+#include "windshield/picture/join_panes.pass.h"
+#include "windshield/picture/mist.pass.h"
+#include "windshield/surface/smear.pass.h"
+#include "windshield/picture/soften.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

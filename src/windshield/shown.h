@@ -3,7 +3,7 @@
 
 #include "image/texture.h"
 #include "rainref/windshield.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 
 namespace rainref::windshield {
 

@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "pass/run.h"
-#include "windshield/mist.pass.h"
-#include "windshield/motion_host.h"
-#include "windshield/panes.h"
-#include "windshield/soften.pass.h"
-#include "windshield/wipe_drops.h"
+#include "windshield/motion/host.h"
+#include "windshield/motion/glass.h"
+#include "windshield/motion/kernels.h"
+#include "windshield/picture/mist.pass.h"
+#include "windshield/picture/soften.pass.h"
 
 namespace rainref::windshield {
 namespace {

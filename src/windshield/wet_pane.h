@@ -6,9 +6,9 @@
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/wet_glass.h"
 #include "rainref/windshield.h"
-#include "windshield/scene_keys.h"
-#include "windshield/shelter.h"
-#include "windshield/weather.h"
+#include "windshield/motion/shelter.h"
+#include "windshield/motion/weather.h"
+#include "windshield/parameters.h"
 
 namespace rainref::windshield {
 

@@ -13,7 +13,7 @@
 #include "parallel/rows.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
-#include "windshield/falling_rain.pass.h"
+#include "windshield/picture/falling_rain.pass.h"
 #include "windshield/windshield_state.h"
 
 namespace rainref::windshield {
@@ -163,7 +163,7 @@ Windshield::Windshield(Windshield&&) noexcept = default;
 void Windshield::show(Surroundings scene) {
   const FloatingPointGuard guard;
   State& s = *state_;
-  if (s.own_scene) throw Error(ExitCode::usage, "scene.image: expected pictures from the start, found the street made here");
+  if (s.own_scene) throw Error(ExitCode::usage, "scene.image: expected pictures from the start, found a street");
   if (scene.colour.width() != s.looked_at().colour.width() || scene.colour.height() != s.looked_at().colour.height())
     throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} texels as before, found {}x{}", s.looked_at().colour.width(),
                                              s.looked_at().colour.height(), scene.colour.width(), scene.colour.height()));
@@ -228,30 +228,12 @@ MassBalance Windshield::mass_balance(int pane) const {
   const FloatingPointGuard guard;
   return state_->pane(pane).mass_balance();
 }
-const Image& Windshield::height(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).height();
-}
-const Image& Windshield::mask(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).mask();
-}
-const Image& Windshield::film(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).film();
-}
-const Image& Windshield::normal(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).normal();
-}
-const Image& Windshield::smear(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).smear();
-}
-const Image& Windshield::condensation(int pane) const {
-  const FloatingPointGuard guard;
-  return state_->pane(pane).condensation();
-}
+const Image& Windshield::height(int pane) const { return state_->pane(pane).height(); }
+const Image& Windshield::mask(int pane) const { return state_->pane(pane).mask(); }
+const Image& Windshield::film(int pane) const { return state_->pane(pane).film(); }
+const Image& Windshield::normal(int pane) const { return state_->pane(pane).normal(); }
+const Image& Windshield::smear(int pane) const { return state_->pane(pane).smear(); }
+const Image& Windshield::condensation(int pane) const { return state_->pane(pane).condensation(); }
 const Image& Windshield::scene_colour() const { return state_->scene.colour; }
 const Image& Windshield::scene_depth() const { return state_->scene.depth; }
 std::vector<FallingDropView> Windshield::falling() const {

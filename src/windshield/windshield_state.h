@@ -1,7 +1,6 @@
 // What a running windshield holds.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -12,12 +11,10 @@
 #include "rainref/error.h"
 #include "rainref/windshield.h"
 #include "state/items.h"
-#include "windshield/blades_seen.h"
-#include "windshield/falling_rain.h"
-#include "windshield/memory.h"
-#include "windshield/panes.h"
-#include "windshield/scene_keys.h"
-#include "windshield/street.h"
+#include "windshield/parameters.h"
+#include "windshield/picture/falling_rain.h"
+#include "windshield/scene/blades_seen.h"
+#include "windshield/scene/street.h"
 #include "windshield/wet_pane.h"
 
 namespace rainref::windshield {
@@ -36,7 +33,6 @@ struct Windshield::State {
       throw Error(ExitCode::usage, fmt::format("{}: expected {} of {}x{}, found {} of {}x{}", key, info(format).name, s.colour.width(),
                                                s.colour.height(), info(image.format()).name, image.width(), image.height()));
     };
-    if (s.colour.empty()) return;
     expect(s.colour, Format::rgba16f, "scene.image");
     expect(s.depth, Format::r32f, "scene.depth_image");
   }
@@ -80,15 +76,16 @@ struct Windshield::State {
     if (settings.interior.on) interior = draw_interior(settings.interior, settings.picture, settings.corners, executor);
     display = pass::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
     lights = glints(settings.picture);
-    own_scene = surroundings.colour.empty();
-    check_pictures(surroundings);
+    own_scene = surroundings.colour.empty() && surroundings.street;
     if (own_scene) {
       scene::Camera wide = camera(settings.picture);
       wide.vertical_fov_deg = widened_fov(settings.picture);
-      street.emplace(wide, settings.scene_size[0], settings.scene_size[1],
-                     StreetOptions{settings.street_start, settings.seed, settings.clear_lane, settings.keyframes, vehicle.at(0).speed == 0},
-                     executor);
+      street.emplace(std::move(surroundings.street), wide, settings.scene_size[0], settings.scene_size[1],
+                     StreetOptions{settings.street_start, settings.keyframes, vehicle.at(0).speed == 0}, executor);
     } else {
+      if (surroundings.colour.empty())
+        throw Error(ExitCode::usage, "scene.image: expected pictures of what lies before the car or a street, found neither");
+      check_pictures(surroundings);
       looked_at().colour = std::move(surroundings.colour);
       looked_at().depth = std::move(surroundings.depth);
     }

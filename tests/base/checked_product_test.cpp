@@ -1,3 +1,4 @@
+// A product of sizes is exact, or nothing where the type cannot hold it.
 #include "base/checked_product.h"
 
 #include <gtest/gtest.h>

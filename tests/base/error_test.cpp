@@ -1,6 +1,6 @@
+// Errors say their place first, keep their exit codes, and suggest the nearest name.
 #include "rainref/error.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace rainref {

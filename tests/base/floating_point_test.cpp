@@ -1,3 +1,4 @@
+// The floating-point state is pinned where we compute and given back, whatever state a caller has.
 #include "base/floating_point.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Links are followed to what they name, and folders that were made on the way go again unless they are used.
 #include "base/folders.h"
 
 #include <system_error>

@@ -1,3 +1,4 @@
+// The hash gives known answers, does not depend on how a stream is cut, and tells single bits apart.
 #include "base/hash.h"
 
 #include <gtest/gtest.h>

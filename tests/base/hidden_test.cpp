@@ -1,6 +1,5 @@
+// What is written under a hidden name goes with its object or gets its name; what a killed process left is removed.
 #include "base/hidden.h"
-
-#include <memory>
 
 #include <gmock/gmock.h>
 

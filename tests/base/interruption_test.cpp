@@ -1,3 +1,4 @@
+// A signal undoes what was begun, newest first, and the process dies of that signal.
 #include "base/interruption.h"
 
 #include <memory>

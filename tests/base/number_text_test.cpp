@@ -1,9 +1,9 @@
+// Text becomes the nearest number, or nothing, whatever the locale and the caller's rounding.
 #include "base/number_text.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cfenv>
 #include <charconv>
 #include <clocale>
 #include <limits>

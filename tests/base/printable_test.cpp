@@ -1,3 +1,4 @@
+// Text for a terminal has no control characters and no broken UTF-8.
 #include "base/printable.h"
 
 #include <gtest/gtest.h>

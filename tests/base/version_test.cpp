@@ -1,3 +1,4 @@
+// The version is made of its three numbers, and the golden generation counts from one.
 #include "rainref/version.h"
 
 #include <fmt/format.h>

@@ -8,6 +8,7 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "blur_pyramid/scalar.h"
+#include "image/images.h"
 #include "image/texture.h"
 #include "math/half.h"
 #include "math/half_array.h"
@@ -36,13 +37,8 @@ const parallel::Executor& two_threads() {
 double at(const Image& image, int x, int y, int c = 0) { return to_float(image.row<Half>(y)[4 * x + c]); }
 
 Image image_of(int width, int height, const std::function<double(int x, int y)>& value) {
-  Image image(Format::rgba16f, width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < 4; ++c) image.row<Half>(y)[4 * x + c] = to_half(static_cast<float>((c + 1) * value(x, y)));
-    }
-  }
-  return image;
+  return make_image(Format::rgba16f, width, height,
+                    [&](int x, int y, int c) { return to_half(static_cast<float>((c + 1) * value(x, y))); });
 }
 double mean(const Image& image, int channel = 0) {
   double sum = 0;
@@ -391,10 +387,7 @@ TEST(BlurPyramidDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBit
     const int height = 1 + width * 7 % 29;
     for (const bool corrected : {false, true}) {
       const BlurSettings s = settings(corrected, width % 2 ? Rounding::rne : Rounding::rtz);
-      Image depth(Format::r32f, width, height);
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) depth.row<float>(y)[x] = static_cast<float>(3 * x + 5 * y);
-      }
+      const Image depth = make_image(Format::r32f, width, height, [](int x, int y, int) { return static_cast<float>(3 * x + 5 * y); });
       const Image colour = noise(width, height);
       for (const std::string& target : simd_targets()) {
         select_simd_target(target);

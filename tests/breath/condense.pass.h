@@ -12,17 +12,13 @@ struct CondenseUniforms {
   float drying;
   std::int32_t padding0, padding1, padding2;
 };
-struct CondensePass {
+struct CondensePass : pass::Takes<CondenseUniforms> {
   static constexpr pass::About about{"condense", "Breath that settles on the pane and dries.", {1}, {2}};
-  using Uniforms = CondenseUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>(
-        "CondenseUniforms", {member<&U::centre>("centre", "texel", {-1e5, 1e5}, "Where the mouth is."),
-                             member<&U::reach>("reach", "texel", {1, 1e5}, "How far the breath goes."),
-                             member<&U::rate>("rate", "um", {0, 100}, "Water that settles at the centre in a frame."),
-                             member<&U::drying>("drying", "1", scene::share, "corrected: share of the water that dries in a frame.")});
+    return block({member<&U::centre>("texel", {-1e5, 1e5}, "Where the mouth is."),
+                  member<&U::reach>("texel", {1, 1e5}, "How far the breath goes."),
+                  member<&U::rate>("um", {0, 100}, "Water that settles at the centre in a frame."),
+                  member<&U::drying>("1", scene::share, "corrected: share of the water that dries in a frame.")});
   }
   template <class B>
   struct Io {

@@ -10,14 +10,11 @@ namespace rainref::breath {
 struct VeilUniforms {
   float veil[3], opacity;
 };
-struct VeilPass {
+struct VeilPass : pass::Takes<VeilUniforms> {
   static constexpr pass::About about{"veil", "The scene through the breath.", {1}, {1}};
-  using Uniforms = VeilUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("VeilUniforms", {member<&U::veil>("veil", "1", scene::share, "Colour of the veil."),
-                                                    member<&U::opacity>("opacity", "1/um", {0, 10}, "Of a micrometre of water.")});
+    return block(
+        {member<&U::veil>("1", scene::share, "Colour of the veil."), member<&U::opacity>("1/um", {0, 10}, "Of a micrometre of water.")});
   }
   template <class B>
   struct Io {

@@ -49,7 +49,8 @@ void folder_judged(const char* pack, const char* port, const char* out) {
 
   // One pass alone, under another profile.
   const char* passes[] = {"display"};
-  const rr_folder_options one = {.struct_bytes = sizeof one, .profile = "webgpu", .passes = passes, .pass_count = 1, .threads = 1};
+  const rr_folder_options one = {
+      .struct_bytes = sizeof one, .profile = "webgpu", .passes = passes, .pass_count = 1, .threads = 1, .exhaustive = 1};
   CHECK(rr.rr_judge_folder(pack, port, &one, &j) == RR_OK && rr.rr_get_verdict(j, &verdict) == RR_OK);
   CHECK(verdict.passes == 1 && strcmp(verdict.profile, "webgpu") == 0);
   rr.rr_free_judgement(j);

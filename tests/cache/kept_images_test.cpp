@@ -14,6 +14,7 @@
 #include "base/temporary_folder.h"
 #include "cache/program.h"
 #include "image/flipped.h"
+#include "image/images.h"
 
 namespace rainref::cache {
 namespace {
@@ -31,14 +32,7 @@ std::vector<Image> pattern(int shift) {
   return all;
 }
 bool same(const std::vector<Image>& a, const std::vector<Image>& b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    if (a[k].format() != b[k].format() || a[k].width() != b[k].width() || a[k].height() != b[k].height()) return false;
-    const auto bytes = static_cast<std::size_t>(a[k].width()) * info(a[k].format()).texel_bytes();
-    for (int y = 0; y < a[k].height(); ++y)
-      if (std::memcmp(a[k].row_bytes(y), b[k].row_bytes(y), bytes) != 0) return false;
-  }
-  return true;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Image& x, const Image& y) { return rainref::same(x, y); });
 }
 
 class KeptImages : public testing::Test {

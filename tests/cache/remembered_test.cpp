@@ -1,3 +1,4 @@
+// What was made is given again, and the memory keeps what was used last.
 #include "cache/remembered.h"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "edge_splash/parameters.h"
+#include "image/images.h"
 #include "puddle/parameters.h"
 #include "rainref/edge_splash.h"
 #include "rainref/error.h"
@@ -12,6 +13,7 @@
 #include "rainref/screen_drops.h"
 #include "rainref/windshield.h"
 #include "rainy_glass/parameters.h"
+#include "scene/test_card.h"
 #include "scene/toml.h"
 #include "screen_drops/parameters.h"
 
@@ -20,9 +22,7 @@ namespace {
 
 /// An image of one value.
 Image filled(Format format, int width, int height, float value) {
-  Image image(format, width, height);
-  for (int y = 0; y < height; ++y) std::fill_n(image.row<float>(y), width * image.channels(), value);
-  return image;
+  return make_image(format, width, height, [=](int, int, int) { return value; });
 }
 /// Somewhere in the picture something is lit: code 0 all over would be a camera that sees nothing.
 void expect_lit(const Image& picture) {
@@ -82,7 +82,8 @@ TEST_F(Defaults, ScreenDrops) {
   EXPECT_GT(flowing.height().width(), 1);
 }
 TEST_F(Defaults, Windshield) {
-  windshield::Windshield windshield(SceneText{"", {"run.size=[160, 90]", "scene.size=[160, 90]"}}, {}, executor);
+  windshield::Windshield windshield(SceneText{"", {"run.size=[160, 90]", "scene.size=[160, 90]"}}, {{}, {}, scene::TestCard::make()},
+                                    executor);
   windshield.next_frame();
   expect_lit(windshield.picture());
   EXPECT_EQ(windshield.mass_balance().residual(), 0);

@@ -3,12 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "callers/states.h"
-#include "edge_splash/golden_scenes.h"
-#include "golden/golden_check.h"
-#include "puddle/golden_scenes.h"
-#include "rainy_glass/golden_scenes.h"
-#include "screen_drops/golden_scenes.h"
-#include "windshield/golden_scenes.h"
+#include "golden/recorded.h"
+#include "golden/scenes.h"
 
 namespace rainref {
 namespace {
@@ -18,24 +14,13 @@ using test::CallerState;
 
 constexpr int frames = 2;
 
-/// The recorded lines of frames 0 and 1.
-std::vector<std::string> expected_lines(const std::string& scene) {
-  std::vector<std::string> lines;
-  for (std::string& line : golden::recorded(scene + " ")) {
-    const int frame = std::stoi(line.substr(scene.size() + 1));
-    if (frame < frames) lines.push_back(std::move(line));
-  }
-  return lines;
-}
-
-template <class Scene>
-void expect_the_same_bits(const Scene& scene, const CallerState& state, bool from_the_start) {
+void expect_the_same_bits(const golden::Scene& scene, const CallerState& state, bool from_the_start) {
   SCOPED_TRACE(scene.name + ", " + state.name + (from_the_start ? ", before opening" : ", after opening"));
-  const std::vector<std::string> expected = expected_lines(scene.name);
+  const std::vector<std::string> expected = golden::recorded(scene.name + " ", frames);
   ASSERT_FALSE(expected.empty());
   CalledIn called(state);
   int calls = 0;
-  const std::vector<std::string> found = golden_lines(scene, parallel::Executor(2), frames, [&](const std::function<void()>& call) {
+  const std::vector<std::string> found = scene.lines(parallel::Executor(2), frames, [&](const std::function<void()>& call) {
     if (calls++ == 0 && !from_the_start) return call();
     called(call);
   });
@@ -45,10 +30,9 @@ void expect_the_same_bits(const Scene& scene, const CallerState& state, bool fro
 }
 
 /// Of each variant a scene: every state with the corrected one, what moves the most bits and what ends a process with the published one.
-template <class Scene>
-void expect_the_same_bits(const std::vector<Scene>& scenes) {
-  const auto is_corrected = [](const Scene& s) { return s.name.find("/corrected") != std::string::npos; };
-  const auto is_published = [](const Scene& s) { return s.name.find("/as-published") != std::string::npos; };
+void expect_the_same_bits(const std::vector<golden::Scene>& scenes) {
+  const auto is_corrected = [](const golden::Scene& s) { return s.name.find("/corrected") != std::string::npos; };
+  const auto is_published = [](const golden::Scene& s) { return s.name.find("/as-published") != std::string::npos; };
   const auto corrected = std::find_if(scenes.rbegin(), scenes.rend(), is_corrected);  // the last has most: flow, substeps, a probe
   const auto published = std::find_if(scenes.begin(), scenes.end(), is_published);
   ASSERT_TRUE(corrected != scenes.rend() && published != scenes.end()) << "no golden scene of a variant";
@@ -59,11 +43,11 @@ void expect_the_same_bits(const std::vector<Scene>& scenes) {
   expect_the_same_bits(*published, test::decisive_states().back(), true);
 }
 
-TEST(AnyCaller, Puddle) { expect_the_same_bits(puddle::golden_scenes()); }
-TEST(AnyCaller, Windshield) { expect_the_same_bits(windshield::golden_scenes()); }
-TEST(AnyCaller, EdgeSplash) { expect_the_same_bits(edge_splash::golden_scenes()); }
-TEST(AnyCaller, ScreenDrops) { expect_the_same_bits(screen_drops::golden_scenes()); }
-TEST(AnyCaller, RainyGlass) { expect_the_same_bits(rainy_glass::golden_scenes()); }
+TEST(AnyCaller, EveryEffect) {
+  for (const auto& [name, scenes] : golden::scenes()) {
+    if (name != "compositor" && name != "night_street") expect_the_same_bits(scenes);
+  }
+}
 
 }  // namespace
 }  // namespace rainref

@@ -5,6 +5,7 @@
 
 #include "callers/states.h"
 #include "edge_splash/host.h"
+#include "image/images.h"
 #include "puddle/parameters.h"
 #include "rainref/error.h"
 #include "rainref/puddle.h"
@@ -42,10 +43,8 @@ TEST(AnyCaller, DepthsAndSeams) {
     const double metres = x * 10;  // here, in the test's own state
     expect_the_same([&] { return std::bit_cast<std::uint64_t>(edge_splash::depth_of(range, metres)); });
   }
-  Image map(Format::rgba32f, 7, 5);
-  for (int y = 0; y < 5; ++y) {
-    for (int i = 0; i < 28; ++i) map.row<float>(y)[i] = static_cast<float>((13 * i + 7 * y) % 11) / 11;
-  }
+  const Image map =
+      make_image(Format::rgba32f, 7, 5, [](int x, int y, int c) { return static_cast<float>((13 * (4 * x + c) + 7 * y) % 11) / 11; });
   expect_the_same([&] { return std::bit_cast<std::uint64_t>(rainy_glass::seam(map)); });
 }
 
@@ -66,11 +65,7 @@ TEST(AnyCaller, PuddlesOfOnesOwnWater) {
   expect_the_same([&] {
     puddle::Puddle puddle(settings, around, executor);
     puddle.set_water(heights, heights);
-    std::vector<std::uint64_t> seen{std::bit_cast<std::uint64_t>(puddle.courant())};
-    for (int y = 0; y < 10; ++y) {
-      for (int x = 0; x < 12; ++x) seen.push_back(puddle.newest().row<Unorm8>(y)[x].code);
-    }
-    return seen;
+    return std::pair(puddle.courant(), bytes_of(puddle.newest()));
   });
 }
 
@@ -80,22 +75,16 @@ void expect_the_same_picture(T& effect, const Show& show) {
   expect_the_same([&] {
     show(effect);
     effect.next_frame();
-    std::vector<int> codes;
-    for (int y = 0; y < effect.picture().height(); ++y) {
-      for (int i = 0; i < 4 * effect.picture().width(); ++i) codes.push_back(effect.picture().template row<Unorm8>(y)[i].code);
-    }
-    return codes;
+    return bytes_of(effect.picture());
   });
 }
 TEST(AnyCaller, OtherPictures) {
   constexpr int width = 12, height = 9;
   const parallel::Executor executor(1);
   const auto image = [&](Format format, float factor) {
-    Image made(format, width, height);
-    for (int y = 0; y < height; ++y) {
-      for (int i = 0; i < made.channels() * width; ++i) made.row<float>(y)[i] = 1 + factor * static_cast<float>((7 * i + 13 * y) % 23) / 23;
-    }
-    return made;
+    const int channels = info(format).channels;
+    return make_image(format, width, height,
+                      [=](int x, int y, int c) { return 1 + factor * static_cast<float>((7 * (channels * x + c) + 13 * y) % 23) / 23; });
   };
   const auto first = [&] { return image(Format::rgba32f, 0); };
   const auto metres = [&] { return image(Format::r32f, 5); };

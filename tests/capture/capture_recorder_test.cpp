@@ -1,3 +1,4 @@
+// A capture holds each run of a pass in order, with its inputs as they were before the pass.
 #include "capture/capture_recorder.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// The first difference of two arrays is named with its place and both values; equal bits have none.
 #include "capture/difference.h"
 
 #include <gtest/gtest.h>

@@ -33,10 +33,9 @@ inline const EffectInfo& example_info() {
   static const EffectInfo info = [] {
     EffectInfo i;
     i.name = "puddle";  // a name that scenes may have
-    const UniformBlock block =
-        uniform_block<BlurUniforms>("BlurUniforms", {member<&BlurUniforms::weight>("weight", "1", {-1e6, 1e6}, "A weight."),
-                                                     member<&BlurUniforms::reach>("reach", "texel", {-1e6, 1e6}, "A reach."),
-                                                     member<&BlurUniforms::mask>("mask", "1", {-1e6, 1e6}, "A mask.")});
+    const UniformBlock block = uniform_block<BlurUniforms>({member<&BlurUniforms::weight>("1", {-1e6, 1e6}, "A weight."),
+                                                            member<&BlurUniforms::reach>("texel", {-1e6, 1e6}, "A reach."),
+                                                            member<&BlurUniforms::mask>("1", {-1e6, 1e6}, "A mask.")});
     i.passes = {{"drip", "Drops fall.", {{"corrected", 3, Judge::bits, "BlurUniforms"}}, {}, {"drips"}, {block}},
                 {"blur",
                  "The picture spreads.",
@@ -49,8 +48,7 @@ inline const EffectInfo& example_info() {
     i.buffers = {{"drips", "records", "Drops.", "1", {0, 1}, "none", "none", "none", "", "DripRecord"},
                  {"picture", "rg16f", "Two channels.", "m", {-2, 2}},
                  {"sky", "rgba32f", "Radiance.", "1", {0, 1}, "none", "linear Rec. 709", "unused", "row 0 looks down"}};
-    i.records = {
-        record<DripRecord>("DripRecord", {member<&DripRecord::x>("x", "texel", "Place."), member<&DripRecord::id>("id", "1", "Number.")})};
+    i.records = {record<DripRecord>({member<&DripRecord::x>("texel", "Place."), member<&DripRecord::id>("1", "Number.")})};
     return i;
   }();
   return info;
@@ -126,7 +124,5 @@ inline PackWriter::Total write_example(const std::filesystem::path& folder, bool
   for (const PassCase& c : example_cases(with_inputs)) writer.add(c);
   return writer.finish();
 }
-
-using scene::error_of;
 
 }  // namespace rainref::capture

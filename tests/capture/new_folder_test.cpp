@@ -1,15 +1,15 @@
+// A folder appears with its name when it is complete, and replaces only what it may.
 #include "capture/new_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
-#include "scene/example_effect.h"
 
 namespace rainref::capture {
 namespace {
 
-using scene::error_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
 

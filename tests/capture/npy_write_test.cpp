@@ -1,3 +1,4 @@
+// What is written is NumPy's own format, and reads back in every storage format.
 #include "capture/npy_write.h"
 
 #include <gmock/gmock.h>

@@ -11,24 +11,19 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::StartsWith;
 
+const std::vector<std::string> basin{"--set", "puddle.shape=basin"};
+
 class DiffVerb : public CommandLine {
  protected:
-  void pack(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "pack");
+  void pack(const std::vector<std::string>& arguments) const {
     // The bed of a natural puddle costs most of a second.
-    if (arguments[1] == "corrected.toml") arguments.insert(arguments.end(), {"--set", "puddle.shape=basin"});
-    Circumstances c;
-    c.is_copy = true;
-    const Outcome o = rainref(arguments, c);
-    ASSERT_EQ(o.code, 0) << o.err;
+    const bool is_natural = arguments[0] == "corrected.toml";
+    expect(copied(joined(joined({"pack"}, arguments), is_natural ? basin : std::vector<std::string>{})), 0);
   }
   /// The standard output of a comparison that must end with this code.
   std::string diff(const std::string& a, const std::string& b, int code) const {
-    Circumstances c;
-    c.is_copy = true;
-    const Outcome o = rainref({"diff", a, b}, c);
-    EXPECT_EQ(o.code, code) << o.err;
-    EXPECT_EQ(o.err, "");
+    const Outcome o = copied({"diff", a, b});
+    expect(o, code, testing::_, "");
     return o.out;
   }
   /// Changes one byte of a file's end, and its hash in the manifest.
@@ -92,10 +87,7 @@ TEST_F(DiffVerb, RunsThatOneSideLacks) {
 }
 
 TEST_F(DiffVerb, ACaptureOfOutputsComparesWithAPack) {
-  Circumstances c;
-  c.is_copy = true;
-  ASSERT_EQ(rainref({"run", "corrected.toml", "-o", "r", "--capture", "passes", "--image", "none", "--set", "puddle.shape=basin"}, c).code,
-            0);
+  expect(copied(joined({"run", "corrected.toml", "-o", "r", "--capture", "passes", "--image", "none"}, basin)), 0);
   pack({"corrected.toml", "-o", "p", "--at", "1"});
   EXPECT_THAT(diff("r/capture", "p", 0), StartsWith("equal: 11 runs of passes, 12 buffers\n"));
 }

@@ -139,10 +139,8 @@ TEST_F(Films, WithoutFfmpegNothingIsSimulated) {
 
 TEST_F(Films, WhatCannotBeAFilmIsRefusedFirst) {
   use_ffmpeg(keeping);
-  const auto refused = [&](std::vector<std::string> more, int code, const std::string& message) {
-    std::vector<std::string> all{"run", "corrected.toml", "--set", "run.frames=1000000", "-o", "new/o"};
-    all.insert(all.end(), more.begin(), more.end());
-    expect_refusal(all, code, HasSubstr(message));
+  const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& message) {
+    expect_refusal(joined({"run", "corrected.toml", "--set", "run.frames=1000000", "-o", "new/o"}, more), code, HasSubstr(message));
   };
   refused({"--film", "rain.avi"}, 2, "--film 'rain.avi': expected a name that ends in .mp4, .webm or .gif");
   refused({"--film", "mp4"}, 2, "expected a name that ends in .mp4");
@@ -246,13 +244,6 @@ class RealFilms : public Films {
   void SetUp() override {
     if (program_in_path("ffmpeg").empty() || program_in_path("ffprobe").empty()) GTEST_SKIP() << "ffmpeg is not installed";
   }
-  std::string printed(const std::string& command) const {
-    std::FILE* pipe = ::popen(fmt::format("cd '{}' && {}", folder.path().string(), command).c_str(), "r");
-    std::string out;
-    for (int c; (c = std::fgetc(pipe)) != EOF;) out += static_cast<char>(c);
-    EXPECT_EQ(::pclose(pipe), 0) << command;
-    return out;
-  }
 };
 
 TEST_F(RealFilms, HaveTheFramesInOrderAndTheScenesSpeed) {
@@ -268,12 +259,12 @@ TEST_F(RealFilms, HaveTheFramesInOrderAndTheScenesSpeed) {
     EXPECT_TRUE(contents(folder / name) == bytes);
     const bool is_gif = name == "rain.gif";
     const std::string probe = "ffprobe -v error -count_frames -select_streams v -of csv=p=0 -show_entries stream=";
-    EXPECT_EQ(printed(probe + "width,height,nb_read_frames " + name), is_gif ? "25,15,3\n" : "26,16,3\n");
+    EXPECT_EQ(output(probe + "width,height,nb_read_frames " + name), is_gif ? "25,15,3\n" : "26,16,3\n");
     if (!is_gif) {  // a GIF's are hundredths of a second, rounded
-      EXPECT_EQ(printed(probe + "avg_frame_rate " + name), "30/1\n");
+      EXPECT_EQ(output(probe + "avg_frame_rate " + name), "30/1\n");
     }
     // Three frames that differ: each decoded one is nearest to its own. 26x16 is 25x15 with a black line.
-    printed("ffmpeg -v error -y -i " + name + " -vsync 0 -vf format=rgb24,crop=25:15:0:0 -f rawvideo -pix_fmt rgb24 back");
+    output("ffmpeg -v error -y -i " + name + " -vsync 0 -vf format=rgb24,crop=25:15:0:0 -f rawvideo -pix_fmt rgb24 back");
     const std::string back = contents(folder / "back");
     constexpr std::size_t size = 25 * 15 * 3;
     ASSERT_EQ(back.size(), 3 * size);

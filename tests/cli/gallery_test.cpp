@@ -63,14 +63,6 @@ TEST_F(Gallery, HasEverySceneOnceAndNoOther) {
   EXPECT_GT(scenes.size(), 30u);
 }
 
-TEST_F(Gallery, SaysWhatTheScenesSay) {
-  for (const auto& [name, section] : sections) {
-    const std::string first = lines_of(contents(root / ("scenes/" + name + ".toml"))).at(0);
-    ASSERT_TRUE(first.starts_with("# ")) << name;
-    EXPECT_THAT(section.text, testing::HasSubstr(first.substr(2))) << name;
-  }
-}
-
 /// The scene that a picture of the last frame says of itself.
 std::string scene_of(const scene::Config& config) {
   for (const image_io::Note& note :

@@ -1,6 +1,6 @@
 // Runs that are interrupted, killed, or two in one folder.
 #include "cli/running.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::cli {
 namespace {
@@ -15,13 +15,6 @@ const std::vector<std::string> endless{"run",     "published.toml", "-o",       
 
 class Interrupted : public CommandLine {
  protected:
-  std::vector<std::string> names(const std::string& in) const {
-    std::vector<std::string> out;
-    std::error_code error;
-    for (fs::directory_iterator i(folder / in, error), end; !error && i != end; i.increment(error)) out.push_back(i->path().filename());
-    std::sort(out.begin(), out.end());
-    return out;
-  }
   /// A run that has begun to write its capture.
   std::unique_ptr<ChildProcess> start_endless() const {
     auto running = start_rainref(folder.path(), endless);
@@ -54,17 +47,15 @@ TEST_F(Interrupted, APackLeavesNothing) {
 TEST_F(Interrupted, WhatAKilledRunLeftGoesWithTheNext) {
   EXPECT_EQ(start_endless()->end(SIGKILL), -SIGKILL);
   EXPECT_EQ(names("new/o").size(), 2u);  // the lock and the hidden folder
-  const Outcome o = rainref({"run", "published.toml", "-o", "new/o", "--image", "none"});
-  EXPECT_EQ(o.code, 0) << o.err;
+  expect(rainref({"run", "published.toml", "-o", "new/o", "--image", "none"}), 0);
   EXPECT_THAT(names("new/o"), ElementsAre("summary.json"));
 }
 
 TEST_F(Interrupted, ASecondRunIntoOneFolderIsRefused) {
   const auto running = start_endless();
   const auto in_the_way = names("new/o");
-  const Outcome o = rainref({"run", "published.toml", "-o", "new/o", "--image", "none"});
-  EXPECT_EQ(o.code, 4);
-  EXPECT_EQ(o.err, "rainref: new/o: another run writes to this folder\n");
+  expect(rainref({"run", "published.toml", "-o", "new/o", "--image", "none"}), 4, testing::_,
+         "rainref: new/o: another run writes to this folder\n");
   EXPECT_EQ(names("new/o"), in_the_way);
   EXPECT_EQ(rainref({"run", "published.toml", "-o", "new/other", "--image", "none"}).code, 0);
   EXPECT_EQ(running->end(SIGTERM), -SIGTERM);
@@ -90,7 +81,7 @@ TEST_F(Interrupted, ARefusedRunKeepsTheOlderSummary) {
 }
 
 TEST_F(Interrupted, APortsCommandEndsWithAllItStarted) {
-  const std::string pack = rainref::test::source_folder() + "/tests/packs/puddle-corrected";
+  const std::string pack = rainref::test::pack_folder("puddle-corrected");
   const auto running = start_rainref(
       folder.path(), {"validate", pack, "--exec",
                       "echo {out} > where; setsid sh -c 'echo $$ > daemon; sleep 600' & echo $$ > shell; sleep 600", "--html", "r.html"});
@@ -123,8 +114,7 @@ TEST_F(Interrupted, LinksStayAndWhatTheyNameIsWritten) {
   fs::create_directory_symlink("real", folder / "link");
   fs::create_directory_symlink("real/run", folder / "run");
   fs::create_directory_symlink("real/pack", folder / "pack");
-  const Outcome o = rainref({"run", "published.toml", "-o", "run", "--image", "none"});
-  EXPECT_EQ(o.code, 0) << o.err;
+  expect(rainref({"run", "published.toml", "-o", "run", "--image", "none"}), 0);
   EXPECT_EQ(rainref({"run", "published.toml", "-o", "link", "--image", "none"}).code, 0);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(rainref({"pack", "published.toml", "-o", "pack", "--at", "0", "--passes", "display"}).code, 0);
   for (const std::string name : {"link", "run", "pack"}) EXPECT_TRUE(fs::is_symlink(folder / name)) << name;

@@ -23,13 +23,10 @@ class RunKeeps : public testing::Test {
     return count;
   }
   // The picture's bytes.
-  std::string run(const std::string& effect, std::vector<std::string> more = {}) {
+  std::string run(const std::string& effect, const std::vector<std::string>& more = {}) {
     std::ofstream(folder / "scene.toml") << "effect = '" << effect
                                          << "'\nvariant = 'corrected'\nseed = 5\n[run]\nframes = 2\nsize = [64, 36]\n";
-    std::vector<std::string> all{"run", "scene.toml", "-o", effect};
-    all.insert(all.end(), more.begin(), more.end());
-    const Outcome o = run_rainref(folder.path(), all);
-    EXPECT_EQ(o.code, 0) << o.err;
+    expect(run_rainref(folder.path(), joined({"run", "scene.toml", "-o", effect}, more)), 0);
     std::ifstream in(folder / effect / (effect + ".0001.png"), std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }

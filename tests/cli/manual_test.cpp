@@ -40,11 +40,7 @@ class Manual : public CommandLine {
     put(folder / "ask", fmt::format("source completion\nCOMP_WORDS=(rainref{})\nCOMP_CWORD={}\nPATH='{}':$PATH\n_rainref\nprintf '%s\\n' "
                                     "\"${{COMPREPLY[@]}}\"\n",
                                     list, words.size(), std::filesystem::path(RAINREF_PROGRAM).parent_path().string()));
-    std::FILE* pipe = ::popen(fmt::format("cd '{}' && bash ask", folder.path().string()).c_str(), "r");
-    std::string out;
-    for (int c; (c = std::fgetc(pipe)) != EOF;) out += static_cast<char>(c);
-    EXPECT_EQ(::pclose(pipe), 0);
-    std::vector<std::string> found = lines_of(out);
+    std::vector<std::string> found = lines_of(output("bash ask"));
     std::erase(found, "");
     return found;
   }

@@ -29,9 +29,8 @@ class PerfectPort : public CommandLine {
  protected:
   /// Judged under each profile. `most`: of any pass.
   void expect_green(const std::string& scene, const std::map<std::string, Shares>& most, const std::vector<std::string>& frames = {}) {
-    std::vector<std::string> pack{"pack", rainref::test::source_folder() + "/scenes/" + scene, "--size", "96x54", "-o", "pack"};
-    pack.insert(pack.end(), frames.begin(), frames.end());
-    const Outcome packed = rainref(pack);
+    const Outcome packed =
+        rainref(joined({"pack", rainref::test::source_folder() + "/scenes/" + scene, "--size", "96x54", "-o", "pack"}, frames));
     ASSERT_EQ(packed.code, 0) << packed.err;
     EXPECT_THAT(packed.out + packed.err, testing::Not(testing::HasSubstr("says nothing of"))) << "a port that does nothing passes";
     std::filesystem::copy(folder / "pack", folder / "port", std::filesystem::copy_options::recursive);

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "cli/support.h"
+#include "image/images.h"
 #include "image_io/tiny_files.h"
 
 namespace rainref::cli {
@@ -13,10 +14,7 @@ namespace rainref::cli {
 inline void put_npy(const std::filesystem::path& path, int width, int height, int channels,
                     const std::function<float(int, int, int)>& value, bool is_codes = false) {
   const std::string shape = channels == 1 ? fmt::format("({}, {})", height, width) : fmt::format("({}, {}, {})", height, width, channels);
-  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", is_codes ? "|u1" : "<f4", shape);
-  header.resize(118 - 1, ' ');
-  header += '\n';
-  std::string bytes = std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header;
+  std::string bytes;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < channels; ++c) {
@@ -28,20 +26,12 @@ inline void put_npy(const std::filesystem::path& path, int width, int height, in
       }
     }
   }
-  put(path, bytes);
+  put(path, npy(is_codes ? "'|u1'" : "'<f4'", shape, bytes));
 }
 /// The same as an image of rgba32f or, of codes, rgba8; a single channel in red, green and blue.
 inline Image image_of(Format format, int width, int height, const std::function<float(int, int, int)>& value) {
-  Image image(format, width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int i = 0; i < 4 * width; ++i) {
-      if (format == Format::rgba8)
-        image.row<std::uint8_t>(y)[i] = static_cast<std::uint8_t>(value(i / 4, y, i % 4));
-      else
-        image.row<float>(y)[i] = value(i / 4, y, i % 4);
-    }
-  }
-  return image;
+  if (format != Format::rgba8) return make_image(format, width, height, value);
+  return make_image(format, width, height, [&](int x, int y, int c) { return static_cast<std::uint8_t>(value(x, y, c)); });
 }
 
 /// What is true of a scene file whose scene.image (colour.png, 24x16) and, where it has one, scene.depth_image (depth.exr) may be

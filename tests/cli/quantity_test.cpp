@@ -38,9 +38,7 @@ class Quantities : public SceneFiles {
   Outcome hashed(const std::string& scene, const std::vector<std::string>& sets) const {
     std::vector<std::string> all{"hash", scene};
     for (const std::string& s : sets) all.insert(all.end(), {"--set", s});
-    Circumstances c;
-    c.is_copy = true;
-    return rainref(all, c);
+    return copied(all);
   }
 };
 
@@ -63,8 +61,7 @@ TEST_F(Quantities, ADepthBesideColoursIsTakenAndSaid) {
 TEST_F(Quantities, TheSummarySaysTheChannel) {
   put_beside_colours("beside.exr", "", "Z");
   const auto channels = [&](const std::string& depth) {
-    const Outcome o = rainref({"run", "edge_splash.toml", "-o", "of_" + depth, "--image", "none", "--set", "scene.depth_image=" + depth});
-    EXPECT_EQ(o.code, 0) << o.err;
+    expect(rainref({"run", "edge_splash.toml", "-o", "of_" + depth, "--image", "none", "--set", "scene.depth_image=" + depth}), 0);
     const auto inputs = nlohmann::json::parse(contents(folder / ("of_" + depth + "/summary.json")))["inputs"];
     EXPECT_FALSE(inputs[0].contains("channel")) << "colours";
     return inputs[1]["channel"].get<std::string>();

@@ -53,13 +53,6 @@ moves = false
     before = folder.names();
   }
 
-  std::vector<std::string> names(const std::string& in) const {
-    std::vector<std::string> out;
-    std::error_code error;
-    for (fs::directory_iterator i(folder / in, error), end; !error && i != end; i.increment(error)) out.push_back(i->path().filename());
-    std::sort(out.begin(), out.end());
-    return out;
-  }
   /// Names and bytes of the pictures, and of the summary what does not tell of times.
   std::map<std::string, std::string> results(const std::string& in) const {
     std::map<std::string, std::string> all;
@@ -72,17 +65,14 @@ moves = false
     all["summary.json"] = kept.dump();
     return all;
   }
-  Outcome run(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "run");
-    const Outcome o = rainref(arguments);
+  Outcome run(const std::vector<std::string>& arguments) const {
+    const Outcome o = rainref(joined({"run"}, arguments));
     EXPECT_EQ(o.code, 0) << o.err;
     return o;
   }
   /// Kills a run once its checkpoint is there.
-  void kill_after_checkpoint(std::vector<std::string> arguments, const std::string& in) const {
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"-o", in, "--frames", "1000000"});
-    const auto running = start_rainref(folder.path(), arguments);
+  void kill_after_checkpoint(const std::vector<std::string>& arguments, const std::string& in) const {
+    const auto running = start_rainref(folder.path(), joined({"run", "-o", in, "--frames", "1000000"}, arguments));
     await([&] { return fs::exists(folder / (in + "/checkpoint.state")); });
     EXPECT_EQ(running->end(SIGKILL), -SIGKILL);
     EXPECT_FALSE(fs::exists(folder / (in + "/summary.json")));
@@ -98,12 +88,7 @@ TEST_F(Resumed, AnyKillLeavesWhatGoesOn) {
     ASSERT_LT(round, 4 * kills) << "the runs are over before they are killed";
     const std::vector<std::string> film{
         "run", round % 2 == 0 ? "windshield.toml" : "trails.toml", "--frames", "300", "--every", "9", "--first", "40", "--image", "both"};
-    const auto in = [&](const std::string& to, std::vector<std::string> more) {
-      std::vector<std::string> all = film;
-      all.insert(all.end(), {"-o", to});
-      all.insert(all.end(), more.begin(), more.end());
-      return all;
-    };
+    const auto in = [&](const std::string& to, const std::vector<std::string>& more) { return joined(joined(film, {"-o", to}), more); };
     const std::string whole = fmt::format("whole{}", round), parts = fmt::format("parts{}", round);
     ASSERT_EQ(rainref(in(whole, {})).code, 0);
     for (;;) {
@@ -185,11 +170,9 @@ TEST_F(Resumed, OnlyTheSameRunGoesOn) {
   kill_after_checkpoint({"published.toml", "--checkpoint-every", "3", "--image", "none"}, "o");
   before = folder.names();
   const std::string state = contents(folder / "o/checkpoint.state");
-  const auto refused = [&](std::vector<std::string> more, const testing::Matcher<const std::string&>& message,
+  const auto refused = [&](const std::vector<std::string>& more, const testing::Matcher<const std::string&>& message,
                            const char* frames = "1000000") {
-    std::vector<std::string> all{"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", frames};
-    all.insert(all.end(), more.begin(), more.end());
-    expect_refusal(all, 2, message);
+    expect_refusal(joined({"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", frames}, more), 2, message);
     EXPECT_EQ(contents(folder / "o/checkpoint.state"), state);
   };
   refused({"--set", "puddle.damping=0.5"},
@@ -230,9 +213,7 @@ TEST_F(Resumed, ANoteOfAnotherShapeIsRefused) {
     std::memcpy(&forged[forged.size() - 16], &hash.low, 8);
     std::memcpy(&forged[forged.size() - 8], &hash.high, 8);
     put(file, forged);
-    const Outcome o = rainref({"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", "1000000"});
-    EXPECT_EQ(o.code, 2) << o.err;
-    EXPECT_THAT(o.err, message);
+    expect(rainref({"run", "published.toml", "-o", "o", "--resume", "--image", "none", "--frames", "1000000"}), 2, testing::_, message);
   };
   const auto with_truth = [&](const std::string& truth) {
     std::string other = note;
@@ -250,9 +231,7 @@ TEST_F(Resumed, ACheckpointThatCannotBeWrittenEndsTheRun) {
   };
   Circumstances full;
   full.file_bytes = 100;
-  const Outcome o = run_with(full);
-  EXPECT_EQ(o.code, 4);
-  EXPECT_THAT(o.err, HasSubstr("checkpoint.state': File too large"));
+  expect(run_with(full), 4, testing::_, HasSubstr("checkpoint.state': File too large"));
   EXPECT_EQ(folder.names(), before);
 }
 

@@ -14,19 +14,7 @@ using testing::MatchesRegex;
 
 class RunVerb : public CommandLine {
  protected:
-  Outcome run(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "run");
-    const Outcome o = rainref(arguments);
-    EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_EQ(o.err, "");
-    return o;
-  }
-  std::vector<std::string> names(const std::string& in) const {
-    std::vector<std::string> out;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / in)) out.push_back(entry.path().filename());
-    std::sort(out.begin(), out.end());
-    return out;
-  }
+  Outcome run(const std::vector<std::string>& arguments) const { return good(rainref(joined({"run"}, arguments))); }
   nlohmann::json summary(const std::string& in) const { return nlohmann::json::parse(contents(folder / (in + "/summary.json"))); }
 };
 
@@ -160,9 +148,7 @@ TEST_F(RunVerb, ResultsOfTwoRunsDoNotStandBesideEachOther) {
                                                      {"corrected.toml", "--frames", "5", "--every", "1", "--image", "exr"},
                                                      {"other.toml", "--frames", "5", "--every", "1"}};
   for (const std::vector<std::string>& other : others) {
-    std::vector<std::string> all{"run", "-o", "o"};
-    all.insert(all.end(), other.begin(), other.end());
-    expect_refusal(all, 2, testing::HasSubstr("that this run does not write, such as puddle.000"));
+    expect_refusal(joined({"run", "-o", "o"}, other), 2, testing::HasSubstr("that this run does not write, such as puddle.000"));
     EXPECT_EQ(names("o"), o_holds);
     EXPECT_EQ(contents(folder / "o/summary.json"), kept);
   }

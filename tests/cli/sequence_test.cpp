@@ -50,11 +50,10 @@ class Sequences : public SceneFiles {
   std::filesystem::path file(const std::string& letter, int k) const { return folder / fmt::format("film/{}{:02}.npy", letter, k); }
   static bool has_depth(const std::string& scene) { return !scene.starts_with("screen_drops") && scene != "rainy_glass-as-published.toml"; }
   /// The scene with picture k alone.
-  std::vector<std::string> hash_of_picture(const std::string& scene, int k, std::vector<std::string> more = {}) const {
+  std::vector<std::string> hash_of_picture(const std::string& scene, int k, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> all{scene, "--set", fmt::format("scene.image=film/c{:02}.npy", k)};
     if (has_depth(scene)) all.insert(all.end(), {"--set", fmt::format("scene.depth_image=film/d{:02}.npy", k)});
-    all.insert(all.end(), more.begin(), more.end());
-    return hash(all);
+    return hash(joined(all, more));
   }
   static std::vector<std::string> of_frame(const std::vector<std::string>& lines, int frame) {
     std::vector<std::string> out;
@@ -63,14 +62,12 @@ class Sequences : public SceneFiles {
     return out;
   }
   /// That frame n of a run shows picture shown[n].
-  void expect_shown(const std::string& scene, const std::vector<int>& shown, std::vector<std::string> more) const {
-    more.insert(more.end(), {"--frames", std::to_string(shown.size())});
-    std::vector<std::string> all{scene};
-    all.insert(all.end(), more.begin(), more.end());
-    const auto lines = hash(all);
+  void expect_shown(const std::string& scene, const std::vector<int>& shown, const std::vector<std::string>& more) const {
+    const std::vector<std::string> frames{"--frames", std::to_string(shown.size())};
+    const auto lines = hash(joined(joined({scene}, more), frames));
     for (std::size_t n = 0; n < shown.size(); ++n) {
       const int frame = static_cast<int>(n);
-      const auto single = hash_of_picture(scene, shown[n], {"--frames", std::to_string(shown.size())});
+      const auto single = hash_of_picture(scene, shown[n], frames);
       const auto wanted = of_frame(single, frame), found = of_frame(lines, frame);
       ASSERT_FALSE(wanted.empty());
       for (const std::string& line : wanted) EXPECT_THAT(found, Contains(line)) << scene << ", frame " << n;
@@ -180,8 +177,7 @@ TEST_F(Sequences, APackHoldsThePicturesOfItsFrames) {
 
 TEST_F(Sequences, TheSummaryNamesThemByTheirBytes) {
   const auto input = [&] {
-    const Outcome o = rainref({"run", "edge_splash-corrected.toml", "-o", "out", "--frames", "1", "--image", "none"});
-    EXPECT_EQ(o.code, 0) << o.err;
+    expect(rainref({"run", "edge_splash-corrected.toml", "-o", "out", "--frames", "1", "--image", "none"}), 0);
     return nlohmann::json::parse(contents(folder / "out/summary.json"))["inputs"];
   };
   const auto inputs = input();

@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <source_location>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/npy.h"
+#include "base/shell.h"
 #include "base/temporary_folder.h"
 #include "cli/cli.h"
 #include "registry/registry.h"
@@ -126,6 +130,22 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// One list behind the other.
+inline std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// An outcome has this exit code, and its output and errors match.
+inline void expect(const Outcome& o, int code, const testing::Matcher<const std::string&>& out = testing::_,
+                   const testing::Matcher<const std::string&>& err = testing::_,
+                   const std::source_location& at = std::source_location::current()) {
+  const testing::ScopedTrace trace(at.file_name(), static_cast<int>(at.line()), "");
+  EXPECT_EQ(o.code, code) << o.out << o.err;
+  EXPECT_THAT(o.out, out);
+  EXPECT_THAT(o.err, err);
+}
+
 /// A folder with `corrected.toml` and `published.toml`, tiny and under a tiny sky: the street costs a second. The sky is an array, which
 /// a run reads by itself: OpenImageIO costs each process a sixth of a second. `sky.png` is the same sky.
 class CommandLine : public testing::Test {
@@ -133,15 +153,12 @@ class CommandLine : public testing::Test {
   CommandLine() {
     // Put together by hand: most tests never need the library that would write it.
     std::vector<std::string> rows(4);
-    std::string codes = "{'descr': '|u1', 'fortran_order': False, 'shape': (4, 8, 3), }";
-    codes = std::string("\x93NUMPY\x01\x00\x76\x00", 10) + codes + std::string(117 - codes.size(), ' ') + '\n';
     for (int y = 0; y < 4; ++y) {
       for (int i = 0; i < 32; ++i) {
         if (i % 4 != 3) rows[y] += static_cast<char>(20 + 5 * i + 9 * y);
       }
     }
-    for (const std::string& row : rows) codes += row;
-    put(folder / "sky.npy", codes);
+    put(folder / "sky.npy", npy("'|u1'", "(4, 8, 3)", fmt::format("{}", fmt::join(rows, ""))));
     put(folder / "sky.png", image_io::png(8, 4, 8, 2, rows));
     put(folder / "corrected.toml", scene("corrected", "[puddle]\ngrid = [40, 30]\ncell_size = 0.02\nground_image = 'sky.npy'\n"));
     put(folder / "published.toml", scene("as-published"));
@@ -157,13 +174,23 @@ class CommandLine : public testing::Test {
   Outcome rainref(const std::vector<std::string>& arguments, const Circumstances& c = {}) const {
     return run_rainref(folder.path(), arguments, c);
   }
+  /// In a copy of this process.
+  Outcome copied(const std::vector<std::string>& arguments, Circumstances c = {}) const {
+    c.is_copy = true;
+    return rainref(arguments, c);
+  }
+  /// What succeeds without a word on standard error.
+  static Outcome good(const Outcome& o) {
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    return o;
+  }
 
   /// Refused: this exit code, nothing on standard output, one line on standard error, and no new file.
   void expect_refusal(const std::vector<std::string>& arguments, int code, const testing::Matcher<const std::string&>& message,
-                      Circumstances c = {}) const {
-    c.is_copy = true;
+                      const Circumstances& c = {}) const {
     SCOPED_TRACE(fmt::format("rainref {}", fmt::join(arguments, " ")));
-    const Outcome o = rainref(arguments, c);
+    const Outcome o = copied(arguments, c);
     EXPECT_EQ(o.code, code);
     EXPECT_EQ(o.out, "");
     ASSERT_THAT(o.err, testing::StartsWith("rainref: "));
@@ -178,15 +205,26 @@ class CommandLine : public testing::Test {
     expect_refusal({"run", "x.toml", "-o", "new/deep"}, 2, message);
   }
 
+  /// The names in a folder, in order; none where there is no such folder.
+  std::vector<std::string> names(const std::string& in) const {
+    std::vector<std::string> out;
+    std::error_code error;
+    for (std::filesystem::directory_iterator i(folder / in, error), end; !error && i != end; i.increment(error))
+      out.push_back(i->path().filename());
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  /// What a command of the shell prints in the folder; it must succeed.
+  std::string output(const std::string& command) const {
+    const auto [text, status] = output_of(fmt::format("cd '{}' && {}", folder.path().string(), command));
+    EXPECT_EQ(status, 0) << command << '\n' << text;
+    return text;
+  }
+
   /// Hash lines of a scene; fails the test when they cannot be had.
-  std::vector<std::string> hash(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "hash");
-    Circumstances c;
-    c.is_copy = true;
-    const Outcome o = rainref(arguments, c);
-    EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_EQ(o.err, "");
-    return lines_of(o.out);
+  std::vector<std::string> hash(const std::vector<std::string>& arguments) const {
+    return lines_of(good(copied(joined({"hash"}, arguments))).out);
   }
 
   TemporaryFolder folder;

@@ -1,5 +1,4 @@
 // `rainref sweep` as a user runs it: what it prints and leaves, whoever is killed.
-#include <fstream>
 #include <map>
 
 #include <nlohmann/json.hpp>
@@ -25,11 +24,7 @@ class Sweep : public CommandLine {
         "verb = 'run'\nscene = 'published.toml'\nframes = 3\nkeep = ['picture', 'hash']\n[axes]\nseed = {from = 1, count = 8}\n");
     before = folder.names();
   }
-  Outcome sweep(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "sweep");
-    arguments.insert(arguments.end(), {"-o", "out"});
-    return rainref(arguments);
-  }
+  Outcome sweep(const std::vector<std::string>& arguments) const { return rainref(joined(joined({"sweep"}, arguments), {"-o", "out"})); }
   /// Every file of cells and tables, timings aside.
   std::map<std::string, std::string> results(const std::string& out) const {
     std::map<std::string, std::string> all;
@@ -56,19 +51,12 @@ TEST_F(Sweep, FromPlanToTable) {
   const Outcome listed = sweep({"plan", "plan.toml", "--list"});
   EXPECT_THAT(lines_of(listed.out).at(7), MatchesRegex("7 [0-9a-f]{32} scene published.toml, seed 8"));
   EXPECT_THAT(sweep({"plan", "plan.toml", "--trial"}).out, HasSubstr("8 cells of run: 1 done, 7 missing\nby the 1 made so far: "));
-  Outcome o = sweep({"status", "plan.toml"});
-  EXPECT_EQ(o.code, 1);
-  EXPECT_EQ(o.out, "8 cells: 1 done, 7 missing\n");
-  o = sweep({"run", "plan.toml", "--shard", "1/2"});
-  EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_THAT(o.out, MatchesRegex("shard 1/2: 4 cells, 4 made in .*\n"));
+  expect(sweep({"status", "plan.toml"}), 1, "8 cells: 1 done, 7 missing\n");
+  expect(sweep({"run", "plan.toml", "--shard", "1/2"}), 0, MatchesRegex("shard 1/2: 4 cells, 4 made in .*\n"));
   EXPECT_THAT(sweep({"run", "plan.toml"}).out, MatchesRegex("shard 0/1: 8 cells, 5 had, 3 made in .*\n"));
-  o = sweep({"status", "plan.toml"});
-  EXPECT_EQ(o.code, 0);
-  EXPECT_EQ(o.out, "8 cells: 8 done\n");
-  o = sweep({"collect", "plan.toml"});
-  EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_THAT(o.out, AllOf(StartsWith("8 cells: 8 done; table.csv, "), HasSubstr("sheet.png in "), EndsWith("out/plans/plan\n")));
+  expect(sweep({"status", "plan.toml"}), 0, "8 cells: 8 done\n");
+  expect(sweep({"collect", "plan.toml"}), 0,
+         AllOf(StartsWith("8 cells: 8 done; table.csv, "), HasSubstr("sheet.png in "), EndsWith("out/plans/plan\n")));
   EXPECT_EQ(lines_of(contents(folder / "out/plans/plan/table.csv")).size(), 9u);
   EXPECT_EQ(lines_of(contents(folder / "out/plans/plan/timings.csv")).size(), 9u);
   // What rainref hash says of the fourth cell.
@@ -110,9 +98,7 @@ TEST_F(Sweep, ADamagedCellIsFoundAndMadeAgain) {
   const auto picture =
       std::find_if(whole.begin(), whole.end(), [](const auto& f) { return f.first.ends_with(".png") && f.first.starts_with("cells"); });
   put(folder / "out" / picture->first, picture->second.substr(1));
-  Outcome o = sweep({"collect", "plan.toml"});
-  EXPECT_EQ(o.code, 1);
-  EXPECT_THAT(o.out, AllOf(StartsWith("damaged: "), HasSubstr(picture->first), HasSubstr("7 done, 1 damaged")));
+  expect(sweep({"collect", "plan.toml"}), 1, AllOf(StartsWith("damaged: "), HasSubstr(picture->first), HasSubstr("7 done, 1 damaged")));
   EXPECT_THAT(sweep({"gc", "plan.toml", "--damaged", "--remove"}).out, StartsWith("1 thing, "));
   EXPECT_THAT(sweep({"run", "plan.toml"}).out, HasSubstr("7 had, 1 made"));
   EXPECT_EQ(sweep({"collect", "plan.toml"}).code, 0);
@@ -141,8 +127,7 @@ TEST_F(Sweep, AnyKillLeavesWhatGoesOn) {
     running->end(round % 2 == 0 ? SIGKILL : SIGTERM);
   }
   // The workers of killed processes end of their own; those that are left alone are waited for by the lock of their cells.
-  const Outcome o = rainref({"sweep", "run", "plan.toml", "-o", "parts", "--again"});
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  expect(rainref({"sweep", "run", "plan.toml", "-o", "parts", "--again"}), 0);
   ASSERT_EQ(rainref({"sweep", "collect", "plan.toml", "-o", "parts"}).code, 0);
   EXPECT_EQ(results("parts"), results("whole"));
 }
@@ -163,10 +148,9 @@ TEST_F(Sweep, ARefusedCellIsToldAndTheOthersAreMade) {
   std::vector<std::string> rows(2);
   for (std::string& row : rows) row = std::string(3 * 12, 'x');
   put(folder / "strip.png", image_io::png(12, 2, 8, 2, rows));
-  const Outcome o = sweep({"run", "plan.toml"});
-  EXPECT_EQ(o.code, 1);
-  EXPECT_THAT(o.out, AllOf(HasSubstr("refused: scene published.toml, environment.image sky.png, environment.layout cube: "),
-                           HasSubstr("a cube needs six square faces"), HasSubstr("1 made, 1 refused")));
+  expect(sweep({"run", "plan.toml"}), 1,
+         AllOf(HasSubstr("refused: scene published.toml, environment.image sky.png, environment.layout cube: "),
+               HasSubstr("a cube needs six square faces"), HasSubstr("1 made, 1 refused")));
   EXPECT_THAT(sweep({"run", "plan.toml"}).out, HasSubstr("1 had, 1 refused"));
   EXPECT_EQ(sweep({"status", "plan.toml"}).code, 1);
   EXPECT_THAT(sweep({"status", "plan.toml"}).out, StartsWith("2 cells: 1 done, 1 refused\nrefused: "));
@@ -194,8 +178,7 @@ TEST_F(Sweep, PacksAreMadeAndJudged) {
   // A port that copies what is expected passes, one of zeros does not.
   put(folder / "judged.toml",
       fmt::format("verb='validate'\npack='{}'\nprofile=['ieee','vulkan']\nexec='cp -r {{pack}}/. {{out}}'\nlabel='copy'\n", pack));
-  o = sweep({"run", "judged.toml"});
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  expect(sweep({"run", "judged.toml"}), 0);
   EXPECT_EQ(sweep({"collect", "judged.toml"}).code, 0);
   EXPECT_THAT(contents(folder / "out/plans/judged/table.csv"),
               AllOf(HasSubstr(",done,"), HasSubstr("/pack,ieee"), HasSubstr("/pack,vulkan")));
@@ -221,9 +204,7 @@ TEST_F(Sweep, PacksAreMadeAndJudged) {
   ASSERT_EQ(sweep({"collect", "changing.toml"}).code, 0);
   EXPECT_THAT(contents(folder / "out/plans/changing/table.csv"), HasSubstr(",done,pass,"));
   put(folder / "mutate.toml", fmt::format("verb='mutate'\npack='{}'\n", pack));
-  o = sweep({"run", "mutate.toml"});
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
-  EXPECT_THAT(o.out, HasSubstr("1 made"));
+  expect(sweep({"run", "mutate.toml"}), 0, HasSubstr("1 made"));
 }
 
 // An ffmpeg that keeps what it is given: the pictures of all chunks, in order.
@@ -257,14 +238,12 @@ TEST_F(Sweep, AFilmOfSomeFramesKeepsTheScenesSpeed) {
   fs::create_directory(folder / "bin");
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", (folder / "bin").c_str(), 1);
-  Outcome o = sweep({"collect", "plan.toml", "--film"});
-  EXPECT_EQ(o.code, 0);
-  EXPECT_THAT(o.out, HasSubstr("film.mp4': ffmpeg, which makes films, is in no folder of PATH"));
+  expect(sweep({"collect", "plan.toml", "--film"}), 0, HasSubstr("film.mp4': ffmpeg, which makes films, is in no folder of PATH"));
   EXPECT_FALSE(fs::exists(folder / "out/plans/plan/film.mp4"));
   put(folder / "bin/ffmpeg", "#!/bin/sh\nprintf '%s\\n' \"$@\" >asked\ncat >/dev/null\n");
   fs::permissions(folder / "bin/ffmpeg", fs::perms::owner_all);
   ::setenv("PATH", ((folder / "bin").string() + ":" + path).c_str(), 1);
-  o = sweep({"collect", "plan.toml", "--film"});
+  Outcome o = sweep({"collect", "plan.toml", "--film"});
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_THAT(o.out, HasSubstr(", film.mp4 of 3 pictures in "));
   EXPECT_THAT(contents(folder / "asked"), HasSubstr("\n60/3\n"));

@@ -1,6 +1,8 @@
 // What a user sees who asks for help or slips on the keyboard.
+#include "base/shell.h"
 #include "cli/support.h"
 #include "math/simd_target.h"
+#include "rainref/version.h"
 #include "source_folder.h"
 
 namespace rainref::cli {
@@ -17,10 +19,7 @@ using Usage = CommandLine;
 
 TEST_F(Usage, HelpShowsAnExample) {
   for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest"}) {
-    const Outcome o = rainref({verb, "--help"});
-    EXPECT_EQ(o.code, 0);
-    EXPECT_EQ(o.err, "");
-    EXPECT_THAT(o.out, HasSubstr("\nExample: rainref " + verb));
+    expect(rainref({verb, "--help"}), 0, HasSubstr("\nExample: rainref " + verb), "");
   }
   const Outcome all = rainref({"--help"});
   EXPECT_EQ(all.code, 0);
@@ -33,10 +32,7 @@ TEST_F(Usage, HelpShowsAnExample) {
 TEST_F(Usage, HelpIsAVerbToo) {
   EXPECT_EQ(rainref({"help"}).out, rainref({"--help"}).out);
   for (const std::string verb : {"run", "validate"}) {
-    const Outcome o = rainref({"help", verb});
-    EXPECT_EQ(o.code, 0);
-    EXPECT_EQ(o.err, "");
-    EXPECT_EQ(o.out, rainref({verb, "--help"}).out);
+    expect(rainref({"help", verb}), 0, rainref({verb, "--help"}).out, "");
   }
   expect_refusal({"help", "rnu"}, 2, EndsWith("found 'rnu'; did you mean 'run'?"));
   expect_refusal({"help", "run", "hash"}, 2, "help: expected one verb, found 'hash' too");
@@ -58,18 +54,18 @@ TEST_F(Usage, HelpNamesTheProfilesThatJudge) {
 }
 
 TEST_F(Usage, VersionIsOneLine) {
-  const Outcome o = rainref({"--version"});
-  EXPECT_EQ(o.code, 0);
-  EXPECT_THAT(o.out, MatchesRegex("rainref [0-9]+\\.[0-9]+\\.[0-9]+, golden [0-9]+ [0-9a-f]{32}\n"));
+  expect(rainref({"--version"}), 0, MatchesRegex("rainref [0-9]+\\.[0-9]+\\.[0-9]+, golden [0-9]+ [0-9a-f]{32}\n"));
 }
 
-// The golden file's, as anybody can reckon it.
-TEST_F(Usage, VersionNamesTheGoldenFile) {
-  std::FILE* const sum = ::popen(("sha256sum '" + test::source_folder() + "/tests/golden/hashes.txt'").c_str(), "r");
-  char digits[33] = {};
-  ASSERT_EQ(std::fread(digits, 1, 32, sum), 32u);
-  ::pclose(sum);
-  EXPECT_THAT(rainref({"--version"}).out, EndsWith(std::string(" ") + digits + "\n"));
+/// The hash of the golden lines that begin so, as anybody can reckon it.
+std::string golden_hash_of(const std::string& start) {
+  return output_of(fmt::format("grep '^{}' '{}/tests/golden/hashes.txt' | sha256sum", start, test::source_folder())).first.substr(0, 32);
+}
+TEST_F(Usage, VersionNamesTheGoldenFile) { EXPECT_THAT(rainref({"--version"}).out, EndsWith(" " + golden_hash_of("") + "\n")); }
+TEST_F(Usage, AnEffectHasAGoldenHashOfItsOwn) {
+  for (const char* effect : {"puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"})
+    EXPECT_EQ(golden_hash(effect), golden_hash_of(fmt::format("{}/", effect)));
+  EXPECT_STREQ(golden_hash("breath"), "");
 }
 
 TEST_F(Usage, AVerbIsNeeded) {

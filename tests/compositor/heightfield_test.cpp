@@ -1,9 +1,8 @@
-// The heightfield: closed forms, no cracks, the lanes against the scalar evaluation.
+// The heightfield: closed forms and no cracks; heightfield_floats_test.cpp has its lanes.
 #include "compositor/heightfield.h"
 
 #include <gtest/gtest.h>
 
-#include "compositor/packets.h"
 #include "compositor/world.h"
 #include "math/every_target.h"
 #include "rainref/error.h"
@@ -101,18 +100,6 @@ TEST(Heightfield, AimedRaysNeverPass) {
     for (const Hit& hit : test::first_hits(tracer, rays)) passed += !(hit.t <= 1);
     EXPECT_EQ(passed, 0) << "tiles of " << tile;
   }
-}
-
-TEST(Heightfield, LanesGiveThePlainEvaluationsBits) {
-  const test::World world;
-  std::vector<Ray> rays = test::camera_rays(64, 36);
-  for (const Ray& ray : test::aimed_rays(world, 6000)) rays.push_back(ray);
-  for (const Ray& ray : test::grazing_rays(64, 36)) rays.push_back(ray);
-  for (std::size_t i = 0; i < rays.size(); i += 5) rays[i].nearest = 20 * test::random_number(static_cast<std::uint32_t>(i), 9);
-  rays.resize(rays.size() / 16 * 16);
-  // Some know a nearer hit of another surface already.
-  const auto known = [](std::size_t i) { return i % 7 == 0 ? Hit{30, 5, 0, 0, 0} : Hit(); };
-  test::for_every_target([&] { EXPECT_GT(test::expect_packets_to_meet_as_rays(*world.water, rays, known), 5000); });
 }
 
 TEST(Heightfield, NormalsOfSeveralHitsAreThoseOfEach) {

@@ -131,7 +131,7 @@ class NativeWorld {
     auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 16, boxes * 6 + 1));
     for (std::size_t b = 0; b < boxes; ++b) {
       for (unsigned corner = 0; corner < 8; ++corner) {
-        for (int k = 0; k < 3; ++k) *v++ = static_cast<float>((corner >> k & 1 ? world.boxes[b].b : world.boxes[b].a)[k]);
+        for (int k = 0; k < 3; ++k) *v++ = static_cast<float>((corner >> k & 1 ? world.boxes[b].high : world.boxes[b].low)[k]);
       }
       for (const unsigned corner : {0, 1, 3, 2, 4, 5, 7, 6, 0, 1, 5, 4, 2, 3, 7, 6, 0, 2, 6, 4, 1, 3, 7, 5})
         *index++ = static_cast<unsigned>(b) * 8 + corner;

@@ -36,10 +36,10 @@ bool within_a_shift(const Tracer& tracer, const Ray& ray, const test::NativeHit&
   return false;
 }
 
-/// Quads are seen from inside a box, solids are not.
+/// Quads are seen from inside a box, ours are not.
 bool starts_inside(const test::World& world, const Ray& ray) {
-  return std::any_of(world.boxes.begin(), world.boxes.end(), [&](const night_street::Solid& box) {
-    return glm::all(glm::greaterThanEqual(ray.origin, box.a)) && glm::all(glm::lessThanEqual(ray.origin, box.b));
+  return std::any_of(world.boxes.begin(), world.boxes.end(), [&](const Box& box) {
+    return glm::all(glm::greaterThanEqual(ray.origin, box.low)) && glm::all(glm::lessThanEqual(ray.origin, box.high));
   });
 }
 

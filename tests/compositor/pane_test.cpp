@@ -1,15 +1,16 @@
 // Panes of glass and the water on them, against geometry and the laws of optics in closed form.
 #include "compositor/embree_isas.h"
 #include "compositor/pane.h"
+#include "compositor/pane_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "compositor/pane_scene.h"
 #include "compositor/shading_support.h"
 #include "compositor/straight_path.h"
+#include "image/images.h"
 #include "rainref/error.h"
 
 namespace rainref::compositor {
@@ -48,11 +49,8 @@ PaneMedia of_index(double n) {
 /// Heights in millimetres by a function of the texel's centre (u, v).
 template <class Height>
 Image heights(int width, int height, const Height& of) {
-  Image image(Format::r32f, width, height);
-  for (int j = 0; j < height; ++j) {
-    for (int i = 0; i < width; ++i) image.row<float>(j)[i] = static_cast<float>(of((i + 0.5) / width, (j + 0.5) / height));
-  }
-  return image;
+  return make_image(Format::r32f, width, height,
+                    [&](int i, int j, int) { return static_cast<float>(of((i + 0.5) / width, (j + 0.5) / height)); });
 }
 double distance_to_line(const Vec& point, const Vec& on_line, const Vec& direction) {
   const Vec c = cross(point - on_line, direction);
@@ -344,30 +342,11 @@ TEST(Pane, HitsHaveTheSameBitsForEveryEmbree) {
       rays.push_back({from, to - from});
     }
     const auto shape_of_water = pane.is_flat() ? WaterShape::displaced : WaterShape::sloped;
-    std::vector<Hit> expected;
-    std::vector<std::string> configs{"", "threads=1"};
-    for (const std::string& isa : test::embree_isas()) configs.push_back(test::embree_config(isa));
-    for (const std::string& config : configs) {
-      const auto scene = scene_of(pane, water, shape_of_water, config);
-      std::vector<Hit> hits(rays.size());
-      scene->tracer().first_hits(rays, hits);
-      if (expected.empty()) {
-        expected = hits;
-        int wet = 0;
-        for (const Hit& h : hits) wet += h.surface == 3;
-        EXPECT_GT(wet, 300);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-          std::vector<std::shared_ptr<const Surface>> all;
-          for (std::uint32_t s = 0; s < 5; ++s) all.emplace_back(std::shared_ptr<void>(), &scene->tracer().surface(s));
-          const Hit oracle = first_hit_of_all(all, rays[i]);
-          ASSERT_TRUE(oracle.t == hits[i].t && oracle.surface == hits[i].surface && oracle.part == hits[i].part) << i;
-        }
-      }
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Hit &a = hits[i], &b = expected[i];
-        ASSERT_TRUE(a.t == b.t && a.surface == b.surface && a.part == b.part && a.u == b.u && a.v == b.v) << config << " ray " << i;
-      }
-    }
+    int wet = 0;
+    for (const Hit& h :
+         test::hits_for_every_embree(rays, [&](const std::string& config) { return scene_of(pane, water, shape_of_water, config); }))
+      wet += h.surface == 3;
+    EXPECT_GT(wet, 300);
   }
 }
 

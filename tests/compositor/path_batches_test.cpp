@@ -1,3 +1,4 @@
+// Rays that are traced in batches each get their own hit.
 #include "compositor/path_batches.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The patterns of samples: as many as the scene key allows, of the size that was asked for, within the pixel.
-#include "compositor/samples.h"
+#include "compositor/picture.h"
 
 #include <algorithm>
 

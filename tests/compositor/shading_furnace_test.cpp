@@ -13,7 +13,7 @@ Scene furnace(double ior) {
   Medium murky = water(ior);
   murky.extinction = {2, 5, 11};
   murky.glow = white;
-  scene.add(std::make_shared<Level>(-0.5), Material::of(diffuse(white, white)));
+  scene.add(std::make_shared<Level>(-0.5), Material::of(emitter(white * white)));
   scene.add(std::make_shared<Level>(0), Material::interface_of(air(), murky));
   // Glass in the air, a bubble of air in the water, and a body that mirrors a third.
   scene.add(std::make_shared<Ball>(Vec{0, 0.4, 0}, 0.3), Material::interface_of(air(), glass()));

@@ -1,4 +1,4 @@
-// A flat sheet of water over level ground: Snell, Fresnel and Beer, from their laws.
+// A flat sheet of water over level ground, a pane and a ball: Snell, Fresnel and Beer, from their laws.
 #include <gtest/gtest.h>
 
 #include "compositor/interface.h"
@@ -108,6 +108,42 @@ TEST(FlatWater, ReflectanceIsTheSameFromBothSides) {
     const Split out = split(-in.refracted, {0, -1, 0}, water_ior, 1);
     // Near 90 degrees the way back divides by the cosine.
     EXPECT_NEAR(out.reflectance, in.reflectance, 1e-15 / std::cos(radians(degrees)) / std::cos(radians(degrees))) << degrees;
+  }
+}
+
+// A pane changes no direction: what lies endlessly far is seen where it is.
+TEST(Plate, LeavesDirectionsUnchanged) {
+  Scene scene;
+  scene.add(std::make_shared<Level>(0), Material::interface_of(air(), glass()));
+  scene.add(std::make_shared<Level>(-0.005), Material::interface_of(glass(), air()));
+  scene.set_environment(tells_direction());
+  scene.commit();
+  for (const double degrees : {0.0, 30.0, 70.0, 88.0}) {
+    const Ray ray = slanting(degrees);
+    const double f = fresnel(radians(degrees), 1.52), through = (1 - f) * (1 - f);
+    ShadingOptions two{2, 0};  // beyond the second face every path looks at the surroundings
+    const Vec seen = see(scene, ray, two).radiance;
+    // Reflected at the front: f; through both: (1-f)^2; inside after the back's mirror: cut there, seen straight on.
+    const double s = std::sin(radians(degrees)), inside = (1 - f) * f;
+    EXPECT_NEAR(seen.x, f * s + through * s + inside * s / 1.52, 1e-14) << degrees;
+  }
+}
+
+// A closed ball, inside the same part of the same surface: the ray meets the far side, not the point where it began.
+TEST(Ball, ARayCrossesAndLeaves) {
+  for (const double off : {0.0, 0.3, 0.5, 0.7}) {  // further out, what the ball mirrors is the ground
+    Scene scene;
+    const double ior = 1.333;
+    Medium dye = water(ior);
+    dye.extinction = {3, 3, 3};
+    scene.add(std::make_shared<Ball>(Vec{0, 0, 0}, 1), Material::interface_of(air(), dye));
+    scene.add(std::make_shared<Level>(-3), Material::of(emitter({1, 1, 1})));
+    scene.set_environment(constant({0, 0, 0}));
+    scene.commit();
+    const Seen seen = see(scene, {{off, 5, 0}, {0, -1, 0}}, {3, 0});  // depth 3 ends the paths that are reflected inside
+    const double incidence = std::asin(off), chord = 2 * std::sqrt(1 - off * off / (ior * ior)), f = fresnel(incidence, ior);
+    EXPECT_NEAR(seen.film, chord, 1e-14);
+    EXPECT_NEAR(seen.radiance.x, (1 - f) * (1 - f) * std::exp(-3 * chord), 1e-14) << off;
   }
 }
 

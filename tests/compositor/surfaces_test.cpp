@@ -1,11 +1,11 @@
-// Plates and solids: closed forms.
+// Plates and boxes: closed forms.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
+#include "compositor/boxes.h"
 #include "compositor/packets.h"
 #include "compositor/plates.h"
-#include "compositor/solids.h"
 #include "compositor/world.h"
 #include "math/every_target.h"
 #include "rainref/error.h"
@@ -35,32 +35,25 @@ TEST(Plates, ParallelogramAndEllipse) {
   EXPECT_THROW(Plates({{Plate::parallelogram, {}, {1, 0, 0}, {2, 0, 0}}}), Error);
 }
 
-TEST(Solids, SphereAndBoxByRaysOfAnyLength) {
-  night_street::Solid sphere, box;
-  sphere.shape = night_street::Solid::sphere;
-  sphere.a = {0, 0, 0};
-  sphere.b = {1, 0, 0};
-  box.a = {5, -1, -1};
-  box.b = {7, 1, 1};
-  const Solids solids({sphere, box}, {});
+TEST(Boxes, ByRaysOfAnyLength) {
+  const Boxes boxes({{{-1, -1, -1}, {1, 1, 1}}, {{5, -1, -1}, {7, 1, 1}}});
   for (const double length : {0.25, 1.0, 8.0}) {  // powers of two: exact
-    const Ray at_sphere{{-3, 0, 0}, {length, 0, 0}}, at_box{{6, 4, 0.5}, {0, -length, 0}};
-    EXPECT_EQ(first_of(solids, at_sphere).t, 2 / length);
-    EXPECT_EQ(first_of(solids, at_sphere).part, 0u);
-    EXPECT_EQ(solids.normal(at_sphere, first_of(solids, at_sphere)), Vec(-1, 0, 0));
-    EXPECT_EQ(first_of(solids, at_box).t, 3 / length);
-    EXPECT_EQ(solids.normal(at_box, first_of(solids, at_box)), Vec(0, 1, 0));
+    const Ray along_x{{-3, 0.25, 0}, {length, 0, 0}}, along_y{{6, 4, 0.5}, {0, -length, 0}}, slanted{{-4, 0, 3}, {length, 0, -length}};
+    EXPECT_EQ(first_of(boxes, along_x).t, 2 / length);
+    EXPECT_EQ(first_of(boxes, along_x).part, 0u);
+    EXPECT_EQ(boxes.normal(along_x, first_of(boxes, along_x)), Vec(-1, 0, 0));
+    EXPECT_EQ(first_of(boxes, along_y).t, 3 / length);
+    EXPECT_EQ(first_of(boxes, along_y).part, 1u);
+    EXPECT_EQ(boxes.normal(along_y, first_of(boxes, along_y)), Vec(0, 1, 0));
+    EXPECT_EQ(boxes.normal(slanted, first_of(boxes, slanted)), Vec(-1, 0, 0)) << "the face met last is the one entered";
   }
-  EXPECT_FALSE(first_of(solids, {{6, 0, 0}, {0, 1, 0}}).is_surface()) << "from inside";
-  EXPECT_FALSE(first_of(solids, {{6, 2, 0}, {1, 0, 0}}).is_surface());
+  EXPECT_FALSE(first_of(boxes, {{6, 0, 0}, {0, 1, 0}}).is_surface()) << "from inside";
+  EXPECT_FALSE(first_of(boxes, {{6, 2, 0}, {1, 0, 0}}).is_surface());
 }
 
 // Rays along faces and edges, from inside, from borders, to corners, with limits at the hit, and beside a hit that is as near.
 TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainEvaluationsBits) {
-  night_street::Solid box;
-  box.a = {-1, -0.5, 0};
-  box.b = {2, 1.5, 0.75};
-  const Solids boxes({box}, {});
+  const Boxes boxes({{{-1, -0.5, 0}, {2, 1.5, 0.75}}});
   const Plates plates(
       {{Plate::parallelogram, {-1, 0.25, -1}, {2, 0, 0.5}, {0.25, 0.5, 2}}, {Plate::ellipse, {0, 0.5, 0}, {1, 0, 0}, {0, 0, 2}}});
   std::vector<Ray> rays;

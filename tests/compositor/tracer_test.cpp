@@ -1,4 +1,5 @@
 // The tracer: against the oracle that asks everything, and whether anything but the rays and the surfaces decides.
+#include "base/error_of.h"
 #include "compositor/embree_isas.h"
 #include "compositor/tracer.h"
 
@@ -12,7 +13,6 @@
 #include "base/hostile_state.h"
 #include "compositor/world.h"
 #include "math/every_target.h"
-#include "rainref/error.h"
 
 namespace rainref::compositor {
 namespace {
@@ -62,19 +62,16 @@ void add(Hasher& hasher, std::span<const Hit> hits) {
     hasher.add(std::as_bytes(std::span(&hit.u, 2)));
   }
 }
-/// Of first and any hits, in tasks of 500 rays.
+/// Of first hits, in tasks of 500 rays.
 std::string hash_of(const Tracer& tracer, const std::vector<Ray>& rays, int threads) {
   const parallel::Executor executor(threads);
   std::vector<Hit> hits(rays.size());
-  std::vector<std::uint8_t> blocked(rays.size());
   executor.for_range(static_cast<std::int64_t>(rays.size()), 500, [&](std::int64_t begin, std::int64_t end) {
     const auto first = static_cast<std::size_t>(begin), count = static_cast<std::size_t>(end - begin);
     tracer.first_hits(std::span(rays).subspan(first, count), std::span(hits).subspan(first, count));
-    tracer.any_hits(std::span(rays).subspan(first, count), std::span(blocked).subspan(first, count));
   });
   Hasher hasher;
   add(hasher, hits);
-  hasher.add(std::as_bytes(std::span(blocked)));
   return hasher.finish().text();
 }
 
@@ -87,13 +84,10 @@ TEST(Tracer, FindsWhatAskingEverySurfaceFinds) {
   Tracer tracer;
   world.add_to(tracer);
   const std::vector<Hit> hits = test::first_hits(tracer, rays);
-  std::vector<std::uint8_t> blocked(rays.size());
-  tracer.any_hits(rays, blocked);
   int met[3] = {};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Hit expected = first_hit_of_all(world.surfaces, rays[i]);
     ASSERT_TRUE(same(hits[i], expected)) << "ray " << i << ": " << text(hits[i]) << ", oracle " << text(expected);
-    ASSERT_EQ(blocked[i] != 0, expected.is_surface()) << "ray " << i;
     if (expected.is_surface()) ++met[expected.surface];
   }
   // Water, boxes and the pane all take part.
@@ -331,20 +325,12 @@ TEST(Tracer, ANothingAndRaysThatGoNowhere) {
 }
 
 TEST(Tracer, RefusesWhatEmbreeOrItselfDoesNotTake) {
-  const auto message = [](const TracerOptions& options) {
-    try {
-      Tracer tracer(options);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::usage);
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto message = [](const TracerOptions& options) { return error_of([&] { Tracer tracer(options); }); };
   EXPECT_EQ(message({"threads=1,isa=avx22"}),
-            "compositor.embree_config = \"threads=1,isa=avx22\": no instruction set is called \"avx22\"; did you mean 'avx2'?");
+            "2 compositor.embree_config = \"threads=1,isa=avx22\": no instruction set is called \"avx22\"; did you mean 'avx2'?");
   EXPECT_NE(message({"threads=many"}).find("does not take it"), std::string::npos);
   EXPECT_NE(message({"", 5}).find("width 5"), std::string::npos);
-  EXPECT_EQ(message({"threads=1"}), "");
+  EXPECT_EQ(message({"threads=1"}), "none");
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "compositor/boxes.h"
 #include "compositor/heightfield.h"
 #include "compositor/plates.h"
-#include "compositor/solids.h"
 #include "compositor/tracer.h"
 #include "random/counter.h"
 
@@ -47,7 +47,7 @@ inline double random_number(std::uint32_t a, std::uint32_t b) {
 
 struct World {
   std::shared_ptr<Heightfield> water;
-  std::vector<night_street::Solid> boxes;  ///< the first is the ground
+  std::vector<Box> boxes;  ///< the first is the ground
   Plate pane;
   std::vector<std::shared_ptr<const Surface>> surfaces;  ///< water, boxes, pane
 
@@ -57,20 +57,13 @@ struct World {
     water = std::make_shared<Heightfield>(HeightfieldFrame{{-s, 0, -s}, {2 * s, 0, 0}, {0, 0, 2 * s}, {0, 1, 0}}, water_cells, water_cells,
                                           tile_cells);
     water->assign(water_heights(phase), executor);
-    const auto box = [&](const Vec& low, const Vec& high) {
-      night_street::Solid solid;
-      solid.a = low;
-      solid.b = high;
-      boxes.push_back(solid);
-    };
-    box({-100, -3, -100}, {100, -2, 100});
+    boxes.push_back({{-100, -3, -100}, {100, -2, 100}});
     for (std::uint32_t k = 0; k < 12; ++k) {
       const double x = 70 * random_number(k, 0) - 35, z = 70 * random_number(k, 1) - 35, w = 0.5 + 2 * random_number(k, 2);
-      box({x - w, -2, z - w}, {x + w, 0.5 + 3 * random_number(k, 3), z + w});
+      boxes.push_back({{x - w, -2, z - w}, {x + w, 0.5 + 3 * random_number(k, 3), z + w}});
     }
     pane = {Plate::parallelogram, {14, 14, 16}, {3, 0, -3}, {-0.5, 2.5, -0.5}};
-    surfaces = {water, std::make_shared<Solids>(boxes, std::vector<night_street::Plane>{}),
-                std::make_shared<Plates>(std::vector<Plate>{pane})};
+    surfaces = {water, std::make_shared<Boxes>(boxes), std::make_shared<Plates>(std::vector<Plate>{pane})};
   }
   void add_to(Tracer& tracer) const {
     for (const auto& surface : surfaces) tracer.add(surface);

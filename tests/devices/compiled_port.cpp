@@ -11,7 +11,7 @@
 #include "capture/pack_read.h"
 #include "devices/compiled.h"
 #include "devices/defined_passes.h"
-#include "drops/scalar.h"
+#include "drops/motion/scalar.h"
 #include "drops/records.h"
 #include "judge/slots.h"
 #include "rainref/error.h"

@@ -5,7 +5,7 @@
 
 #include "blur_pyramid/scalar.h"
 #include "capture/pass_case.h"
-#include "drops/splat_scalar.h"
+#include "drops/splat/scalar.h"
 #include "edge_splash/scalar.h"
 #include "pass/display_scalar.h"
 #include "pass/model.h"
@@ -14,7 +14,6 @@
 #include "rainy_glass/rain_on_glass_text.h"
 #include "screen_drops/scalar.h"
 #include "windshield/scalar.h"
-#include "windshield/surface_scalar.h"
 
 namespace rainref::devices {
 

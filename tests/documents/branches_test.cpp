@@ -25,7 +25,7 @@ std::string faces() {
   return image_io::png(4, 24, 8, 2, rows);
 }
 
-const std::string ground = rainref::test::source_folder() + "/tests/packs/ground.png";
+const std::string ground = rainref::test::pack_sources() / "ground.png", sun = rainref::test::pack_sources() / "sun.exr";
 
 const std::vector<Branch> branches{
     {"StepBetweenTexels", "puddle-as-published", {"puddle.step=1.5"}, "wave_step"},
@@ -53,8 +53,8 @@ const std::vector<Branch> branches{
      "threshold 0.3"},
     {"PrintedNormal", "screen_drops-as-published", {"drops.printed_normal=true"}, "drops", "threshold 0.3"},
     {"DryWindow", "screen_drops-corrected", {"flow.on=false"}, "drops", "wrong constant"},
-    {"Probe", "rainy_glass-as-published", {"glass.background=probe"}, "rain_on_glass"},
-    {"CorrectedProbe", "rainy_glass-corrected", {"glass.background=probe"}, "rain_on_glass"},
+    {"Probe", "rainy_glass-as-published", {"glass.background=probe", "glass.probe_image=" + sun}, "rain_on_glass"},
+    {"CorrectedProbe", "rainy_glass-corrected", {"glass.background=probe", "glass.probe_image=" + sun}, "rain_on_glass"},
     {"Ball", "rainy_glass-corrected", {"glass.shape=sphere"}, "rain_on_glass", "wrong constant"},
     {"Quartic", "windshield-as-published", {"windshield.kernel=quartic", "windshield.blend=max"}, "splat"},
     {"Smoothstep", "windshield-as-published", {"windshield.kernel=smoothstep", "windshield.accumulate=float"}, "splat"},
@@ -98,7 +98,7 @@ class PrintedBranches : public testing::TestWithParam<Branch> {
 
   static Outcome pack(const Branch& b) {
     // One frame: a formula takes the same way in each.
-    std::vector<std::string> arguments{"pack", (small_packs / (b.pack + ".toml")).string(), "--at", "12", "-o", b.name};
+    std::vector<std::string> arguments{"pack", rainref::test::pack_scene(b.pack).string(), "--at", "12", "-o", b.name};
     for (const std::string& setting : b.settings) arguments.insert(arguments.end(), {"--set", setting});
     Circumstances c;
     c.is_copy = true;

@@ -34,10 +34,6 @@ inline void give_live(const std::vector<Drop>& drops, Given& out) {
 }
 /// plane(u, v).
 inline Float2 plane(const Run& r, Float2 p) { return {r.u("frame", 0) * p.x + r.u("frame", 1) * p.y, r.u("frame", 2) * p.y}; }
-inline const From plane_and_life{
-    "docs/effects/windshield.md",
-    R"(| plane(u, v) [m] | (frame.x u + frame.y v, frame.z v); corrected: orthonormal in the glass; as-published: each axis by its own length, frame.y = 0 |
-A drop is live where life > 0. Lists hold live drops in any order; a port leaves dead ones out.)"};
 
 inline void spawn(const Run& r, Given& out) {
   give_live(drops_of(r), out);
@@ -333,93 +329,15 @@ inline bool splat(const Run& r, int x, int y, float* out) {
 }
 
 inline std::vector<Written> drops_on_glass_passes() {
-  const std::string document = "docs/effects/windshield.md";
   const std::vector<std::string> all{"windshield-as-published", "windshield-corrected", "screen_drops-corrected"},
       corrected{"windshield-corrected", "screen_drops-corrected"};
   return {
-      {all,
-       "spawn",
-       "wrong constant",
-       nullptr,
-       spawn,
-       {numbers_without_state,
-        {document,
-         R"(count  = sum over part < parts of first_count + number of thresholds not above block(5, step, part)[0];  at most room
-drop i: r = block(6, step, i);  position = (r[0] >> 8, r[1] >> 8) / 2²⁴, velocity 0, mass = spawn_masses[r[2] >> 22], life, id = first_id + i)"}}},
-      {{"windshield-as-published"},
-       "integrate",
-       "wrong constant",
-       nullptr,
-       integrate_published,
-       {plane_and_life,
-        {document,
-         R"(integrate         a = gravity·mass − acceleration·inertia_coupling + wind·wind_coupling − velocity·drag     of each axis, any order
-                  velocity += a dt;  position += velocity dt;  life −= dt                                  (Euler is chosen))"}}},
-      {corrected,
-       "integrate",
-       "wrong constant",
-       nullptr,
-       integrate_corrected,
-       {plane_and_life,
-        {document,
-         R"(                  stored row by row: (u of e_u, u of e_v, v of e_u, v of e_v)
-integrate         m = max(mass, 1)^(1/3),  i = 1/m,  j = i i;   |x| of glass vectors in the plane
-                  a = gravity + spin·position + coriolis·velocity + ((wind_push |wind|) i) wind          any order
-                  A = a · max(1 − hold j / max(|a|, 10⁻⁶), 0) · dt;   x = drag j dt
-                  e = exp(−x);  x < 1/8: g = 1/2 − x (1/6 − x (1/24 − x (1/120 − x (1/720)))), f = 1 − x g;  else f = (1 − e)/x, g = (1 − f)/x
-                  position += (velocity f + A g) dt;   velocity = velocity e + A f;   0 where that max is 0 and |velocity| < rest_speed
-                  loss = floor(evaporation·m·dt + phase),  phase = fract(fract(life / 64) · phase_rate), life of before;   mass = max(mass − loss, 0)
-                  life −= dt;  lives on while life > 0, mass > 0 and u, v in [−margin, 1 + margin])"}}},
-      {corrected,
-       "necks",
-       "wrong constant",
-       nullptr,
-       necks,
-       {plane_and_life,
-        {document,
-         R"(necks             r = radius · max(mass, 1)^(1/3);  who points to whom as in merge;  of drops that end, and of those that are not there, none
-                  footprints  A = max(1 − share, 1/8)^(1/3),  B = max(share, 0)^(1/3),  both times mix(1/A, 1, left)
-                  a neck stands out where left > 1/64 and |offset| left + B > A;  others are given up
-                  an old one  left = max(left keep − (|velocity| dt) / r, 0),  |velocity| in the plane
-                  a new one of the largest drop that points to this one:  offset = plane(other's position − its own) (1/r of both masses),
-                  share = mass₂ / max(mass + mass₂, 1),  left = 1;  the old one stays where that does not stand out or old share · left > share)"}}},
-      {corrected,
-       "merge",
-       "wrong constant",
-       nullptr,
-       merge,
-       {plane_and_life,
-        {document,
-         R"(merge             base radius = radius · max(mass, 1)^(1/3);  drops touch where |P₁ − P₂|² < (r₁ + r₂)²
-                  a drop points to the largest of the larger ones it touches (more mass, of equals lower id); chains end in an absorbing drop, which
-                  takes the others in ascending id, but none with mass₂ > 2²⁴ − mass:
-                  mass = sum, share = mass₂ / max(mass, 1), position and velocity = mix(own, other's, share); its id and life stay
-                  film = max(film − drying, 0);  then trails:  b = r / max(|velocity|, 10⁻¹²),  at = position − velocity b
-                  where at is in [0, 1)²:  q = max(min(mass − 1, floor((trail · r) (|velocity| · dt))), 0) leaves the drop; the texel of at takes it up to 2²⁴, the rest is lost)"}}},
-      {all,
-       "splat",
-       "wrong constant",
-       splat,
-       nullptr,
-       {plane_and_life,
-        {document,
-         R"(of a drop   root = max(mass, 0)^(1/3),  own = radius_scale · root,  R = max(own, smallest_radius),
-            h = (height_scale · root) (own / R)²,  0 for a dead drop
-gives       h · kernel(q²),  q² = |(frame.x Δx + frame.y Δy, frame.z Δy)|² (1/R²),  (Δx, Δy) = (x, y) − position · size
-leaning     corrected, longer, taper or skew not 0:  F = root² gravity + root wind,  d = F (1/max(|F|, 10⁻⁶)), (1, 0) unless |F| > 10⁻⁶,  load = min(|F|, 1)
-            l = 1 + longer load,  t = taper load,  k = skew load,  h = h / (l (1 + t k moment)),  P = (frame.x Δx + frame.y Δy, frame.z Δy)
-            a = d·P ((1/R) / l),  b = cross(d, P) (1/R) / max(1 + t a, 1/16);  gives h max(1 + k a, 0) · kernel(a² + b²)
-two         corrected, of a drop whose id a neck has, its left below n:  δ = n |offset|,  e = offset (1/max(|offset|, 10⁻⁶)),  A, B its footprints
-            a = −(share δ),  b = (1 − share) δ,  K = max((1.2 n) B², 10⁻⁶);  of a place x on the line along e:  X = (a² + (1 − A²)) − 2a x,
-            Y = (b² + (1 − B²)) − 2b x,  L(x) = min(X, Y) − max(K − |X − Y|, 0)² ((1/4) / K)
-            gives h · kernel(max(q² + L(e·P (1/R)), 0));  leaning, load (1 − n) for load, a² + b² for q², and e·d a + cross(d, e) b for e·P (1/R)
-            h = h (V₀ / max(V l, 10⁻⁶)),  t = (2i + 1 − 16) / 16, i < 16,  x = ½ ((b + B) + (a − A)) + l t,  l = ½ ((b + B) − (a − A))
-            V = sum of section(max(1 − (x² + L(x)), 0)),  V₀ of section(1 − t²),  M of x section(…)
-            leaning, then  h = h (u / max(u + (t + k) (e·d M / max(V, 10⁻⁶)), 1/4)),  u = 1 + t k moment
-section(c)  0: c √c   1: c² √c   2: (c² √c) c^(1/3)   3: c   4: √c
-kernel      0: max(1 − q², 0)   1: max(1 − q², 0)²   2: 1 − smoothstep(0, 1, q)   3: √max(1 − q², 0)   4: 1 where q² ≤ 1
-blend       in the order of the list, from 0:  0: add   1: max   2: add, rounded to half after each drop
-corrected   + film_scale · tent(film),  tent(a, b, c) = ½ b + ¼ (a + c) of columns, then of rows, edge texels repeated)"}}},
+      {all, "spawn", "wrong constant", nullptr, spawn},
+      {{"windshield-as-published"}, "integrate", "wrong constant", nullptr, integrate_published},
+      {corrected, "integrate", "wrong constant", nullptr, integrate_corrected},
+      {corrected, "necks", "wrong constant", nullptr, necks},
+      {corrected, "merge", "wrong constant", nullptr, merge},
+      {all, "splat", "wrong constant", splat},
   };
 }
 

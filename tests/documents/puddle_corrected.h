@@ -121,8 +121,6 @@ inline float exact_fresnel(float c, float n) {
   const float across = (n * c - t) / (n * c + t), along = (c - n * t) / (c + n * t);
   return 0.5f * (across * across + along * along);
 }
-inline const From exact_fresnel_line{
-    "docs/effects/puddle.md", R"(Fresnel(c): t = √max(1 − (1 − c²) (1/n²), 0),  ½ (((n c − t) / (n c + t))² + ((c − n t) / (c + n t))²))"};
 
 inline bool shade_corrected(const Run& r, int x, int y, float* out) {
   const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };
@@ -170,85 +168,12 @@ inline bool shade_corrected(const Run& r, int x, int y, float* out) {
 }
 
 inline std::vector<Written> puddle_corrected_passes() {
-  const std::string document = "docs/effects/puddle.md";
   return {
-      {{"puddle-corrected"},
-       "raindrops",
-       "wrong constant",
-       nullptr,
-       raindrops_corrected,
-       {numbers_without_state,
-        {document,
-         R"(drops in the step    = first_count + number of thresholds not above block(1, step, 0)[0];   none where there are no craters
-drop i: r = block(2, step, i)     crater = craters[r[2] >> 22],  x = (((r[0] >> 16) · columns) >> 8) / 256,  y likewise from r[1] and rows
-where shelter_columns > 0:  those alone with r[3] >> 16 below shelter[column + shelter_columns · row],  column = ((r[0] >> 16) · shelter_columns) >> 16,
-                            row likewise from r[1] and shelter_rows
-behind them all:            the object_count records of objects
-A crater that reaches over an edge is followed by its images with x' in (x, −x, 2 columns − x) (reflecting) or (x, x − columns, x + columns)
-(periodic), y' likewise, y' in the outer loop, of those that reach into the rectangle (x' + radius > 0, x' − radius < columns), the drop itself)"}}},
-      {{"puddle-corrected"},
-       "wave_step",
-       "crater 2 s for 4 s",
-       wave_step_of_document,
-       nullptr,
-       {{document,
-         R"(L        = ((u₋ₓ + u₊ₓ) + (u₋z + u₊z)) − 4u                     the four neighbours in any order
-craters  = sum over drops, in order:  k = 1 / radius,  s = ((i + ½ − x) k)² + ((j + ½ − y) k)²,
-           amplitude · (max(1 − s, 0)² (1 − 4s))
-kept     = 1 − rim_damping d²,  d = max(1 − rim_inverse · edge, 0),  edge = the least of i + ½, size.x − (i + ½), j + ½, size.y − (j + ½)
-where rim_damping > 0:  p = rest + kept (p − rest)
-next     = ((u + damping (u − p)) + courant_sq · L) + craters
-new newest = next, or with `shore` w or a rim  rest + (w kept) (next − rest);  new previous = u + craters, or u + w craters)"}}},
-      {{"puddle-corrected"},
-       "surface_hit",
-       "wrong constant",
-       surface_hit_corrected,
-       nullptr,
-       {puddle_conventions,
-        {document,
-         R"(**surface_hit**, o the eye, d the ray, f = max(−d.y, 10⁻⁴), r = √(d.x² + d.z²), height(s) = height_scale · wave(s) + height_bias, bilinear, clamped:
-no hit       −d.y ≤ 10⁻⁴: position o, steps 0, normal (0, 1, 0), flag 0.   Otherwise flag 1
-place        s(t) = o.xz · inverse_size + ½ + t d.xz · inverse_size;   t₀ = o.y (1/f), where the ray crosses y = 0
-bounds       (top, S) = bounds at s(t₀) · bounds_scale, nearest;   surface_top and surface_slope instead
-             where s(t₀) is outside [0, 1]² or top · r > bounds_reach · f
-interval     [t₁, t₂] = [0, min((o.y + top) (1/f), 10⁴)] cut with |x| ≤ half_size.x and |z| ≤ half_size.z by 1/d.x, 1/d.z (|·| < 10⁻⁸ counts as 10⁻⁸)
-             t₁ > t₀: no water.   t₁ = max(t₁, (o.y − top) (1/f));   t₁ ≥ t₂: no water.   No water: position at t₀, normal up, steps 0
-march        t = t₁, e = 0, Δ = 0;  h = S r;  for round i = 0, 1, … below max_steps:
-               e′ = (o.y + (t + Δ) d.y) − height(s(t + Δ)),   safe = e (1 / (f + h)),   steps = i
-               Δ ≤ safe + max(e′, 0) (1 / max(h − f, 10⁻⁴)):  t = t + Δ, e = e′, Δ = e (1 / (f + h/2));  end if e < epsilon or t ≥ t₂
-               otherwise:  Δ = safe
-normal       t ≥ t₂: no water, as above but for the steps.   Otherwise with s(t) held between the outermost texel centres, and L, R, D, U the wave
-             one texel to each side of it, with its weights: g = normal_gain · height_scale (L − R, D − U),   normal = normalize(g.x, 1, g.y)
-Newton       c = f − g · d.xz;   0 ≤ e < epsilon and c ≥ f/2:  t = t + e · min(1 / c, 2 (1 / (f + h)));   position = o + t d)"}}},
-      {{"puddle-corrected"},
-       "shade",
-       "wrong constant",
-       shade_corrected,
-       nullptr,
-       {puddle_conventions,
-        exact_fresnel_line,
-        {document,
-         R"(**shade**, flag not above ½: environment(rotate(v)) at background_level. Otherwise:
-depth  = bed at p.xz · inverse_size + ½, bilinear, border;   w = smoothstep(0, shore_width, depth)
-lod    = 0, plus 1 for each of √2, 2√2, 4√2, … (twelve) that ground_footprint · |p − eye| / max(−v.y, .02) reaches
-n      = the stored normal;  where w < 1: normalize(mix((relief.x, 1, relief.y), n, w)), relief at p.xz · ground_scale, level lod
-c      = clamp(−v · n, .001, 1)
-F      = Fresnel(c) · (reflectivity · mix(wetness, 1, w))            exact if exact_fresnel, else Schlick as above; n = 1.333
-mirror = environment(rotate(m)) at level mix(gloss_level, mirror_level, w),  m = reflect(v, n) with m.y = |m.y|
-b      = refract(v, n, 1 / 1.333);   column = max(depth, 0);   path = column / max(−b.y, .05);   g = p.xz + path b.xz
-albedo = checkerboard(g), or ground at g · ground_scale, level lod;   where column > 0: mix(tint, albedo, exp(−(water_turbidity · (path + column))))
-L      = F · mirror + (1 − F) · (albedo · ambient)
-colour = mix(fog_colour, L, exp(−(fog_depth · |p − eye|))) where fog_depth > 0, else L
-         where ground_reach > 0: mix(colour, environment(rotate(v)) at background_level, smoothstep(0, ground_reach, |max(|p.xz · inverse_size| − ½, 0)|))
-F       = f0 + (1 − f0) ((m² · m²) · m),  m = 1 − min(|v · n|, 1),  f0 = ((1 − 1.333) / (1 + 1.333))²
-checkerboard: k = floor(x ground_scale) + floor(z ground_scale), mix((.15, .12, .10), (.25, .22, .20), k − 2 floor(k · ½)).)"}}},
-      {{"puddle-corrected"},
-       "display",
-       "offset 0.55 for 0.055",
-       puddle_display,
-       nullptr,
-       {{document,
-         R"(**display**: srgb(clamp((max(1 − vignette · length(as above), 0) · exposure) · colour, 0, 1)); srgb(x) = 12.92 x for x ≤ .0031308, else 1.055 x^(1/2.4) − .055.)"}}},
+      {{"puddle-corrected"}, "raindrops", "wrong constant", nullptr, raindrops_corrected},
+      {{"puddle-corrected"}, "wave_step", "crater 2 s for 4 s", wave_step_of_document},
+      {{"puddle-corrected"}, "surface_hit", "wrong constant", surface_hit_corrected},
+      {{"puddle-corrected"}, "shade", "wrong constant", shade_corrected},
+      {{"puddle-corrected"}, "display", "offset 0.55 for 0.055", puddle_display},
   };
 }
 

@@ -15,13 +15,6 @@ inline Float3 view_ray(const Run& r, int i, int j) {
   if (r.is("ray not normalized")) return (r.u3("camera_forward") + right * r.u3("camera_right")) + up * r.u3("camera_up");
   return normalize((r.u3("camera_forward") + right * r.u3("camera_right")) + up * r.u3("camera_up"));
 }
-inline const From puddle_conventions{
-    "docs/effects/puddle.md",
-    R"(| view ray d | normalize(forward + (plane_left + (i + ½) pixel_scale) right + (plane_bottom + (j + ½) pixel_scale) up) |
-| environment, latitude/longitude | u = ½ + atan2(z, x) (1/2π), repeat; v = ½ + atan2(y, √(x² + z²)) (1/π), clamp; row 0 looks straight down |
-| environment, cube | faces +x −x +y −y +z −z in one column, oriented as graphics APIs do, first row first, of equal components x before y before z; level floor(lod + ½); face coordinates are held half a texel inside the face |
-| rotate(d) | (c d.x + s d.z, d.y, c d.z − s d.x), (c, s) = rotation |
-| ground | u = x ground_scale, v = z ground_scale, repeat |)"};
 
 struct Crater {
   float x, y, amplitude, radius;
@@ -182,72 +175,13 @@ inline bool shade_published(const Run& r, int x, int y, float* out) {
 }
 
 inline std::vector<Written> puddle_published_passes() {
-  const std::string document = "docs/effects/puddle.md";
   return {
-      {{"puddle-as-published"},
-       "raindrops",
-       "33 for 33.33",
-       nullptr,
-       raindrops_published,
-       {{document, R"(t = time · rain_speed    offset = .3711 i    seed = (floor(t) + offset, 17.3 i)
-x, y = hash22(seed) · (width, height)        strength = drop_intensity (½ + ½ hash12(seed + 1))
-pulse = fract(t + .7 offset)                 amplitude = strength · (smoothstep(0, .15, pulse) · smoothstep(.35, .2, pulse)),  radius = 4
-hash22(x, y): p = fract(x·.1031, y·.1030, x·.0973), q = p + dot(p, p.yzx + 33.33), (fract((q.x + q.y) q.z), fract((q.x + q.z) q.y))
-hash12(x, y): p = fract(x·.1031, y·.1031, x·.1031), q likewise, fract((q.x + q.y) q.z))"}}},
-      {{"puddle-as-published"},
-       "wave_step",
-       "wider drops",
-       wave_step_published_of_document,
-       nullptr,
-       {{document, R"(**wave_step**, texel (i, j), s0 its previous level, s1 … s4 the newest at −v, −u, +u, +v, `step` texels away:
-d = −2 (s0 − ½) + ((((s1 + s2) + s3) + s4) − 2)          the four neighbours in any order
-d = d · damping
-for each drop with amplitude > .01, in order:  d = d + amplitude · smoothstep(4, .5, length(drop.xy − (i + ½, j + ½)))
-new newest = d · ½ + ½         new previous = newest
-With `step` = k + f, k whole and f > 0, a neighbour is mix(texel k away, texel k + 1 away, f). The channels of an rgba8 wave beyond two are 0.)"}}},
-      {{"puddle-as-published"},
-       "surface_hit",
-       "wrong constant",
-       surface_hit_published,
-       nullptr,
-       {puddle_conventions,
-        {document,
-         R"(**surface_hit**, s(p) the *previous* level at u = ½ (p.x / half_size.x + 1), v = ½ (p.z / half_size.z + 1), bilinear:
-p = eye;  for round = 0, 1, … below max_steps:
-  D = length(max(|p + (0, s(p), 0)| − half_size, 0));  steps = round
-  end if D < epsilon or D ≥ 1000;  p = p + D · d
-hit where D < epsilon, flag 1; otherwise p = eye, steps = max_steps − 1, flag 0
-normal = normalize(normal_gain (sL − sR), 1, normal_gain (sD − sU)), s one `texel` to each side of p)"}}},
-      {{"puddle-as-published"},
-       "ground_noise",
-       "",
-       ground_noise_published,
-       nullptr,
-       {puddle_conventions, {document, R"(noise   = fract(sin(12.9898 g.x + 78.233 g.z) · 43758.5453), ½ where t ≤ 0)"}}},
-      {{"puddle-as-published"},
-       "shade",
-       "wrong constant",
-       shade_published,
-       nullptr,
-       {puddle_conventions,
-        {document,
-         R"(**ground_noise** (of misses too), **shade**, p the stored position, n the stored normal, not normalized again, v the view ray; a hit where the flag is above ½:
-F       = f0 + (1 − f0) ((m² · m²) · m),  m = 1 − min(|v · n|, 1),  f0 = ((1 − 1.333) / (1 + 1.333))²
-mirror  = environment(rotate(reflect(v, n)))^2.2, level 0;  without a hit colour = environment(rotate(v))^2.2 and nothing else
-r       = refract(v, n, 1 / 1.333);   t = (−puddle_depth − p.y) / r.y, or −1 where |r.y| < .0001 or t ≤ 0
-g       = p + t r, or (0, 0) in x and z where t ≤ 0
-noise   = fract(sin(12.9898 g.x + 78.233 g.z) · 43758.5453), ½ where t ≤ 0
-ground  = checkerboard(g) + (noise − ½) · .05,  or  .6 · image(g)^2.2
-below   = (.7 (1 − ½ tint)) · mix(tint, ground, exp(−(water_turbidity · max(t, 0)))),  .3 tint where t ≤ 0
-colour  = mix(below, mirror, F (mix(.3, .8, reflectivity) − .3) + .3) + (.15 (1 − F)) tint
-colour  = mix(.7 colour, colour, exp(−(fog_depth · |p − eye|)))
-checkerboard: k = floor(x ground_scale) + floor(z ground_scale), mix((.15, .12, .10), (.25, .22, .20), k − 2 floor(k · ½)).)"}}},
-      {{"puddle-as-published"},
-       "display",
-       "exponent 1/2.4",
-       puddle_display,
-       nullptr,
-       {{document, R"(**display**: ((1 − vignette · length((i + ½) / width − ½, (j + ½) / height − ½)) · colour)^.4545)"}}},
+      {{"puddle-as-published"}, "raindrops", "33 for 33.33", nullptr, raindrops_published},
+      {{"puddle-as-published"}, "wave_step", "wider drops", wave_step_published_of_document},
+      {{"puddle-as-published"}, "surface_hit", "wrong constant", surface_hit_published},
+      {{"puddle-as-published"}, "ground_noise", "", ground_noise_published},
+      {{"puddle-as-published"}, "shade", "wrong constant", shade_published},
+      {{"puddle-as-published"}, "display", "exponent 1/2.4", puddle_display},
   };
 }
 

@@ -126,77 +126,13 @@ inline bool rain_on_glass_corrected(const Run& r, int i, int j, float* out) {
 }
 
 inline std::vector<Written> rainy_glass_document_passes() {
-  const std::string document = "docs/effects/rainy_glass.md";
   const std::vector<std::string> both{"rainy_glass-as-published", "rainy_glass-corrected"};
-  const From maps{
-      document,
-      R"(wrap(x) = x − floor(x + ½). Texel centre P, P = ((i, j) + ½) inverse_size. stored(g): w = normal_scale g, neutral − span (w / √(1 + w.x² + w.y²)).)"};
   return {
-      {both,
-       "bake_raindrops",
-       "axes of the ellipse exchanged",
-       bake_droplets,
-       nullptr,
-       {maps,
-        {document,
-         R"(bake_raindrops  each droplet, in order, M = (m00 m01; m01 m11):  D = wrap(P − (x, y)),  q = M D,  h = height (1 − (q.x² + q.y²))
-                the highest h > 0 gives A = h and g = −2 height M q;  RG = stored(g);  without one A = 0, g = 0
-                B = offset of the droplet of least |D|² (as-published) or |D|² − radius² (corrected), the first of equals, below 4)"}}},
-      {both,
-       "bake_rivulets",
-       "wrong constant",
-       bake_rivulets,
-       nullptr,
-       {maps,
-        {document,
-         R"(bake_rivulets   each trail, in order:  dy = fract(P.y − y + ⅛) − ⅛,  a = 2π wrap(wiggle_rate dy + wiggle_phase),  dx = wrap(P.x − x) − wiggle sin a
-                tail: dy ≥ 0;  along = dy inverse_length on the tail, else dy² / half_width²;  h = height (1 − along − dx² / half_width²)
-                the highest h > 0 gives g:  c = −2 height dx / half_width²,  g.x = c,
-                g.y = (−height inverse_length on the tail, else −2 height dy / half_width²) − c (2π wiggle wiggle_rate cos a);  RG = stored(g)
-                B, A = neutral + span clamp(flow_gain (noise(flow_cells) + ½ noise(2 flow_cells)), −1, 1), of the lattice's channels 0, 1 and 2, 3
-noise(k)        gradient noise of k cells a side: corner gradients lattice(column, row), indices modulo k, dot with the offset to the corner,
-                mixed by t³ (t (6t − 15) + 10), columns first)"}}},
-      {{"rainy_glass-as-published"},
-       "rain_on_glass",
-       "wrong constant",
-       rain_on_glass_of_article,
-       nullptr,
-       {{document,
-         R"(rain_on_glass   (R, G, B, A) = raindrops((u, v) drop_tiles);   timer = fract(time · drop_rate + B)
-                mask = 1 where A − (1 − rain_amount) − timer > 0, else 0
-                r = (u, v) rivulet_tiles,  flow = rivulets(r).BA,  p₁ = fract(time · flow_rate),  p₂ = fract(time · flow_rate + ½),  w = |1 − 2 p₁|
-                rivulet = mix(RG at r + flow (flow_strength p₁), RG at r + flow (flow_strength p₂), w)
-                d = mask (R, G) + (1 − |n.y|) rivulet;   s = pixel centre · pixel + distortion (2d − 1)
-                colour = scene(s);  with use_probe the probe along forward + X right + Y up, (X, Y) = (2s − 1)(half_width, half_height)
-                where coverage ≤ ½: the scene's own texel)"}}},
-      {{"rainy_glass-corrected"},
-       "rain_on_glass",
-       "wrong constant",
-       rain_on_glass_corrected,
-       nullptr,
-       {{document,
-         R"(| `surface`, `orientation` | rgba32f: u, v, distance along the view axis, 0; rgba16f: n, coverage |
-| probe | u = ½ + atan2(z, x) (1/2π), v = ½ + atan2(y, √(x² + z²)) (1/π), row 0 looks straight down |
-slope(R, G)     (x, y) = ((R, G) − neutral) scale,   −(x, y) / √max(1 − x² − y², .04)              neutral and scale of each map
-droplets        amount = rain_amount · saturate(n · rain_to),   timer = fract(drop_phase + B)
-                shown = saturate((A − (1 − amount) − max(1 − timer (1 / impact), (timer − impact) (1 / (1 − impact)))) sharpness)
-rivulets        flow = ((BA − neutral) scale)(flow_strength, run_strength),   p₁ = fract(flow_phase),  p₂ = fract(flow_phase + ½),  w = |1 − 2 p₁|
-                RG = mix(at r + (0, scroll) + flow (p₁ − ½), at r + (0, scroll) + flow (p₂ − ½), w),   BA at r
-slope           s = shown · slope(raindrops) + (rivulet_amount · steep) slope(rivulets),   steep = √(n.x² + n.z²);   wet where s.x² + s.y² > 10⁻⁸
-prism           k = 1 / max(steep, .05);   a = (n.z k, 0, −n.x k),   b = (n.y a.z, n.z a.x − n.x a.z, −n.y a.x)
-                rise = s.x a + s.y b;   (x, y) = bend (rise · right, rise · up)
-seen            coverage > ½, scene_depth > distance, wet;   c = pixel centre · pixel
-                use_probe: the probe along forward + X right + Y up, (X, Y) = (2c − 1)(half_width, half_height) + (x, y)
-                else S = c + (x, y) saturate(1 − distance / max(scene_depth, 10⁻³)) (½ / half_width, ½ / half_height)
-                scene(S) where near_depth(S) > distance, bilinear;   elsewhere and where not seen the scene's own texel)"}}},
-      {both,
-       "display",
-       "wrong constant",
-       display_of_document,
-       nullptr,
-       {curve_of_display,
-        {document,
-         R"(| `display` | each frame | `colour` | `picture` rgba8: srgb(clamp(exposure · colour, 0, 1)), srgb as in [puddle](puddle.md#corrected) |)"}}},
+      {both, "bake_raindrops", "axes of the ellipse exchanged", bake_droplets},
+      {both, "bake_rivulets", "wrong constant", bake_rivulets},
+      {{"rainy_glass-as-published"}, "rain_on_glass", "wrong constant", rain_on_glass_of_article},
+      {{"rainy_glass-corrected"}, "rain_on_glass", "wrong constant", rain_on_glass_corrected},
+      {both, "display", "wrong constant", display_of_document},
   };
 }
 

@@ -15,11 +15,7 @@ inline bool background_corrected(const Run& r, int x, int y, float* out) {
   for (int k = 0; k < r.whole("tap_count"); ++k)
     sum = sum + r.trilinear3("scene", at.x + r.of("taps", k, "x"), at.y + r.unless("taps in a row", r.of("taps", k, "y"), 0.0f), level);
   sum = r.unless("taps not averaged", r.u("weight"), 1.0f) * sum;
-  out[0] = sum.x;
-  out[1] = sum.y;
-  out[2] = sum.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, sum);
 }
 
 inline bool cells(const Run& r, int i, int j, float* out) {
@@ -93,75 +89,13 @@ inline bool drops_corrected(const Run& r, int i, int j, float* out) {
 }
 
 inline std::vector<Written> screen_drops_passes() {
-  const std::string document = "docs/effects/screen_drops.md";
   return {
-      {{"screen_drops-as-published"},
-       "background",
-       "level 3.5",
-       background_published,
-       nullptr,
-       {{document, R"(background  scene(u, level), trilinear;   u = (pixel + ½) / resolution,  level = 2.5)"}}},
-      {{"screen_drops-as-published"},
-       "drops",
-       "threshold 0.3",
-       screen_drops_published,
-       nullptr,
-       {{document,
-         R"(drops       n = noise(u · .1).rg;   shift = (n − noise_middle) · displacement,  with printed_misprint (1 − noise_middle) · displacement
-            colour = background, water = 0;   for r = layers, …, 2, 1, a later one over an earlier:
-              x = resolution · r · grid,   p = cell_angle u x + shift,   d = noise(floor((u x − ¼) + ½) / x)
-              t = (sin p.x + sin p.y) · max(0, 1 − fract(time · (d.b + .1) + d.g) · 2)
-              where d.r < (keep_from − r) keep and t > threshold:
-                v = (cos p.x, cos p.y, mix(.2, 2, t − ½)) / its length,   with printed_normal cos(sin p)
-                colour = scene(u + refraction · v.xy), finest level, bilinear, clamped;   water = r · water_step
-noise       repeats; bilinear, with noise_nearest texel floor(fract(u) · size))"}}},
-      {{"screen_drops-corrected"},
-       "background",
-       "wrong constant",
-       background_corrected,
-       nullptr,
-       {{document,
-         R"(**background**: weight · the sum over taps, in order, of scene(pixel centre · scale + offset + tap, level), trilinear. The taps are 24 on a sunflower's spiral over the)"}}},
-      {{"screen_drops-corrected"},
-       "cells",
-       "wrong constant",
-       cells,
-       nullptr,
-       {numbers_without_state,
-        {document,
-         R"(**cells**, texel (i, j) of layer l with first_row[l] ≤ j < first_row[l] + rows[l], i < columns[l]; elsewhere 0. Unsigned modulo 2³², `block` as in
-id = i | (j − first_row[l]) << 16;   own = block(62, id, l)
-length = shortest + ((own[0] >> 16) · span >> 16),   start = (own[1] >> 16) · length >> 16
-time = tick + start,   cycle = time / length;   drop = block(63, id, 4 cycle + l);   where drop[0] >> 16 ≥ keep: 0
-size, x, y = drop[1], drop[2], drop[3] >> 16, over 65536;   phase = ((time mod length) << 16) / length, over 65536
-R = largest / √(1 + 3 size);   share = min(phase · (1 / impact), (1 − phase) · (1 / (1 − impact)))
-centre = ½ + ((x, y) − ½)(1 − 2R);   radius = R √max(share, 0))"}}},
-      {{"screen_drops-corrected"},
-       "drops",
-       "wrong constant",
-       drops_corrected,
-       nullptr,
-       {exact_fresnel_line,
-        {document,
-         R"(still     s = (x, y, cover, level) = 0;   for l = 3, 2, 1, 0:
-            q = P · cells_per_pixel[l] + (offset_x[l], offset_y[l]),   c = cells(floor(q.x), floor(q.y) + first_row[l])
-            d = fract(q) − c.xy,   k = saturate((c.z − |d|) pixels_per_cell[l] + ½) · min(2 c.z pixels_per_cell[l], 1)
-            s = mix(s, (d · sine / max(c.z, 10⁻³), 1, level[l]), k)
-flow      with has_flow:  heights L, R, D, U at P · flow_pixel, one flow_texel to each side, bilinear
-            k = smoothstep(visible_from, visible_to, ¼ (L + R + D + U)),   g = ((R − L) flow_slope.x, (U − D) flow_slope.y)
-            s = mix(s, (−g / √(1 + g.x² + g.y²), 1, flow_level), k)
-bend      v = normalize(P · pixel − half_size, 1);   n = normalize(s.x, s.y, √max(1 − s.x² − s.y², .04))
-            b = refract(refract(v, (0, 0, −1), 1 / water_ior), −n, water_ior);   F = Fresnel(saturate(b · n)), exact, as in puddle, index water_ior
-            seen = scene(½ + b.xy / max(b.z, .05) · scene_scale, s.level), trilinear, clamped
-colour    where cover > 0: mix(background, mix(seen, inner · background, F), cover);   else background.   water = cover)"}}},
-      {{"screen_drops-as-published", "screen_drops-corrected"},
-       "display",
-       "wrong constant",
-       display_of_document,
-       nullptr,
-       {curve_of_display,
-        {document,
-         R"(| `display` | each frame | `colour` | `picture` rgba8: srgb(clamp(exposure · colour, 0, 1)), srgb as in [puddle](puddle.md#corrected) |)"}}},
+      {{"screen_drops-as-published"}, "background", "level 3.5", background_published},
+      {{"screen_drops-as-published"}, "drops", "threshold 0.3", screen_drops_published},
+      {{"screen_drops-corrected"}, "background", "wrong constant", background_corrected},
+      {{"screen_drops-corrected"}, "cells", "wrong constant", cells},
+      {{"screen_drops-corrected"}, "drops", "wrong constant", drops_corrected},
+      {{"screen_drops-as-published", "screen_drops-corrected"}, "display", "wrong constant", display_of_document},
   };
 }
 

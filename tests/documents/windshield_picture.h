@@ -8,6 +8,18 @@
 
 namespace rainref::documents {
 
+/// A pixel's centre, and where its ray meets a pane.
+struct PlaceOnPane {
+  Float3 q;
+  float u, v;
+  bool on;
+};
+inline PlaceOnPane place_on_pane(const Run& r, int x, int y) {
+  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
+  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
+  return {q, u, v, m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1};
+}
+
 struct GlassFrame {
   Float2 gravity, wind, acceleration;
   std::uint32_t id = 0, padding = 0;
@@ -90,23 +102,13 @@ inline bool falling_rain(const Run& r, int x, int y, float* out) {
     colour = mix(colour, Float3{number(i, "radiance"), number(i, "radiance", 1), number(i, "radiance", 2)},
                  number(i, "opacity") * covered * before);
   }
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline bool join_panes(const Run& r, int x, int y, float* out) {
-  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
-  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
-  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const auto [q, u, v, on] = place_on_pane(r, x, y);
   const Float3 colour = on ? constant(r, 1, 1.1f) * r.rgb("pane_colour", x, y) : r.rgb("colour", x, y);
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline bool smear(const Run& r, int x, int y, float* out) {
@@ -136,9 +138,7 @@ inline bool condense(const Run& r, int x, int y, float* out) {
 }
 
 inline bool soften(const Run& r, int x, int y, float* out) {
-  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
-  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
-  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const auto [q, u, v, on] = place_on_pane(r, x, y);
   const Float3 film = r.linear3("smear", saturate(u), saturate(v));
   const float share = on ? r.u("most") * film.z : 0;
   const Float2 G{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
@@ -151,17 +151,11 @@ inline bool soften(const Run& r, int x, int y, float* out) {
     sum = sum + r.of("deflections", i, "weight") * r.trilinear3("blurred", S.x + tangent * turned.x, S.y + tangent * turned.y, r.u("lod"));
   }
   if (share > 0) colour = mix(colour, sum, constant(r, 1, 0.9f) * share);
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline bool mist(const Run& r, int x, int y, float* out) {
-  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
-  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
-  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const auto [q, u, v, on] = place_on_pane(r, x, y);
   const float share = on ? constant(r, 1, 0.9f) * r.linear("condensation", saturate(u), saturate(v)) : 0;
   const Float2 G{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
   const Float2 S{0.5f + G.x * r.u("scene_scale", 0), 0.5f + G.y * r.u("scene_scale", 1)};
@@ -170,11 +164,7 @@ inline bool mist(const Run& r, int x, int y, float* out) {
     sum = sum + r.trilinear3("blurred", S.x + r.of("taps", i, "x"), S.y + r.of("taps", i, "y"), r.u("lod"));
   const Float3 light = mix(r.u("weight") * sum, r.trilinear3("blurred", S.x, S.y, 15), r.u("veil"));
   const Float3 colour = mix(r.rgb("colour", x, y), light, share);
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline bool interior(const Run& r, int x, int y, float* out) {
@@ -222,161 +212,27 @@ inline bool composite_corrected(const Run& r, int x, int y, float* out) {
     colour = colour + power(along, r.u("shininess")) * (r.u("glint_strength") * film) * of("radiance");
   }
   if (!on) colour = r.u3("cabin");
-  out[0] = colour.x;
-  out[1] = colour.y;
-  out[2] = colour.z;
-  out[3] = 1;
-  return true;
+  return give_opaque(out, colour);
 }
 
 inline std::vector<Written> windshield_picture_passes() {
-  const std::string document = "docs/effects/windshield.md";
   const std::vector<std::string> both{"windshield-as-published", "windshield-corrected"};
-  const From composite_of_both{
-      document,
-      R"(composite         pixel centre q = (x, y, 1):  m = w_row·q,  k = 1 / max(m, 10⁻⁶),  (u, v) = (u_row·q, v_row·q) k
-                  on glass: m > 10⁻⁶, u and v in [0, 1];  (u, v) clamped;  image plane G = q.xy · pixel − half_size;  distance = glass_distance · k
-                  n, height, mask at (u, v): n.z at least .05, mask saturated;  wet = 1 − mask
-                  vis = smoothstep(visible_from, visible_to, height) · wet;   S = ½ + G · scene_scale
-                  sharp(S) = level 0 of blurred, blur(S) = level blur_lod, trilinear
-                  each glint, where vis > 0: + pow(max(saturate(N·h / max(|h|, 10⁻⁴)), 10⁻⁴), shininess) (glint_strength · vis) radiance
-                  mix(cabin, colour, on glass))"};
   return {
-      {{"windshield-as-published"},
-       "windshield_frame",
-       "wrong constant",
-       nullptr,
-       windshield_frame_published,
-       {{document,
-         R"(windshield_frame  w = world_wind − vehicle_velocity;   wind = (c w.x + s w.y, c w.y − s w.x, w.z),  (c, s) = heading
-                  each f of (0, 0, −gravity), wind, acceleration:  (f·e_u inverse_metric.x, f·e_v inverse_metric.z);  spin, coriolis, id 0)"}}},
-      {{"windshield-corrected"},
-       "windshield_frame",
-       "wrong constant",
-       nullptr,
-       windshield_frame_corrected,
-       {{document,
-         R"(windshield_frame  w = world_wind − vehicle_velocity;   wind = (c w.x + s w.y, c w.y − s w.x, w.z),  (c, s) = heading
-windshield_frame  project(f) = inverse metric · (f·e_u, f·e_v),  inverse_metric = (uu, uv, vv)
-                  rot(p) = (α p.y + ω² p.x, ω² p.y − α p.x, 0),  cor(v) = (2ω v.y, −2ω v.x, 0),  ω = yaw_rate, α = yaw_acceleration
-                  gravity = project((−a.x, −a.y, −(gravity + a.z)) + rot(origin)), a = acceleration;  wind = project(wind);  acceleration = 0
-                  spin columns project(rot(e_u)), project(rot(e_v));  coriolis columns project(cor(e_u)), project(cor(e_v))
-                  stored row by row: (u of e_u, u of e_v, v of e_u, v of e_v))"}}},
-      {both,
-       "normals",
-       "slope doubled",
-       windshield_normals,
-       nullptr,
-       {{document,
-         R"(normals           H = height·(1 − mask) of each tap, edge texels repeated;  normalize(−slope_x (H₊ₓ − H₋ₓ), −slope_y (H₊y − H₋y), 1)
-normals           k = 1 − mask here;  ∂x = height₊ₓ − height₋ₓ, ∂y likewise
-                  normalize(−k slope_x ∂x, −k (slope_shear ∂x + slope_y ∂y), 1))"}}},
-      {both,
-       "blur_pyramid",
-       "base 2",
-       blur_pyramid,
-       nullptr,
-       {{document,
-         R"(blur_pyramid      level 0: mix(fog_colour, colour, exp(−(fog_density · max(depth, 0))));  else ¼ of the sum of 2 × 2 texels from (2x, 2y)
-blur_pyramid      level 0 as above;  else B(0) + w₁ (B(1) − B(0)) + w₂ (B(2) − B(0)), w₁ = middle, w₂ = last · (x + 1), of texels from 2x on, mirrored at
-                  the edges (−1 is 0, −2 is 1):  B(i) = (⅜ tᵢ + ¼ (tᵢ₋₁ + tᵢ₊₁)) + 1/16 (tᵢ₋₂ + tᵢ₊₂);  in each of seven columns over rows first, then over them)"}}},
-      {{"windshield-as-published"},
-       "composite",
-       "linear visibility",
-       composite_published,
-       nullptr,
-       {composite_of_both,
-        {document, R"(                  colour = mix(mix(sharp(S), blur(S), wetness · wet), sharp(S + refraction · vis · n.xy), vis)
-                  h = direction + eye,  eye = −(G, 1) / |(G, 1)|,  N = −(n.x plane_x + n.y plane_y + n.z outward))"}}},
-      {{"windshield-corrected"},
-       "composite",
-       "wrong constant",
-       composite_corrected,
-       nullptr,
-       {composite_of_both,
-        exact_fresnel_line,
-        {document,
-         R"(composite         as above to vis, which is smoothstep(visible_from, visible_to, height) alone;  d = normalize(G, 1)
-                  N = n.x plane_x + n.y plane_y + n.z outward;  b = refract(refract(d, −outward, 1 / water_ior), −N, water_ior)
-                  F = Fresnel(saturate(b·N)), index water_ior, exact formula of puddle's shade
-                  far = max(scene_depth(S) − distance, 0),  share = distance / max(distance + far, 10⁻³)
-                  S′ = ½ + mix(b.xy / max(b.z, .05), G, share) · scene_scale
-                  colour = mix(mix(sharp(S′), blur(S′), wetness · wet · (1 − vis)), inner · blur(S′), F)
-                  glints as above with film = vis (1 − mask²) for vis and eye = −d, facing −N;   mix(cabin, colour, on glass))"}}},
-      {{"windshield-corrected"},
-       "smear",
-       "wrong constant",
-       smear,
-       nullptr,
-       {coverage_of_blades,
-        {document,
-         R"(wipe_texture      D = min(seg to the blade before, seg to the blade now, max(inner_radius − |r|, |r| − outer_radius, 0) + 2 (beside + behind)), r = p − pivot
-                  beside = max(σ cross(r, previous_axis), σ cross(axis, r), 0),  behind = max(−r·(previous_axis + axis), 0),  σ = −1 where direction < 0, else 1
-                  blades from inner_radius · axis to outer_radius · axis about the pivot
-smear             film = laid.xyz;  each wiper in order, coverage its own, p and r as above:
-                  film = mix(film, (r (1 / max(|r|, 10⁻⁶)), profile at (saturate((|r| − inner_radius) / (outer_radius − inner_radius)), ½)), coverage)
-                  taken = min(height · inverse_water, 1);   film.z = film.z (1 − taken);   laid = (film, 1)
-                  smear = (film.x, film.y, max(film.z − drying · wiped, 0), 1))"}}},
-      {{"windshield-corrected"},
-       "condense",
-       "wrong constant",
-       condense,
-       nullptr,
-       {{document,
-         R"(condense          taken = min(height · inverse_water, 1);   wiped = limit unless wiped < wiped_limit
-                  clear_time = min(min(clear_time + dt, limit) (1 − taken), wiped);   condensation = most (1 − exp(−(clear_time · inverse_tau))))"}}},
-      {{"windshield-corrected"},
-       "soften",
-       "wrong constant",
-       soften,
-       nullptr,
-       {composite_of_both,
-        {document,
-         R"(soften            film = smear at (u, v);  share = most · film.z, 0 beside the glass;   (u, v), G and S as above
-                  A = film.x plane_x + film.y plane_y;   turned = (A.xy − A.z G) scene_scale
-                  where share > 0: colour = mix(colour, sum over deflections, in order, of weight · level lod at S + tangent · turned, share), trilinear)"}}},
-      {{"windshield-corrected"},
-       "mist",
-       "wrong constant",
-       mist,
-       nullptr,
-       {composite_of_both,
-        {document,
-         R"(mist              share = condensation at (u, v), 0 beside the glass;   (u, v) and S as above
-                  colour = mix(colour, mix(weight · sum over taps, in order, of level lod at S + tap, level 15 or its last at S, veil), share), trilinear)"}}},
-      {{"windshield-as-published"},
-       "persist",
-       "wrong constant",
-       persist,
-       nullptr,
-       {{document, "persist           height = max(height, previous_height·keep)"}}},
-      {both,
-       "falling_rain",
-       "wrong constant",
-       falling_rain,
-       nullptr,
-       {{document,
-         R"(the plane (`frame` is in metres a texel here). seg(p, a, b): t = saturate((p − a)·(b − a) / max(|b − a|², 10⁻¹²)), |p − a − t (b − a)|.)"},
-        {document,
-         R"(each streak in order    colour = mix(colour, radiance, opacity · saturate(½ + (radius − seg((x, y), opened, closed))) · saturate((scene_depth − depth) sharpness)))"}}},
-      {both,
-       "join_panes",
-       "wrong constant",
-       join_panes,
-       nullptr,
-       {composite_of_both, {document, "joined      mix(colour, pane_colour, on glass), on glass by that pane's composite"}}},
-      {{"windshield-corrected"},
-       "interior",
-       "wrong constant",
-       interior,
-       nullptr,
-       {{document, "interior          colour = light · interior + (1 − alpha of interior) · colour, of rgb"}}},
-      {both,
-       "display",
-       "wrong constant",
-       display_of_document,
-       nullptr,
-       {curve_of_display, {document, R"(**display**: srgb(clamp(exposure · colour, 0, 1)), srgb as in [puddle](puddle.md#corrected).)"}}},
+      {{"windshield-as-published"}, "windshield_frame", "wrong constant", nullptr, windshield_frame_published},
+      {{"windshield-corrected"}, "windshield_frame", "wrong constant", nullptr, windshield_frame_corrected},
+      {both, "normals", "slope doubled", windshield_normals},
+      {both, "blur_pyramid", "base 2", blur_pyramid},
+      {{"windshield-as-published"}, "composite", "linear visibility", composite_published},
+      {{"windshield-corrected"}, "composite", "wrong constant", composite_corrected},
+      {{"windshield-corrected"}, "smear", "wrong constant", smear},
+      {{"windshield-corrected"}, "condense", "wrong constant", condense},
+      {{"windshield-corrected"}, "soften", "wrong constant", soften},
+      {{"windshield-corrected"}, "mist", "wrong constant", mist},
+      {{"windshield-as-published"}, "persist", "wrong constant", persist},
+      {both, "falling_rain", "wrong constant", falling_rain},
+      {both, "join_panes", "wrong constant", join_panes},
+      {{"windshield-corrected"}, "interior", "wrong constant", interior},
+      {both, "display", "wrong constant", display_of_document},
   };
 }
 

@@ -159,68 +159,12 @@ inline bool wipe_texture_corrected(const Run& r, int x, int y, float* out) {
   return true;
 }
 
-inline const From coverage_of_blades{
-    "docs/effects/windshield.md",
-    R"(**wipe_texture**: coverage = the largest over wipers of saturate(½ + (half_width − D) / edge_width), D the distance below from the texel's centre in
-the plane (`frame` is in metres a texel here). seg(p, a, b): t = saturate((p − a)·(b − a) / max(|b − a|², 10⁻¹²)), |p − a − t (b − a)|.)"};
-
 inline std::vector<Written> wipers_passes() {
-  const std::string document = "docs/effects/windshield.md";
-  const From capture{
-      document,
-      R"(                  captured: live and in the quad, or |r − along · axis|² ≤ half_width²,  along = clamp(r·axis, inner_radius, outer_radius)
-                  glass(x, y) = (inverse_frame.x x + inverse_frame.y y, inverse_frame.z y)
-cross(a, b) = a.x b.y − a.y b.x.)"};
   return {
-      {{"windshield-as-published"},
-       "wipe_drops",
-       "wrong constant",
-       nullptr,
-       wipe_drops_published,
-       {plane_and_life,
-        capture,
-        {document,
-         R"(wipe_drops        for each wiper with direction ≠ 0, in order; P = plane(position), r = P − pivot:
-                  quad: direction · cross(b − a, P − a) ≥ 0 for each edge ab of previous_inner, previous_outer, outer, inner (in the plane)
-                  T = along · axis + half_width · direction · (−axis.y, axis.x)
-                  position = mix(position, glass(pivot + T), follow);  velocity = mix(velocity, glass(rate (−T.y, T.x)), inherit);  mass += gain)"}}},
-      {{"windshield-corrected"},
-       "wipe_drops",
-       "wrong constant",
-       nullptr,
-       wipe_drops_corrected,
-       {plane_and_life,
-        capture,
-        {document,
-         R"(wipe_drops        in_sweep(P), r = P − pivot:  under the blade (as above) of previous_axis or of axis, or all of
-                  direction · cross(previous_axis, r) ≥ 0,  direction · cross(axis, r) ≤ 0,  (previous_axis + axis)·r > 0,
-                  |r|² between (inner_radius − half_width)² and (outer_radius + half_width)²
-                  twice over all wipers with direction ≠ 0, each drop in the sweep:
-                  s = min((half_width + radius_scale · mass^(1/3)) / max(|r|, half_width), 1), c = √max(1 − s², 0), z = direction · s
-                  R = |r| (c axis.x − z axis.y, c axis.y + z axis.x);  position = glass(pivot + R);  velocity = glass(rate (−R.y, R.x))
-                  its bin is that of P, in the record that captured it last
-                  bin = clamp(floor((|r| − (inner_radius − half_width)) · (bin_count / (outer_radius − inner_radius + 2 half_width))), 0, bin_count − 1)
-                  a drop that is then still in a sweep is thrown off: dead
-                  film: a texel whose centre, plane((i + ½) texel.x, (j + ½) texel.y), is in a sweep gives its water to the bin of the first such wiper and becomes 0. Of a bin's captured drops
-                  that live on the one of lowest id takes it, up to 2²⁴ in all; what nobody takes leaves the glass)"}}},
-      {{"windshield-as-published"},
-       "wipe_texture",
-       "wrong constant",
-       wipe_texture_published,
-       nullptr,
-       {coverage_of_blades, {document, R"(wipe_texture      D = seg(p, inner · axis_length, outer · axis_length)
-                  height = max(height − strength·coverage, 0);  mask = max(mask·keep, coverage))"}}},
-      {{"windshield-corrected"},
-       "wipe_texture",
-       "wrong constant",
-       wipe_texture_corrected,
-       nullptr,
-       {coverage_of_blades,
-        {document,
-         R"(wipe_texture      D = min(seg to the blade before, seg to the blade now, max(inner_radius − |r|, |r| − outer_radius, 0) + 2 (beside + behind)), r = p − pivot
-                  beside = max(σ cross(r, previous_axis), σ cross(axis, r), 0),  behind = max(−r·(previous_axis + axis), 0),  σ = −1 where direction < 0, else 1
-                  blades from inner_radius · axis to outer_radius · axis about the pivot
-                  height = height (1 − coverage);  wiped = min(wiped + dt, wiped_limit) (1 − coverage);  mask = exp(−(wiped · inverse_tau)))"}}},
+      {{"windshield-as-published"}, "wipe_drops", "wrong constant", nullptr, wipe_drops_published},
+      {{"windshield-corrected"}, "wipe_drops", "wrong constant", nullptr, wipe_drops_corrected},
+      {{"windshield-as-published"}, "wipe_texture", "wrong constant", wipe_texture_published},
+      {{"windshield-corrected"}, "wipe_texture", "wrong constant", wipe_texture_corrected},
   };
 }
 

@@ -1,5 +1,5 @@
-// Passes written from the documents alone, each with the lines that it was written from. The functions are plain loops of floats that
-// share nothing with the pass texts; written_test.cpp judges what they give, and fails where a line stands in the document no longer.
+// Passes written from the documents alone. The functions are plain loops of floats that share nothing with the pass texts;
+// written_test.cpp judges what they give. Who changes a formula of a document writes its function again.
 #pragma once
 
 #include <array>
@@ -77,19 +77,23 @@ inline void give_texels(Loop loop, const Run& run, Given& out) {
     }
 }
 
-/// Whole lines of a document, one below the other.
-struct From {
-  std::string document, text;
-};
 /// A pass as one document prints it.
 struct Written {
   std::vector<std::string> packs;
   std::string pass;
-  std::string wrong;  ///< the mistake that is judged FAIL; "": the pass is data that no port is judged by
-  Loop loop;          ///< or:
-  void (*give)(const Run& run, Given& out);
-  std::vector<From> from;
+  std::string wrong;    ///< the mistake that is judged FAIL; "": the pass is data that no port is judged by
+  Loop loop = nullptr;  ///< or:
+  void (*give)(const Run& run, Given& out) = nullptr;
 };
+
+/// A texel of this colour and an alpha of 1.
+inline bool give_opaque(float* out, Float3 colour) {
+  out[0] = colour.x;
+  out[1] = colour.y;
+  out[2] = colour.z;
+  out[3] = 1;
+  return true;
+}
 
 /// A constant, and the wrong one of the negative control.
 inline float constant(const Run& r, float right, float wrong) { return r.is("wrong constant") ? wrong : right; }
@@ -97,18 +101,7 @@ inline float constant(const Run& r, float right, float wrong) { return r.is("wro
 /// A number in a way that the small packs do not take, and the wrong one of branches_test.cpp.
 inline float in_branch(const Run& r, float right, float wrong) { return r.is("wrong branch") ? wrong : right; }
 
-/// What every pass stands on: functions here and in hand_made.h, lookups there.
-inline const From rules_of_all_passes{
-    "docs/porting.md",
-    R"(- mix(a, b, t) = a (1 − t) + b t. smoothstep(a, b, x) = t t (3 − 2t) with t = clamp((x − a) / (b − a), 0, 1), also where a > b.
-  saturate(x) = clamp(x, 0, 1). fract(x) = x − floor(x). refract and reflect as in GLSL; refract gives 0 beyond the critical angle.
-- Lookups with `filter` linear are bilinear at normalized coordinates: x = u·width − 1/2, texels floor(x) and floor(x) + 1 joined by mix,
-  columns first. By repeat u is fract(u); by clamp x is held in [0, width − 1], by border in [−1, width]. lod is held in [0, last level]: a mix of
-  levels floor(lod) and the next where the mip filter is linear, level floor(lod + 1/2) where it is nearest. Input filter `none` means a load
-  by integer texel. Beyond the edge the input's address mode decides, of loads too; by mirror texel −1 is 0 and −2
-  is 1. The sampler's own precision is allowed for.)"};
-
-// What porting.md takes from GLSL.
+// What every pass stands on, by docs/porting.md: functions here and in hand_made.h, lookups there. First what it takes from GLSL.
 inline Float3 normalize(Float3 a) { return (1 / length(a)) * a; }
 inline Float3 reflect(Float3 i, Float3 n) { return i - (2 * dot(n, i)) * n; }
 inline Float3 refract(Float3 i, Float3 n, float eta) {
@@ -187,9 +180,5 @@ inline Words block(const Run& r, std::uint32_t purpose, std::uint32_t a, std::ui
 inline std::uint32_t word_of(const Run& r, std::string_view list, int i, std::string_view member) {
   return std::bit_cast<std::uint32_t>(r.of(list, i, member));
 }
-inline const From numbers_without_state{
-    "docs/effects/puddle.md",
-    R"(pcg4d(v): v = v · 1664525 + 1013904223;  stir;  v ^= v >> 16;  stir       stir: x += y w, y += z x, z += x y, w += y z, one after the other
-block(purpose, a, b) = pcg4d(a ^ k0, b ^ k1, k2, k3)      (k0 … k3) = pcg4d(seed.x, seed.y, purpose, 0))"};
 
 }  // namespace rainref::documents

@@ -1,94 +1,12 @@
-// The printed formula is the judged formula: every pass, written from the documents alone, is judged PASS; the documents still hold each
-// line that it was written from; and no line of a formula is left out.
+// The printed formula is the judged formula: every pass, written from the documents alone, is judged PASS, and FAIL with one wrong
+// constant.
 #include <gtest/gtest.h>
-
-#include <fstream>
-#include <map>
-#include <set>
-#include <sstream>
 
 #include "documents/judged_written.h"
 #include "shipped_packs.h"
 
 namespace rainref::documents {
 namespace {
-
-std::vector<std::string> lines_of(std::istream&& text) {
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  return lines;
-}
-std::vector<std::string> lines_of_document(const std::string& document) {
-  std::ifstream file(rainref::test::source_folder() + "/" + document);
-  EXPECT_TRUE(file.good()) << document;
-  return lines_of(std::move(file));
-}
-std::vector<std::string> lines_of_text(const std::string& text) { return lines_of(std::istringstream(text)); }
-
-/// The lines of a text that a document has not.
-std::vector<std::string> missing_lines(const std::vector<std::string>& document, const std::string& text) {
-  std::vector<std::string> missing;
-  for (const std::string& line : lines_of_text(text))
-    if (std::find(document.begin(), document.end(), line) == document.end()) missing.push_back(line);
-  return missing;
-}
-
-// A changed formula is one whose function must be written again.
-TEST(PrintedFormulas, StandInTheirDocuments) {
-  std::map<std::string, std::vector<std::string>> documents;
-  const auto check = [&](const From& from, const std::string& whose) {
-    std::vector<std::string>& document = documents[from.document];
-    if (document.empty()) document = lines_of_document(from.document);
-    ASSERT_FALSE(from.text.empty());
-    for (const std::string& line : missing_lines(document, from.text))
-      ADD_FAILURE() << from.document << ", " << whose << ": no longer has the line\n" << line;
-  };
-  check(rules_of_all_passes, "every pass");
-  for (const Written& w : all_written()) {
-    EXPECT_FALSE(w.from.empty()) << w.pass;
-    for (const From& from : w.from) check(from, w.packs[0] + " " + w.pass);
-  }
-  EXPECT_EQ(documents.size(), 6u);
-}
-TEST(PrintedFormulas, WouldBeMissedWithAnotherConstantOrOrder) {
-  const std::vector<std::string> document{"a = 2 (b + c)", "d = a · .5"};
-  EXPECT_EQ(missing_lines(document, "a = 2 (b + c)\nd = a · .5"), std::vector<std::string>());
-  EXPECT_EQ(missing_lines(document, "a = 2 (b + c)\nd = a · .6"), std::vector<std::string>{"d = a · .6"});
-  EXPECT_EQ(missing_lines(document, "a = 2 (c + b)"), std::vector<std::string>{"a = 2 (c + b)"});
-  EXPECT_EQ(missing_lines(document, "a = 2 (b"), std::vector<std::string>{"a = 2 (b"});
-}
-
-/// The lines of fenced blocks that name no language: formulas.
-std::vector<std::string> formulas_of(const std::string& document) {
-  std::vector<std::string> formulas;
-  bool is_fenced = false, is_formula = false;
-  for (const std::string& line : lines_of_document(document)) {
-    if (line.starts_with("```")) {
-      is_fenced = !is_fenced;
-      is_formula = is_fenced && line == "```";
-    } else if (is_formula) {
-      formulas.push_back(line);
-    }
-  }
-  return formulas;
-}
-
-// A new line of a formula is one that no function evaluates.
-TEST(PrintedFormulas, AreAllEvaluated) {
-  std::map<std::string, std::set<std::string>> evaluated;
-  for (const Written& w : all_written())
-    for (const From& from : w.from)
-      for (const std::string& line : lines_of_text(from.text)) evaluated[from.document].insert(line);
-  int checked = 0;
-  for (const std::string& effect : rainref::test::packed_effects()) {
-    const std::string document = "docs/effects/" + effect + ".md";
-    for (const std::string& line : formulas_of(document)) {
-      EXPECT_TRUE(evaluated[document].contains(line)) << document << ": no function evaluates\n" << line;
-      ++checked;
-    }
-  }
-  EXPECT_GT(checked, 200);
-}
 
 class PrintedFormulasOf : public testing::TestWithParam<rainref::test::PackPasses> {
  protected:

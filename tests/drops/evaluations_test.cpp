@@ -1,7 +1,7 @@
 // The texts of this room in every evaluation: they compile, agree, and enclose.
 #include <gtest/gtest.h>
 
-#include "drops/scalar.h"
+#include "drops/motion/scalar.h"
 #include "support.h"
 
 namespace rainref::drops {

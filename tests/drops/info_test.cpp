@@ -1,3 +1,4 @@
+// The blocks, records and buffers that drops declares are those of its passes.
 #include "drops/info.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "drops/necks.h"
+#include "drops/motion/necks.h"
 #include "support.h"
 
 namespace rainref::drops {

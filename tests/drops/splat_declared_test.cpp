@@ -3,7 +3,7 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
-#include "drops/splat.h"
+#include "drops/splat/splat.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 
@@ -11,11 +11,7 @@ namespace rainref {
 namespace {
 
 const std::vector<scene::Parameter>& keys() {
-  static const std::vector<scene::Parameter> all = [] {
-    std::vector<scene::Parameter> list = drops::splat_parameters("pane");
-    for (const scene::Parameter& p : blur_pyramid::blur_parameters("pane")) list.push_back(p);
-    return list;
-  }();
+  static const std::vector<scene::Parameter> all = drops::splat_parameters("pane");
   return all;
 }
 scene::Config config(const std::string& variant, const std::vector<std::string>& values) {
@@ -43,14 +39,6 @@ TEST(SplatDeclared, ScenesSetWhatTheVariantUses) {
   EXPECT_FALSE(corrected.half_accumulation);
   EXPECT_EQ(corrected.smallest_radius, 2);
   EXPECT_THROW(config("corrected", {"pane.accumulate=half"}), Error);
-
-  const blur_pyramid::BlurSettings blur = blur_pyramid::blur_settings(
-      config("corrected", {"pane.blur_levels=3", "pane.fog_density=0.5", "pane.fog_colour=[1, 2, 3]"}), "pane", Rounding::rtz);
-  EXPECT_TRUE(blur.corrected);
-  EXPECT_EQ(blur.levels, 3);
-  EXPECT_EQ(blur.fog_density, 0.5);
-  EXPECT_EQ(blur.fog_colour[2], 3);
-  EXPECT_EQ(blur.rounding, Rounding::rtz);
 }
 
 // A port learns from the uniforms alone whether each drop is rounded.

@@ -1,9 +1,8 @@
 // Every SIMD target, 1, 2, 3 and 8 threads, shuffled work and widths 1 to 33 give the bits of one plain float after another.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "drops/splat_support.h"
+#include "image/images.h"
 #include "math/simd_target.h"
 
 namespace rainref::drops {
@@ -51,14 +50,6 @@ std::vector<Case> cases(int width, int height) {
   }
   return all;
 }
-::testing::AssertionResult equal(const Image& a, const Image& b) {
-  for (int y = 0; y < a.height(); ++y) {
-    for (int x = 0; x < a.width(); ++x) {
-      if (a.row<Half>(y)[x].bits != b.row<Half>(y)[x].bits) return ::testing::AssertionFailure() << "at " << x << ", " << y;
-    }
-  }
-  return ::testing::AssertionSuccess();
-}
 Image plain_image(const SplatSettings& s, const std::vector<Drop>& drops, const Image* film, const Pull& pull,
                   const std::vector<Neck>& necks) {
   const SplatUniforms u = splat_uniforms(s, pull);
@@ -93,7 +84,7 @@ TEST_F(SplatDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
         for (parallel::Executor& executor : executors) {
           const int threads = executor.threads();
           executor.shuffle_tiles(static_cast<std::uint64_t>(threads + width));
-          ASSERT_TRUE(equal(splatted(executor, c.settings, drops, under, c.pull, c.necks_of(drops)), expected))
+          ASSERT_TRUE(same(splatted(executor, c.settings, drops, under, c.pull, c.necks_of(drops)), expected))
               << target << ", " << threads << " threads, width " << width << ", case " << number;
         }
       }
@@ -113,7 +104,7 @@ TEST_F(SplatDeterminism, EveryCaseOnALargeTexture) {
     EXPECT_GT(sum, 0) << "something is there";
     for (const std::string& target : simd_targets()) {
       select_simd_target(target);
-      ASSERT_TRUE(equal(splatted(two_threads(), c.settings, drops, under, c.pull, c.necks_of(drops)), expected)) << target;
+      ASSERT_TRUE(same(splatted(two_threads(), c.settings, drops, under, c.pull, c.necks_of(drops)), expected)) << target;
     }
   }
 }
@@ -126,11 +117,11 @@ TEST_F(SplatDeterminism, MoreDropsThanAChunk) {
     select_simd_target(target);
     parallel::Executor executor(8);
     executor.shuffle_tiles(9);
-    EXPECT_TRUE(equal(splatted(executor, s, drops), expected)) << target;
+    EXPECT_TRUE(same(splatted(executor, s, drops), expected)) << target;
   }
   // The sums above would also agree if drops came in any order.
   std::vector<Drop> reversed(drops.rbegin(), drops.rend());
-  EXPECT_FALSE(equal(splatted(two_threads(), s, reversed), expected));
+  EXPECT_FALSE(same(splatted(two_threads(), s, reversed), expected));
 }
 
 TEST_F(SplatDeterminism, FloatsAreWithinRoundingOfDoubles) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drops/motion/scalar.h"
 #include "drops/physics.h"
-#include "drops/scalar.h"
 #include "drops/splat_support.h"
 
 namespace rainref::drops {

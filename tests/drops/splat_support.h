@@ -6,8 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "drops/splat.h"
-#include "drops/splat_scalar.h"
+#include "drops/splat/scalar.h"
+#include "drops/splat/splat.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "rainref/executor.h"
 
@@ -66,11 +67,7 @@ inline std::vector<Drop> any_drops(int count, unsigned seed, double mass) {
 /// Whole mass units.
 inline Image any_film(int width, int height, unsigned seed) {
   std::mt19937 words(seed);
-  Image film(Format::r32f, width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) film.row<float>(y)[x] = static_cast<float>(words() % 100000);
-  }
-  return film;
+  return make_image(Format::r32f, width, height, [&](int, int, int) { return static_cast<float>(words() % 100000); });
 }
 
 /// Of every third of them, of shares and rests of all sizes.

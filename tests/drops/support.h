@@ -7,8 +7,8 @@
 
 #include "drops/drops.h"
 #include "drops/host.h"
-#include "drops/passes.h"
-#include "drops/scalar.h"
+#include "drops/motion/passes.h"
+#include "drops/motion/scalar.h"
 #include "random/counter.h"
 
 namespace rainref::drops::test {

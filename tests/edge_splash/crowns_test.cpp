@@ -1,7 +1,7 @@
 // Crowns in place of the scrolling noise: where they stand, when, and that a picture follows them.
-#include <cstring>
 
 #include "edge_splash/support.h"
+#include "image/flipped.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -56,10 +56,7 @@ Image noise_at(const Settings& s, int frame, const Inputs& in) {
   EdgeSplash splash(s, in, executor);
   for (int k = 0; k <= frame; ++k) splash.simulate();
   splash.render();
-  Image mask(Format::r8, splash.noise().width(), splash.noise().height());
-  for (int y = 0; y < mask.height(); ++y)
-    std::memcpy(mask.row<Unorm8>(y), splash.noise().row<Unorm8>(y), static_cast<std::size_t>(mask.width()));
-  return mask;
+  return copy_of(splash.noise());
 }
 
 TEST(EdgeSplashCrowns, MoveWithTimeAtAnyFrameRateAndDoNotScroll) {

@@ -2,17 +2,18 @@
 // of one plain float after another; and how far those are from doubles.
 #include <bit>
 
-#include "capture/hash_of_frames.h"
-#include "edge_splash/evaluations.h"
+#include "determinism.h"
 #include "edge_splash/info.h"
 #include "edge_splash/shapes.h"
 #include "edge_splash/support.h"
-#include "math/simd_target.h"
 #include "pass/same_as_definition.h"
 #include "settings.h"
 
 namespace rainref::edge_splash {
 namespace {
+
+using rainref::test::expect_one_result;
+using rainref::test::hash_of_frames;
 
 Inputs scene_of(int width, int height) {
   Inputs in = inputs_of_distance(width, height, [&](int x, int y) {
@@ -35,63 +36,32 @@ Settings settings(Variant variant) {
   s.seed = 3;
   return s;
 }
-std::string hash_of_run(const Settings& s, const Inputs& in, int threads, std::uint64_t shuffle, int frames = 3) {
-  parallel::Executor executor(threads);
-  executor.shuffle_tiles(shuffle);
-  EdgeSplash effect(s, in, executor);
-  return capture::hash_of_frames(frames, [&](Recorder* recorder) { effect.next_frame(recorder); });
+auto run_of(const Settings& s, const Inputs& in) {
+  return [&s, &in](const parallel::Executor& executor) { return hash_of_frames(EdgeSplash(s, in, executor)); };
 }
 
-class Determinism : public testing::TestWithParam<Variant> {
- protected:
-  ~Determinism() override { select_simd_target(""); }
-};
+class EdgeSplashDeterminism : public rainref::test::OfVariant {};
+INSTANTIATE_TEST_SUITE_P(Variants, EdgeSplashDeterminism, rainref::test::both_variants, rainref::test::variant_name);
 
-TEST_P(Determinism, EveryTargetThreadCountOrderAndWidth) {
+TEST_P(EdgeSplashDeterminism, EveryTargetThreadCountOrderAndWidth) {
   for (int width = 1; width <= 33; ++width) {
     const Settings s = settings(GetParam());
     Inputs in = scene_of(width, 19);
     in.noise = make_noise(1, 64);  // once, not in each of seven hundred runs
-    select_simd_target(simd_targets().back());
-    const std::string expected = hash_of_run(s, in, 1, 0);
-    for (const std::string& target : simd_targets()) {
-      select_simd_target(target);
-      for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(hash_of_run(s, in, threads, static_cast<std::uint64_t>(threads + width)), expected)
-            << target << ", " << threads << " threads, width " << width;
-      }
-    }
+    expect_one_result(fmt::format("width {}", width), run_of(s, in));
   }
 }
 
-TEST_P(Determinism, EveryRounding) {
-  Settings s = settings(GetParam());
-  const Inputs in = scene_of(45, 70);
-  std::string first;
-  for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
-    s.rounding = rounding;
-    select_simd_target(simd_targets().back());
-    const std::string expected = hash_of_run(s, in, 1, 0);
-    EXPECT_NE(expected, first);
-    first = expected;
-    for (const std::string& target : simd_targets()) {
-      select_simd_target(target);
-      EXPECT_EQ(hash_of_run(s, in, 3, 99), expected) << target << " " << name(rounding);
-    }
-  }
-}
-
-TEST_P(Determinism, AnotherSettingGivesOtherBits) {
+TEST_P(EdgeSplashDeterminism, AnotherSettingGivesOtherBits) {
   // The hashes above would also agree if nothing happened.
   Settings s = settings(GetParam());
   const Inputs in = scene_of(33, 19);
-  const std::string before = hash_of_run(s, in, 1, 0);
-  EXPECT_EQ(hash_of_run(s, in, 1, 0), before);
+  const std::string before = run_of(s, in)(parallel::Executor(1));
   s.seed = 4;
-  EXPECT_NE(hash_of_run(s, in, 1, 0), before);
+  EXPECT_NE(run_of(s, in)(parallel::Executor(1)), before);
   s.seed = 3;
   s.drop_alpha = 0.5;
-  EXPECT_NE(hash_of_run(s, in, 1, 0), before);
+  EXPECT_NE(run_of(s, in)(parallel::Executor(1)), before);
 }
 
 // What both passes of one variant need, read by plain numbers.
@@ -123,7 +93,7 @@ struct Evaluation {
   }
 };
 
-TEST_P(Determinism, LanesEqualTheScalarEvaluation) {
+TEST_P(EdgeSplashDeterminism, LanesEqualTheScalarEvaluation) {
   const Evaluation evaluation(GetParam(), 37, 29);
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
@@ -138,7 +108,7 @@ TEST_P(Determinism, LanesEqualTheScalarEvaluation) {
 
 // Thresholds jump, so as published a few pixels in a hundred may fall on the other side (the flat ones, whose gradient is nothing
 // but rounding); where the masks agree, and everywhere corrected, float stays beside double.
-TEST_P(Determinism, FloatStaysNearDouble) {
+TEST_P(EdgeSplashDeterminism, FloatStaysNearDouble) {
   const Evaluation evaluation(GetParam(), 96, 64);
   int jumped = 0, checked = 0;
   double worst = 0;
@@ -164,9 +134,6 @@ TEST_P(Determinism, FloatStaysNearDouble) {
   // Measured 8e-5: distances up to 900 m carry 2^-24 of 1 / z, which ramps of the masks magnify.
   EXPECT_LT(worst, GetParam() == Variant::corrected ? 1e-3 : 1e-6);
 }
-
-INSTANTIATE_TEST_SUITE_P(EdgeSplash, Determinism, testing::Values(Variant::as_published, Variant::corrected),
-                         [](const auto& param) { return param.param == Variant::corrected ? "corrected" : "as_published"; });
 
 // The built-in scene is the same whatever the threads; what its camera sees stands where it was put.
 TEST(EdgeSplashShapes, SameBitsAndKnownDistances) {

@@ -2,16 +2,14 @@
 // and 59.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "capture/hashing.h"
 #include "edge_splash/host.h"
 #include "edge_splash/shapes.h"
-#include "golden/caller.h"
+#include "golden/lines.h"
 #include "rainref/edge_splash.h"
 #include "rainref/executor.h"
 #include "settings.h"
@@ -42,15 +40,13 @@ inline std::vector<GoldenScene> golden_scenes() {
       s.camera_position = {-0.9, 1.05, -0.4};
       s.camera_target = {-1.4, 0.6, -3};
       s.vertical_fov_deg = 60;
-      scenes.push_back({fmt::format("edge_splash/{}{}", variant == Variant::as_published ? "as-published" : "corrected",
-                                    rounding == Rounding::rtz ? "/rtz" : ""),
-                        s});
+      scenes.push_back({fmt::format("edge_splash/{}{}", name(variant), rounding == Rounding::rtz ? "/rtz" : ""), s});
     }
   }
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+/// golden/lines.h.
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
                                              const golden::Caller& caller = golden::call_plainly) {
   const Settings& s = scene.settings;
@@ -59,17 +55,7 @@ inline std::vector<std::string> golden_lines(const GoldenScene& scene, const par
   in.colour = std::move(view.colour);
   in.depth = std::move(view.depth);
   in.depth_is_distance = true;
-  std::optional<EdgeSplash> effect;
-  caller([&] { effect.emplace(s, in, executor); });
-  std::vector<std::string> lines;
-  for (int frame = 0; frame < frames; ++frame) {
-    capture::HashRecorder recorder;
-    const bool golden = frame <= 2 || frame == 59;
-    caller([&] { effect->next_frame(golden ? &recorder : nullptr); });
-    if (!golden) continue;
-    for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
-  }
-  return lines;
+  return golden::lines_of<EdgeSplash>(scene.name, frames, caller, s, in, executor);
 }
 
 }  // namespace rainref::edge_splash

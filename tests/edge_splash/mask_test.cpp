@@ -1,5 +1,6 @@
 // Masks over known pictures: rows, halves, counts and scrolls.
 #include "edge_splash/support.h"
+#include "image/flipped.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -157,8 +158,7 @@ TEST(EdgeSplashMask, PublishedScrollIsDiagonalAndPeriodic) {
   in.noise = uniform_noise(32);
   EdgeSplash e(s, in, executor());
   e.next_frame();
-  Image first(Format::r8, 64, 64);
-  for (int y = 0; y < 64; ++y) std::copy_n(e.noise().row_bytes(y), 64, first.row_bytes(y));
+  const Image first = copy_of(e.noise());
   for (int n = 1; n <= 32; ++n) {
     e.next_frame();
     for (int y = 0; y < 32; ++y) {
@@ -175,8 +175,7 @@ TEST(EdgeSplashMask, CorrectedNoiseMovesWithItsVelocity) {
   s.drop_velocity = {0, -60.0 / 64};  // a pixel down in a frame, of 64
   EdgeSplash e(s, inputs_of_distance(64, 64, [](int, int) { return 5.0; }), executor());
   e.next_frame();
-  Image first(Format::r8, 64, 64);
-  for (int y = 0; y < 64; ++y) std::copy_n(e.noise().row_bytes(y), 64, first.row_bytes(y));
+  const Image first = copy_of(e.noise());
   EXPECT_GT(mean(first), 0.1);
   for (int n = 1; n <= 5; ++n) {
     e.next_frame();

@@ -13,6 +13,7 @@
 #include "edge_splash/host.h"
 #include "edge_splash/splash.pass.h"
 #include "edge_splash/scalar.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "math/unorm.h"
 #include "rainref/edge_splash.h"
@@ -86,14 +87,6 @@ inline double mean(const Image& mask) {
     for (int x = 0; x < mask.width(); ++x) sum += code(mask, x, y) / 255.0;
   }
   return sum / mask.width() / mask.height();
-}
-inline bool same(const Image& a, const Image& b) {
-  for (int y = 0; y < a.height(); ++y) {
-    for (std::size_t i = 0; i < BufferView(a).row_bytes(); ++i) {
-      if (a.row_bytes(y)[i] != b.row_bytes(y)[i]) return false;
-    }
-  }
-  return true;
 }
 
 /// A depth field that the scalar passes read: not held to [0, 1].

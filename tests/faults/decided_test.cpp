@@ -1,6 +1,6 @@
 // Mistakes that are decided before any search: how bytes lie, what a format keeps, when a buffer is written. Each is made here by hand, on
 // ports that fuse products and truncate halves, so that hardly any bit is the reference's.
-#include "faults/decided.h"
+#include "faults/diagnose.h"
 
 #include <array>
 #include <cmath>

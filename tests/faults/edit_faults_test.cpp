@@ -1,5 +1,5 @@
 // Parts of an operation put together otherwise: passes made up here, none of them an effect's.
-#include "faults/edit_faults.h"
+#include "faults/generators.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +69,7 @@ std::vector<std::string> found(const Pass& right, const std::function<Numbers(co
             if (!(std::abs(made[k] - wanted[k]) <= 1e-6f * (1 + std::abs(wanted[k])))) return false;
           return true;
         }))
-      names.push_back(d.name);
+      names.push_back(name_of(d));
   return names.empty() ? std::vector<std::string>{"none"} : names;
 }
 /// The same of faults at places that look alike.
@@ -90,7 +90,7 @@ std::vector<std::string> shared(const Pass& right, const std::function<Numbers(c
     if (std::all_of(inputs.begin(), inputs.end(), [&](const Numbers& in) {
           return std::abs(given(right, in, d)[0] - port(in)[0]) <= 1e-6f * (1 + std::abs(port(in)[0]));
         }))
-      names.push_back(d.name);
+      names.push_back(name_of(d));
   return names;
 }
 std::string first(const Pass& right, const std::function<Numbers(const Numbers&)>& port, Numbers literals = {}) {
@@ -344,7 +344,7 @@ TEST(PlaceFaults, ALiteralIsLeftOutInBothComponents) {
   std::vector<std::string> names;
   for (Fault& d : all) {
     d.behaviour.known = &literals;
-    if (std::abs(given(right, in, d)[0] - in[0] * 3 * in[1]) <= 1e-6f) names.push_back(d.name);
+    if (std::abs(given(right, in, d)[0] - in[0] * 3 * in[1]) <= 1e-6f) names.push_back(name_of(d));
   }
   EXPECT_THAT(names, testing::Contains("term left out: 1, in both components"));
 }

@@ -17,8 +17,8 @@
 #include "judge/judge.h"
 #include "judge/keyed.h"
 #include "judge/support.h"
-#include "registry/registry.h"
 #include "rainref/error.h"
+#include "registry/registry.h"
 
 namespace rainref::faults {
 namespace {
@@ -55,7 +55,7 @@ struct ListCase {
     port[output] = list;
     return diagnose_lists(pass, *c, before ? &*before : nullptr, model.get(), port, profile("vulkan"), executor());
   }
-  std::string text(const Fault& d) const { return c->folder() + " " + d.name; }
+  std::string text(const Fault& d) const { return c->folder() + " " + name_of(d); }
 };
 std::vector<ListCase> list_cases(const PackPasses& of) {
   const capture::Pack pack(pack_folder(of.name));
@@ -123,7 +123,7 @@ TEST_P(ListFaults, EachIsCaughtAndNamed) {
       const std::vector<Cause> causes = l.causes(*port);
       ASSERT_FALSE(causes.empty()) << l.text(d);
       EXPECT_EQ(causes[0].explained, causes[0].of) << l.text(d) << ": " << text_of(causes);
-      named_first += causes[0].name == d.name;
+      named_first += causes[0].name == name_of(d);
     }
   }
   fmt::print("{}: {} of {} named first\n", GetParam().name, named_first, made);
@@ -137,7 +137,7 @@ TEST_P(ListFaults, EachIsCaughtAndNamed) {
 TEST_P(ListFaults, AnotherOrderIsRight) {
   for (const ListCase& l : list_cases(GetParam())) {
     for (const Fault& d : l.faults()) {
-      if (!d.name.ends_with("in another order")) continue;
+      if (!name_of(d).ends_with("in another order")) continue;
       const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
       if (!port) continue;  // one record
       EXPECT_NE(port->levels, l.reference().levels) << l.text(d);
@@ -220,17 +220,17 @@ TEST(ListFaultsOfMerge, AreEventsAndNamedOnOtherDevicesToo) {
     const Array fused = fused_list(l);
     ASSERT_EQ(l.judged(fused).failing, 0);
     for (const Fault& d : l.faults()) {
-      const auto expected =
-          std::find_if(std::begin(expected_of_merge), std::end(expected_of_merge), [&](const Expected& e) { return d.name == e.fault; });
+      const auto expected = std::find_if(std::begin(expected_of_merge), std::end(expected_of_merge),
+                                         [&](const Expected& e) { return name_of(d) == e.fault; });
       if (expected == std::end(expected_of_merge)) continue;
       for (const Array& base : {l.reference(), fused}) {
         const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), base);
         if (!port || same_records(*port, base)) continue;
-        seen.insert(d.name);
+        seen.insert(name_of(d));
         EXPECT_THAT(l.judged(*port).events.text(), HasSubstr(expected->events)) << l.text(d);
         const std::vector<Cause> causes = l.causes(*port);
         ASSERT_FALSE(causes.empty()) << l.text(d);
-        EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), [&](const Cause& c) { return c.name == d.name && c.inside == c.of; }))
+        EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), [&](const Cause& c) { return c.name == name_of(d) && c.inside == c.of; }))
             << l.text(d) << ": " << text_of(causes);
       }
     }
@@ -243,11 +243,11 @@ TEST(ListFaultsOfIntegrate, AStaleInputIsNamed) {
   int tried = 0;
   for (const ListCase& l : list_cases("windshield-corrected", "integrate")) {
     for (const Fault& d : l.faults()) {
-      if (d.name != "input glass_frame stale" && d.name != "uniform dt is zero") continue;
+      if (name_of(d) != "input glass_frame stale" && name_of(d) != "uniform dt is zero") continue;
       const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
       if (!port || same_records(*port, l.reference())) continue;
       ++tried;
-      EXPECT_TRUE(gives(l.causes(*port), d.name)) << l.text(d) << ": " << text_of(l.causes(*port));
+      EXPECT_TRUE(gives(l.causes(*port), name_of(d))) << l.text(d) << ": " << text_of(l.causes(*port));
     }
   }
   EXPECT_GT(tried, 2);
@@ -309,12 +309,12 @@ TEST(ListDiagnosis, AFieldThroughHalfIsNamed) {
   int named = 0;
   for (const ListCase& l : list_cases("windshield-corrected", "integrate")) {
     for (const Fault& d : l.faults()) {
-      if (d.name != "drops with velocity through half") continue;
+      if (name_of(d) != "drops with velocity through half") continue;
       const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
       if (!port || l.judged(*port).events.outside.size() < 4) continue;
       const std::vector<Cause> causes = l.causes(*port);
       ASSERT_FALSE(causes.empty());
-      EXPECT_EQ(causes[0].name, d.name);
+      EXPECT_EQ(causes[0].name, name_of(d));
       ++named;
     }
   }

@@ -156,12 +156,12 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
       }
       if (d.legal || far * 50 < invocations) continue;
       // The angle of a level gradient is a tie of (0 + pi) / 2 pi with 1/2, which a conforming quotient decides either way.
-      if (pass.pack == "edge_splash-as-published" && d.name.starts_with("constant 3.1415927")) continue;
+      if (pass.pack == "edge_splash-as-published" && name_of(d).starts_with("constant 3.1415927")) continue;
       // It moves the grid by less than the profile allows a sine beyond pi.
-      if (pass.pack == "screen_drops-as-published" && d.name.starts_with("constant 0.5 off by 1 %")) continue;
+      if (pass.pack == "screen_drops-as-published" && name_of(d).starts_with("constant 0.5 off by 1 %")) continue;
       ++large;
       const auto found = std::find_if(report.mutants.begin(), report.mutants.end(),
-                                      [&](const MutantJudgement& m) { return m.pass == pass.pass && m.name == d.name; });
+                                      [&](const MutantJudgement& m) { return m.pass == pass.pass && m.name == name_of(d); });
       ASSERT_NE(found, report.mutants.end());
       EXPECT_TRUE(found->caught()) << line(*found) << ", far off at " << far;
     }

@@ -1,5 +1,5 @@
 // Mistakes in the order of steps, and in what is drawn of random words.
-#include "faults/order_faults.h"
+#include "faults/generators.h"
 
 #include <algorithm>
 
@@ -119,7 +119,7 @@ TEST(OrderFaults, OfAVectorEachComponentHasTheMistake) {
     for (const std::size_t at : v) EXPECT_EQ(probes[0].trace.nodes[at].op, probes[0].trace.nodes[v[0]].op);
   }
   const auto of_vectors = std::count_if(all.begin(), all.end(), [](const Fault& d) {
-    return d.name.ends_with(", in all components") && d.rewrites && (*d.rewrites)[1].kind == (*d.rewrites)[0].kind;
+    return name_of(d).ends_with(", in all components") && d.rewrites && (*d.rewrites)[1].kind == (*d.rewrites)[0].kind;
   });
   EXPECT_GT(of_vectors, 0);
 }
@@ -127,7 +127,7 @@ TEST(OrderFaults, OfAVectorEachComponentHasTheMistake) {
 TEST(OrderFaults, AClampHasItsName) {
   std::vector<Probe> probes;
   const std::vector<Fault> all = orders_of("windshield-as-published", "wipe_texture", probes);
-  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Fault& d) { return d.name.starts_with("clamp left out: min(max("); }));
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Fault& d) { return name_of(d).starts_with("clamp left out: min(max("); }));
 }
 // x += (v + a) dt in place of v alone: the operand of the product is a part of what it should be, elsewhere the sum stays.
 TEST(OrderFaults, AValueOfBeforeIsUsedAtOnePlaceAlone) {
@@ -161,14 +161,14 @@ TEST(DrawFaults, EachIsNamed) {
       BitsReplay run(pack.pass("raindrops"), c, nullptr, evaluations, port, 0, one);
       if (!run.fails()) continue;
       const std::vector<judge::Cause> causes = diagnosed(run, nullptr);
-      ASSERT_FALSE(causes.empty()) << d.name;
+      ASSERT_FALSE(causes.empty()) << name_of(d);
       // Any other words may by chance draw the same count; and the step, which is no sum of two terms, is as well another number.
       const bool is_one_of_many = d.draws->only == random::Purpose::puddle_drop_count || d.draws->moved[0] > 1;
       EXPECT_TRUE(is_one_of_many ||
-                  std::any_of(causes.begin(), causes.end(), [&](const judge::Cause& cause) { return cause.name == d.name; }))
-          << d.name;
-      EXPECT_EQ(causes[0].explained, causes[0].of) << d.name;
-      named += causes[0].name == d.name;
+                  std::any_of(causes.begin(), causes.end(), [&](const judge::Cause& cause) { return cause.name == name_of(d); }))
+          << name_of(d);
+      EXPECT_EQ(causes[0].explained, causes[0].of) << name_of(d);
+      named += causes[0].name == name_of(d);
     }
   }
   EXPECT_GT(named, 10);

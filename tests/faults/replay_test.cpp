@@ -14,10 +14,14 @@ namespace {
 
 using judge::Cause;
 
-Fault of_name(const std::string& name) {
-  Fault d;
-  d.name = name;
-  return d;
+/// A mistake whose words say nothing; "another value of c" is a number fitted to what the port stored.
+What what_of(const std::string& name) {
+  What what;
+  if (name == "another value of c")
+    what = {Kind::another_value, {"c"}};
+  else
+    what.name = name;
+  return what;
 }
 
 /// A run of 100 failing texels of which each mistake explains so many, and what each gives elsewhere.
@@ -35,9 +39,9 @@ class Told : public Replay {
     std::vector<Tried> out;
     for (const Fault& d : all)
       for (const auto* stage : {&first, &second, &third})
-        if (const auto at = stage->find(d.name); at != stage->end()) {
-          const auto left = misfits.find(d.name);
-          out.push_back({{d.name, "", at->second, 100, at->second, false, true}, left == misfits.end() ? 0 : left->second});
+        if (const auto at = stage->find(name_of(d)); at != stage->end()) {
+          const auto left = misfits.find(name_of(d));
+          out.push_back({d, {"", "", at->second, 100, at->second, false, true}, left == misfits.end() ? 0 : left->second});
         }
     return out;
   }
@@ -47,7 +51,7 @@ class Told : public Replay {
  private:
   static std::vector<Fault> of(const std::map<std::string, int>& stage) {
     std::vector<Fault> out;
-    for (const auto& [name, explained] : stage) out.push_back(of_name(name));
+    for (const auto& [name, explained] : stage) out.emplace_back(what_of(name));
     return out;
   }
 };
@@ -103,30 +107,30 @@ TEST(Replay, OfCausesThatComeNearTheNearestIsTaken) {
 }
 // What passed tells too: of two that explain what fails the one that leaves it as it is is meant, however far-fetched.
 TEST(Replay, OfCausesThatExplainAsMuchTheOneThatBreaksNothingIsTaken) {
-  const auto cause = [](const char* name, std::int64_t bad) {
-    Tried t({name, "", 40, 100, 99, false, true}, 0.01);
+  const auto cause = [](What what, std::int64_t bad) {
+    Tried t(std::move(what), {"", "", 40, 100, 99, false, true}, 0.01);
     t.bad = bad;
     return t;
   };
-  EXPECT_EQ(best_causes({cause("difference the other way: a - b", 12), cause("input a is b", 0)})[0].name, "input a is b");
-  EXPECT_EQ(best_causes({cause("difference the other way: a - b", 0), cause("input a is b", 0)})[0].name,
-            "difference the other way: a - b");
+  const What difference{Kind::difference_the_other_way, {"a - b"}}, input{Kind::input_is_another, {"a", "b"}};
+  EXPECT_EQ(best_causes({cause(difference, 12), cause(input, 0)})[0].name, "input a is b");
+  EXPECT_EQ(best_causes({cause(difference, 0), cause(input, 0)})[0].name, "difference the other way: a - b");
 }
-// What is plain is told by the whole end of a name, whatever its length.
-TEST(Replay, AChannelThatIsNeverWrittenIsPlainAndNothingElseOfThatLength) {
-  const auto cause = [](const char* name) { return Cause{name, "", 1, 1, 1, true, true}; };
-  EXPECT_LT(far_fetched(cause("drops without its z")), 0);
-  EXPECT_EQ(far_fetched(cause("input drops without its z")), 0);
-  EXPECT_EQ(far_fetched(cause("thirteen long")), 0);
+// A channel that is never written is as plain as what can be left out in few places.
+TEST(Replay, AChannelThatIsNeverWrittenIsPlain) {
+  const auto how_far = [](Kind kind) { return far_fetched(Tried(What{kind, {"drops", "z"}}, {"", "", 1, 1, 1, true, true})); };
+  EXPECT_LT(how_far(Kind::output_without_channel), 0);
+  EXPECT_EQ(how_far(Kind::input_without_channel), 0);
+  EXPECT_EQ(how_far(Kind::drawn), 0);
 }
 // A list that is as it was before the pass: many mistakes keep a pass from doing anything.
 TEST(Replay, WhereNothingWasDoneNoCauseIsLikely) {
-  const auto cause = [](const char* name) { return Tried({name, "", 48, 48, 48, true, true}); };
-  EXPECT_TRUE(best_causes({cause("uniform count is zero")})[0].is_likely);
-  EXPECT_FALSE(best_causes({cause("uniform count is zero"), cause("drops one step late")})[0].is_likely);
+  const auto cause = [](Kind kind) { return Tried(What{kind, {"count"}}, {"", "", 48, 48, 48, true, true}); };
+  EXPECT_TRUE(best_causes({cause(Kind::uniform_is_zero)})[0].is_likely);
+  EXPECT_FALSE(best_causes({cause(Kind::uniform_is_zero), cause(Kind::list_one_step_late)})[0].is_likely);
 }
 TEST(Replay, AFittedNumberIsNoRivalOfAMistakeWithAName) {
-  const auto cause = [](const char* name, int exact) { return Tried({name, "", exact, 100, 100, false, true}, 0.001); };
+  const auto cause = [](const char* name, int exact) { return Tried(what_of(name), {"", "", exact, 100, 100, false, true}, 0.001); };
   EXPECT_EQ(best_causes({cause("a", 10), cause("another value of c", 40)})[0].name, "a");
   EXPECT_EQ(best_causes({cause("a", 10), cause("another value of c", 95)})[0].name, "another value of c");
 }

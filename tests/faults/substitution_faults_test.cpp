@@ -1,5 +1,5 @@
 // Wrong variables, vectors wrong in all components, and numbers typed wrong: mistakes in passes written by hand, none of them in a set.
-#include "faults/substitution_faults.h"
+#include "faults/generators.h"
 
 #include <algorithm>
 

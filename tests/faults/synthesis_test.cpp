@@ -8,7 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "faults/substitution_faults.h"
+#include "faults/generators.h"
+#include "faults/solver.h"
 #include "math/half.h"
 
 namespace rainref::faults {
@@ -66,7 +67,7 @@ class MadeUp {
   }
   std::string first() const {
     const std::vector<Fault> all = found();
-    return all.empty() ? "none" : all[0].name;
+    return all.empty() ? "none" : name_of(all[0]);
   }
 
  private:
@@ -120,7 +121,8 @@ TEST(Synthesis, AColumnOfOneTexelIsThatOfAnother) {
     return Numbers{texel(high) * 2 + texel(high) * in[1], texel(high)};
   };
   bool is_found = false;
-  for (const Fault& d : MadeUp(right, port, {2, 5, 10}).found()) is_found |= d.sentence.starts_with("of one texel that is read the column");
+  for (const Fault& d : MadeUp(right, port, {2, 5, 10}).found())
+    is_found |= sentence_of(d).starts_with("of one texel that is read the column");
   EXPECT_TRUE(is_found);
 }
 // y / 3 in the place of x, though the pass computes it only later.
@@ -187,7 +189,7 @@ TEST(Solver, ANumberBehindAPowerIsFound) {
   };
   const auto port = [](const Numbers& in) { return Numbers{std::pow(in[0] * 4, 2.5f), in[1]}; };
   const std::vector<Fault> all = MadeUp(right, port, {2.5f, 3}, 1e-4).found();
-  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Fault& d) { return d.sentence.find("4") != std::string::npos; }));
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Fault& d) { return sentence_of(d).find("4") != std::string::npos; }));
 }
 
 TEST(Changes, OfANumber) {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "faults/whole_faults.h"
+#include "faults/generators.h"
 #include "judge/evaluations.h"
 #include "judge/support.h"
 #include "math/half.h"
@@ -42,7 +42,7 @@ TEST(TapFaults, DifferencesOnOneSideAreThoseOfAParabola) {
     for (const auto& [name, added] : {std::pair("height differences on one side, twice, to the right and above", 2.0),
                                       std::pair("height differences on one side, twice, to the left and below", -2.0)})
       for (const Fault& d : all)
-        if (d.name == name) {
+        if (name_of(d) == name) {
           EXPECT_NEAR(slope(d) / slope(Fault{}), (4 * x + added) / (4.0 * x), 4 * 0x1p-11) << name;
           ++tried;
         }

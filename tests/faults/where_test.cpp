@@ -100,11 +100,17 @@ TEST(Where, NoSentenceWithoutAPlace) {
 }
 
 // ---- words ---------------------------------------------------------------------------------------------------------
-Cause cause(const char* name, std::int64_t explained, std::int64_t inside, bool is_likely) {
-  return {name, "", explained, 100, inside, false, is_likely};
+Tried cause(What what, std::int64_t explained, std::int64_t inside, bool is_likely) {
+  return {std::move(what), {"", "", explained, 100, inside, false, is_likely}};
+}
+/// Of a mistake whose words say nothing.
+Tried cause(const char* name, std::int64_t explained, std::int64_t inside, bool is_likely) {
+  What what;
+  what.name = name;
+  return cause(std::move(what), explained, inside, is_likely);
 }
 TEST(BestCauses, LikelyIsTheFirstAlone) {
-  const std::vector<Cause> best = best_causes({cause("a", 100, 100, true), cause("b", 99, 100, true), cause("c", 30, 60, false)});
+  const std::vector<Tried> best = best_causes({cause("a", 100, 100, true), cause("b", 99, 100, true), cause("c", 30, 60, false)});
   ASSERT_EQ(best.size(), 3u);
   EXPECT_EQ(best[0].name, "a");
   EXPECT_TRUE(best[0].is_likely);
@@ -115,22 +121,20 @@ TEST(BestCauses, OfAboutEqualOnesTheEarlierIsBelieved) {
   EXPECT_EQ(best_causes({cause("a", 90, 90, true), cause("b", 100, 100, true)})[0].name, "b");
 }
 TEST(BestCauses, WhatWasSolvedForDoesNotWinByBitsThatItMeetsByChance) {
-  const Tried plain = cause("term left out: x", 11, 100, true);
-  EXPECT_EQ(best_causes({cause("factor too many: y cubed", 28, 100, true), plain})[0].name, plain.name);
-  EXPECT_EQ(best_causes({plain, cause("wrong value: y for x", 96, 100, true)})[0].name, "wrong value: y for x");
+  const Tried plain = cause({Kind::term_left_out, {"", "x"}}, 11, 100, true);
+  EXPECT_EQ(best_causes({cause({Kind::cubed_factor_too_many, {"", "y"}}, 28, 100, true), plain})[0].name, plain.name);
+  EXPECT_EQ(best_causes({plain, cause({Kind::wrong_value, {"", "y", "x"}}, 96, 100, true)})[0].name, "wrong value: y for x");
 }
 TEST(BestCauses, OfEqualOnesThoseOfFewPlacesAreMeant) {
-  EXPECT_EQ(best_causes({cause("factor left out: a", 90, 100, true), cause("not squared: b", 90, 100, true)})[0].name, "not squared: b");
-  EXPECT_EQ(best_causes({cause("sign of a product: a", 90, 100, true), cause("difference the other way: a - b", 90, 100, true)})[0].name,
-            "difference the other way: a - b");
-  EXPECT_EQ(best_causes({cause("half_width of wipers halved", 90, 100, true), cause("term left out: 0.5", 90, 100, true)})[0].name,
-            "term left out: 0.5");
-  EXPECT_EQ(best_causes({cause("mix left out: a", 90, 100, true), cause("difference the other way: a - floor(a)", 90, 100, true)})[0].name,
-            "mix left out: a");
+  const auto better = [](const What& a, const What& b) { return best_causes({cause(a, 90, 100, true), cause(b, 90, 100, true)})[0].name; };
+  EXPECT_EQ(better({Kind::factor_left_out, {"", "a"}}, {Kind::not_squared, {"b"}}), "not squared: b");
+  EXPECT_EQ(better({Kind::product_of_other_sign, {"a"}}, {Kind::difference_the_other_way, {"a - b"}}), "difference the other way: a - b");
+  EXPECT_EQ(better({Kind::field_halved, {"half_width", "wipers"}}, {Kind::term_left_out, {"", "0.5"}}), "term left out: 0.5");
+  EXPECT_EQ(better({Kind::mix_left_out, {"a"}}, {Kind::fraction_the_other_way, {"a - floor(a)"}}), "mix left out: a");
 }
 TEST(BestCauses, WhatExplainsLittleIsNoCauseAndAFewTexelsProveNothing) {
   EXPECT_TRUE(best_causes({cause("a", 20, 40, false)}).empty());
-  Cause few = cause("a", 3, 3, true);
+  Tried few = cause("a", 3, 3, true);
   few.of = 3;
   EXPECT_FALSE(best_causes({few})[0].is_likely);
   few.of_records = true;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "base/temporary_folder.h"
+#include "base/words.h"
 #include "fuzz/targets.h"
 #include "source_folder.h"
 
@@ -58,45 +59,30 @@ bool run(const Target& target, const std::string& bytes) {
   return target.accepts(std::as_bytes(std::span(exact)));
 }
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  // splitmix64, Steele, Lea and Flood 2014.
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-  }
-  std::size_t below(std::size_t limit) { return next() % limit; }
-
- private:
-  std::uint64_t state_;
-};
-
-std::string changed(const std::vector<Seed>& seeds, Random& random) {
-  std::string bytes = seeds[random.below(seeds.size())].bytes;
-  for (std::size_t step = random.below(4); step < 4 && !bytes.empty(); ++step) {
-    const std::size_t at = random.below(bytes.size()), count = std::min(1 + random.below(8), bytes.size() - at);
-    const std::string& other = seeds[random.below(seeds.size())].bytes;
-    switch (random.below(7)) {
+std::string changed(const std::vector<Seed>& seeds, rainref::test::Words& random) {
+  const auto below = [&](std::size_t limit) { return static_cast<std::size_t>(random() % limit); };
+  std::string bytes = seeds[below(seeds.size())].bytes;
+  for (std::size_t step = below(4); step < 4 && !bytes.empty(); ++step) {
+    const std::size_t at = below(bytes.size()), count = std::min(1 + below(8), bytes.size() - at);
+    const std::string& other = seeds[below(seeds.size())].bytes;
+    switch (below(7)) {
       case 0:
-        bytes[at] = static_cast<char>(bytes[at] ^ 1 << random.below(8));
+        bytes[at] = static_cast<char>(bytes[at] ^ 1 << below(8));
         break;
       case 1:
-        bytes[at] = static_cast<char>(random.next());
+        bytes[at] = static_cast<char>(random());
         break;
       case 2:  // a size at its limits
-        bytes.replace(at, count, count, random.below(2) ? '\xff' : '\0');
+        bytes.replace(at, count, count, below(2) ? '\xff' : '\0');
         break;
       case 3:
         bytes.erase(at, count);
         break;
       case 4:
-        bytes.insert(at, bytes, random.below(bytes.size()), 1 + random.below(16));
+        bytes.insert(at, bytes, below(bytes.size()), 1 + below(16));
         break;
       case 5:
-        bytes.insert(at, std::to_string(random.next() >> random.below(64)));
+        bytes.insert(at, std::to_string(random() >> below(64)));
         break;
       case 6:  // the beginning of one seed, the end of another
         bytes = bytes.substr(0, at) + other.substr(std::min(at, other.size()));
@@ -131,7 +117,7 @@ TEST_P(Replay, EveryTruncation) {
 
 TEST_P(Replay, ChangedSeeds) {
   const std::vector<Seed> seeds = seeds_of(GetParam());
-  Random random(2026);
+  rainref::test::Words random(2026);
   int refused = 0;
   for (int i = 0; i < changes; ++i) refused += !run(GetParam(), changed(seeds, random));
   EXPECT_GT(refused, changes / 10);  // the changes reach what is checked

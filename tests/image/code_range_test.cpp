@@ -1,12 +1,9 @@
 // Code ranges against their definition: every half, every 8-bit code, and what lies between them.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <random>
-#include <set>
-#include <vector>
 
 #include "image/code_range.h"
 #include "image/colour.h"

@@ -1,3 +1,4 @@
+// Steps of a function are found where its code changes, or a bucket with two is refused.
 #include "image/code_steps.h"
 
 #include <algorithm>

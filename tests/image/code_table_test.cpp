@@ -1,7 +1,9 @@
+// A tabulated display gives the codes of the pass.
 #include "image/code_table.h"
 
 #include <gtest/gtest.h>
 
+#include "image/images.h"
 #include "math/half.h"
 #include "math/unorm.h"
 
@@ -25,14 +27,9 @@ TEST(CodeTable, GivesThePassesCodes) {
     ++runs;
     pass(c, p, y0, y1);
   });
-  Image colour(Format::rgba16f, 97, 676), picture(Format::rgba8, 97, 676);
-  for (int y = 0; y < colour.height(); ++y) {
-    for (int x = 0; x < colour.width(); ++x) {
-      const std::uint32_t i = static_cast<std::uint32_t>(y) * 97u + static_cast<std::uint32_t>(x);
-      for (std::uint32_t c = 0; c < 4; ++c)
-        colour.row<Half>(y)[4 * x + static_cast<int>(c)].bits = static_cast<std::uint16_t>(i + c * 9973);
-    }
-  }
+  const Image colour =
+      make_image(Format::rgba16f, 97, 676, [](int x, int y, int c) { return Half{static_cast<std::uint16_t>(y * 97 + x + c * 9973)}; });
+  Image picture(Format::rgba8, 97, 676);
   table.rows(colour, picture, 1, 300);
   table.rows(colour, picture, 300, colour.height());
   EXPECT_EQ(runs, 1);

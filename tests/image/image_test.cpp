@@ -1,3 +1,4 @@
+// Images have the formats, sizes, margins and alignment that are declared, and views copy without padding.
 #include "rainref/image.h"
 
 #include <gmock/gmock.h>
@@ -5,6 +6,7 @@
 
 #include <cstring>
 
+#include "base/error_of.h"
 #include "image/flipped.h"
 #include "rainref/error.h"
 
@@ -15,17 +17,6 @@ using testing::HasSubstr;
 
 constexpr Format formats[] = {Format::r8,      Format::rg8,  Format::rgba8, Format::rgba8_srgb, Format::r16f, Format::rg16f,
                               Format::rgba16f, Format::r32f, Format::rg32f, Format::rgba32f,    Format::r32ui};
-
-template <class F>
-std::string refusal(F f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::usage);
-    return e.what();
-  }
-  return "not refused";
-}
 
 TEST(Format, NamesAndSizes) {
   const struct {
@@ -55,10 +46,10 @@ TEST(Format, NamesAndSizes) {
 }
 
 TEST(Format, AnUnknownNameIsRefusedWithTheNearestOne) {
-  EXPECT_EQ(refusal([] { format_from_name("rgba16"); }), "unknown format 'rgba16'; did you mean 'rgba16f'?");
-  EXPECT_EQ(refusal([] { format_from_name("bc7"); }), "unknown format 'bc7'");
-  EXPECT_EQ(refusal([] { format_from_name(""); }), "unknown format ''");
-  EXPECT_EQ(refusal([] { format_from_name("R8"); }), "unknown format 'R8'; did you mean 'r8'?");
+  EXPECT_EQ(error_of([] { format_from_name("rgba16"); }), "2 unknown format 'rgba16'; did you mean 'rgba16f'?");
+  EXPECT_EQ(error_of([] { format_from_name("bc7"); }), "2 unknown format 'bc7'");
+  EXPECT_EQ(error_of([] { format_from_name(""); }), "2 unknown format ''");
+  EXPECT_EQ(error_of([] { format_from_name("R8"); }), "2 unknown format 'R8'; did you mean 'r8'?");
 }
 
 TEST(Rounding, Names) {
@@ -113,8 +104,8 @@ TEST(Image, RowsAreAlignedToWholeVectors) {
 
 TEST(Image, SizesOutsideTheRangeAreRefused) {
   for (const auto& [w, h] : {std::pair{0, 5}, {5, 0}, {-1, 5}, {5, -7}, {65537, 1}, {1, 65537}, {2147483647, 2147483647}}) {
-    EXPECT_EQ(refusal([w = w, h = h] { Image(Format::r8, w, h); }),
-              "image size " + std::to_string(w) + "x" + std::to_string(h) + ": each side must be from 1 to 65536");
+    EXPECT_EQ(error_of([w = w, h = h] { Image(Format::r8, w, h); }),
+              "2 image size " + std::to_string(w) + "x" + std::to_string(h) + ": each side must be from 1 to 65536");
   }
   EXPECT_NO_THROW(Image(Format::r8, 65536, 1));
   EXPECT_NO_THROW(Image(Format::r8, 1, 65536));

@@ -1,3 +1,4 @@
+// Channels are chosen by their names; what two names claim is refused.
 #include "image_io/channels.h"
 
 #include <gmock/gmock.h>
@@ -69,23 +70,16 @@ TEST(PickQuantity, WithoutANameItIsWhatAColourWouldBe) {
 }
 
 TEST(PickQuantity, TwoOfOneClaimAreRefused) {
-  const auto error = error_of([] { pick_depth({"R", "a.Depth.Z", "b.Depth.Z"}); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::usage);
-  EXPECT_STREQ(error->what(), "'f': expected one depth, found a.Depth.Z and b.Depth.Z; save one of them alone");
+  EXPECT_EQ(error_of([] {
+              pick_depth({"R", "a.Depth.Z", "b.Depth.Z"});
+            }),
+            "2 'f': expected one depth, found a.Depth.Z and b.Depth.Z; save one of them alone");
 }
 
 TEST(PickChannels, SaysWhatItDoesNotUnderstand) {
-  const auto layer = error_of([] { pick({"R", "normal.X"}, "norml"); });
-  ASSERT_TRUE(layer);
-  EXPECT_EQ(layer->code(), ExitCode::usage);
-  EXPECT_STREQ(layer->what(), "'f': no layer 'norml'; did you mean 'normal'?");
-  for (const std::vector<std::string>& names : {std::vector<std::string>{"C", "M", "Y", "K"}, {"Y", "BY", "RY"}}) {
-    const auto error = error_of([&] { pick(names); });
-    ASSERT_TRUE(error);
-    EXPECT_EQ(error->code(), ExitCode::usage);
-    EXPECT_THAT(error->what(), HasSubstr("not understood"));
-  }
+  EXPECT_EQ(error_of([] { pick({"R", "normal.X"}, "norml"); }), "2 'f': no layer 'norml'; did you mean 'normal'?");
+  for (const std::vector<std::string>& names : {std::vector<std::string>{"C", "M", "Y", "K"}, {"Y", "BY", "RY"}})
+    EXPECT_THAT(error_of([&] { pick(names); }), testing::AllOf(testing::StartsWith("2 "), HasSubstr("not understood")));
 }
 
 }  // namespace

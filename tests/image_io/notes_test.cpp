@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 
 #include "image_io/notes.h"
-#include "image_io/png_chunks.h"
-#include "image_io/png_write.h"
 #include "image_io/read.h"
 #include "image_io/tiny_files.h"
 #include "image_io/write.h"
@@ -13,10 +11,13 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 std::string text_of(const std::vector<std::byte>& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 const std::string plain = png(1, 1, 8, 2, {"abc"});
+/// The file of one texel with these notes.
+std::string noted(const Notes& notes) { return text_of(png_bytes(Image(Format::rgba8, 1, 1), PngChannels::rgb, notes)); }
 
 // PNG specification, third edition: 11.3.3.2 (tEXt: keyword, zero, Latin-1) and 11.3.3.4 (iTXt: keyword, zero, not compressed, method 0,
 // language, translated keyword, UTF-8).
@@ -25,13 +26,13 @@ TEST(PngText, IsTheSpecificationsBytesBeforeTheTexels) {
   std::string content("rainref:scene\0\0\0\0\0", 18);
   content += "a = \"Straße.exr\"\n";
   const std::string other = png_chunk("iTXt", content);
-  EXPECT_EQ(text_of(with_png_text(bytes_of(plain), {{"rainref:seed", "7"}, {"rainref:scene", "a = \"Straße.exr\"\n"}})),
-            png(1, 1, 8, 2, {"abc"}, ascii + other));
-  EXPECT_EQ(text_of(with_png_text(bytes_of(plain), {})), plain);
+  std::string without = noted({});
+  without.insert(without.find("IDAT") - 4, ascii + other);
+  EXPECT_EQ(noted({{"rainref:seed", "7"}, {"rainref:scene", "a = \"Straße.exr\"\n"}}), without);
 }
 
 TEST(PngText, IsFoundByItsWholeKeyword) {
-  const std::string file = text_of(with_png_text(bytes_of(plain), {{"scene_hash", "h"}, {"scene", "ü\n"}, {"seed", ""}}));
+  const std::string file = noted({{"scene_hash", "h"}, {"scene", "ü\n"}, {"seed", ""}});
   EXPECT_EQ(find_note("f", bytes_of(file), "scene"), "ü\n");
   EXPECT_EQ(find_note("f", bytes_of(file), "scene_hash"), "h");
   EXPECT_EQ(find_note("f", bytes_of(file), "seed"), "");
@@ -46,22 +47,13 @@ TEST(PngText, IsFoundByItsWholeKeyword) {
 }
 
 TEST(PngText, DamagedIsSaidAndNotTaken) {
-  std::string file = text_of(with_png_text(bytes_of(plain), {{"scene", "rate = 4"}}));
+  std::string file = noted({{"scene", "rate = 4"}});
   file[file.find("rate = 4") + 7] = '5';
-  const auto error = error_of([&] { find_note("'a.png'", bytes_of(file), "scene"); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::usage);
-  EXPECT_STREQ(error->what(), "'a.png': damaged: the checksum of its text 'scene' is wrong");
-  for (std::size_t size = 0; size < file.size(); ++size) {  // cut anywhere: nothing, or that error
-    const auto cut = error_of([&] { find_note("f", bytes_of(file).first(size), "scene"); });
-    if (cut) {
-      EXPECT_EQ(cut->code(), ExitCode::usage) << size;
-    }
-  }
+  EXPECT_EQ(error_of([&] { find_note("'a.png'", bytes_of(file), "scene"); }),
+            "2 'a.png': damaged: the checksum of its text 'scene' is wrong");
+  for (std::size_t size = 0; size < file.size(); ++size)  // cut anywhere: nothing, or that error
+    EXPECT_THAT(error_of([&] { find_note("f", bytes_of(file).first(size), "scene"); }), testing::AnyOf("none", StartsWith("2 "))) << size;
 }
-
-// RFC 1952, 8: the CRC of "123456789" in this polynomial.
-TEST(PngText, TheChecksumIsTheStandards) { EXPECT_EQ(png_checksum(bytes_of("123456789")), 0xcbf43926u); }
 
 const Notes notes{{"rainref:scene", "effect = \"puddle\"\nrain.rate = 4.0\n"}, {"rainref:seed", "7"}, {"rainref:name", "Straße"}};
 
@@ -97,9 +89,7 @@ TEST(Notes, OtherBytesHaveNone) {
     EXPECT_FALSE(may_have_notes(bytes_of(bytes)));
   }
   const std::string cut = "\x76\x2f\x31\x01" + little(2) + "name";
-  const auto error = error_of([&] { find_note("'a.exr'", bytes_of(cut), "k"); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::usage);
+  EXPECT_THAT(error_of([&] { find_note("'a.exr'", bytes_of(cut), "k"); }), StartsWith("2 "));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// A picture that is missing, cut or damaged is an error with its reason, and never a crash.
 #include <sys/stat.h>
 
 #include <gmock/gmock.h>
@@ -9,7 +10,10 @@
 namespace rainref::image_io {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST(ReadErrors, AMissingFileAFolderAndAPipeAreIoErrors) {
   const TemporaryFolder folder;
@@ -20,10 +24,7 @@ TEST(ReadErrors, AMissingFileAFolderAndAPipeAreIoErrors) {
                                                                  {folder / "file/a.exr", "Not a directory"},
                                                                  {folder / "pipe.png", "not a regular file"}};
   for (const auto& [path, reason] : cases) {
-    const auto error = error_of([&, &at = path] { read(at); });
-    ASSERT_TRUE(error) << path;
-    EXPECT_EQ(error->code(), ExitCode::io);
-    EXPECT_EQ(error->what(), "cannot read '" + path.string() + "': " + reason);
+    EXPECT_EQ(error_of([&, &at = path] { read(at); }), "4 cannot read '" + path.string() + "': " + reason);
   }
 }
 
@@ -39,11 +40,8 @@ TEST(ReadErrors, WhatIsNoPictureIsAUsageError) {
       {"\x89PNG\r\n\x1a\n", "a.exr"}};
   for (const auto& [bytes, reason] : cases) {
     put(folder / "a.exr", bytes);
-    const auto error = error_of([&] { read(folder / "a.exr"); });
-    ASSERT_TRUE(error) << reason;
-    EXPECT_EQ(error->code(), ExitCode::usage);
-    EXPECT_THAT(error->what(), HasSubstr((folder / "a.exr").string()));
-    EXPECT_THAT(error->what(), HasSubstr(reason));
+    EXPECT_THAT(error_of([&] { read(folder / "a.exr"); }),
+                AllOf(StartsWith("2 "), HasSubstr((folder / "a.exr").string()), HasSubstr(reason)));
   }
 }
 
@@ -54,9 +52,7 @@ void expect_truncation_is_noticed(const std::string& bytes, const char* what) {
   EXPECT_NO_THROW(read(folder / "a")) << what;
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     put(folder / "a", bytes.substr(0, length));
-    const auto error = error_of([&] { read(folder / "a"); });
-    ASSERT_TRUE(error) << what << ": read as if whole at " << length << " of " << bytes.size() << " bytes";
-    ASSERT_EQ(error->code(), ExitCode::usage) << error->what();
+    ASSERT_THAT(error_of([&] { read(folder / "a"); }), StartsWith("2 ")) << what << ": " << length << " of " << bytes.size() << " bytes";
   }
 }
 
@@ -113,11 +109,7 @@ TEST(ReadErrors, DamagedBytesNeverCrash) {
         std::string bytes = file;
         bytes[i] = static_cast<char>(bytes[i] ^ flip);
         put(folder / "a", bytes);
-        try {
-          read(folder / "a");
-        } catch (const Error& error) {
-          EXPECT_EQ(error.code(), ExitCode::usage) << error.what();
-        }
+        EXPECT_THAT(error_of([&] { read(folder / "a"); }), AnyOf("none", StartsWith("2 ")));
       }
     }
   }

@@ -1,3 +1,4 @@
+// EXR files keep the bits of their halves and floats, and layers are read by name.
 #include <bit>
 #include <cmath>
 
@@ -18,6 +19,13 @@ Picture read_bytes(const std::string& bytes, std::string_view layer = {}) {
   const TemporaryFolder folder;
   put(folder / "a.exr", bytes);
   return read(folder / "a.exr", layer);
+}
+
+/// What is said of a file, which was a mistake of who gave it.
+std::string refusal(const std::string& bytes) {
+  const std::string said = error_of([&] { read_bytes(bytes); });
+  EXPECT_THAT(said, testing::StartsWith("2 "));
+  return said;
 }
 
 ExrChannel half_channel(const std::string& name, std::uint16_t bits) {
@@ -94,19 +102,11 @@ TEST(ReadExr, NanAndInfinityAreRefusedWithTheirPlace) {
                               {"G", ExrType::float32, [=](int x, int y) { return raw(x >= 2 && y >= 1 ? value : 1.0f); }},
                               float_channel("R", 0)});
   };
-  const auto nan = error_of([&] { read_bytes(bad(std::nanf(""))); });
-  ASSERT_TRUE(nan);
-  EXPECT_EQ(nan->code(), ExitCode::usage);
-  EXPECT_THAT(nan->what(), HasSubstr("a.exr': NaN at x 2, y 1 (from the top), channel 'G'"));
-  const auto infinity = error_of([&] { read_bytes(bad(-INFINITY)); });
-  ASSERT_TRUE(infinity);
-  EXPECT_THAT(infinity->what(), HasSubstr("infinity at x 2, y 1"));
-  const auto half = error_of([] { read_bytes(exr({0, 0, 1, 1}, {half_channel("Y", 0xfc00)})); });
-  ASSERT_TRUE(half);
-  EXPECT_THAT(half->what(), HasSubstr("infinity at x 0, y 0 (from the top), channel 'Y'"));
-  const auto half_nan = error_of([] { read_bytes(exr({0, 0, 1, 1}, {half_channel("Y", 0x7c01)})); });
-  ASSERT_TRUE(half_nan);
-  EXPECT_THAT(half_nan->what(), HasSubstr("NaN at x 0, y 0"));
+  const auto half = [](std::uint16_t bits) { return exr({0, 0, 1, 1}, {half_channel("Y", bits)}); };
+  EXPECT_THAT(refusal(bad(std::nanf(""))), HasSubstr("a.exr': NaN at x 2, y 1 (from the top), channel 'G'"));
+  EXPECT_THAT(refusal(bad(-INFINITY)), HasSubstr("infinity at x 2, y 1"));
+  EXPECT_THAT(refusal(half(0xfc00)), HasSubstr("infinity at x 0, y 0 (from the top), channel 'Y'"));
+  EXPECT_THAT(refusal(half(0x7c01)), HasSubstr("NaN at x 0, y 0"));
 }
 
 TEST(ReadExr, NanInAChannelThatIsNotReadDoesNotMatter) {
@@ -145,11 +145,10 @@ TEST(ReadExr, UnlikeChannelsAreNoQuantity) {
   const ExrChannel green{"G", ExrType::float32, [](int x, int y) { return raw(x == 2 && y == 1 ? 3.0f : 2.0f); }};
   const std::string bytes = exr({0, 0, 4, 3}, {float_channel("A", 9), float_channel("B", 2), green, float_channel("R", 2)});
   for (const Content content : {Content::depth, Content::quantity}) {
-    const auto error = error_of([&] { read_depth(bytes, content); });
-    ASSERT_TRUE(error);
-    EXPECT_EQ(error->code(), ExitCode::usage);
-    EXPECT_THAT(error->what(), HasSubstr("a.exr': expected one quantity, found R 2 beside G 3 at x 2, y 1 (from the top); save one channel "
-                                         "alone, or a depth as channel Z"));
+    EXPECT_THAT(
+        error_of([&] { read_depth(bytes, content); }),
+        testing::MatchesRegex("2 .*a.exr': expected one quantity, found R 2 beside G 3 at x 2, y 1 .from the top.; save one channel "
+                              "alone, or a depth as channel Z"));
   }
   // Alike they are one, whatever alpha says.
   const Picture grey =
@@ -161,13 +160,10 @@ TEST(ReadExr, UnlikeChannelsAreNoQuantity) {
 }
 
 TEST(ReadExr, IntegersCropsAndOverscanAreRefused) {
-  const auto integer = error_of([] { read_bytes(exr({0, 0, 1, 1}, {{"R", ExrType::uint, [](int, int) { return raw(1u); }}})); });
-  ASSERT_TRUE(integer);
-  EXPECT_EQ(integer->code(), ExitCode::usage);
-  EXPECT_THAT(integer->what(), HasSubstr("channel 'R' is of type uint"));
-  const auto crop = error_of([] { read_bytes(exr({1, 0, 2, 2}, {half_channel("Y", 1)}, ExrWindow{0, 0, 4, 4})); });
-  ASSERT_TRUE(crop);
-  EXPECT_THAT(crop->what(), HasSubstr("data window 2x2+1+0 differs from display window 4x4+0+0"));
+  EXPECT_THAT(refusal(exr({0, 0, 1, 1}, {{"R", ExrType::uint, [](int, int) { return raw(1u); }}})),
+              HasSubstr("channel 'R' is of type uint"));
+  EXPECT_THAT(refusal(exr({1, 0, 2, 2}, {half_channel("Y", 1)}, ExrWindow{0, 0, 4, 4})),
+              HasSubstr("data window 2x2+1+0 differs from display window 4x4+0+0"));
   // Both windows at the same place: only their origin is unusual.
   EXPECT_EQ(read_bytes(exr({-3, 10, 2, 2}, {half_channel("Y", 1)})).image.width(), 2);
 }
@@ -179,9 +175,7 @@ TEST(ReadExr, ASizeBeyondMeasureIsRefusedNotAllocated) {
     std::string bytes = small;
     bytes.replace(at + 8, 8, little(width - 1) + little(height - 1));
     bytes.replace(display + 8, 8, little(width - 1) + little(height - 1));
-    const auto error = error_of([&] { read_bytes(bytes); });
-    ASSERT_TRUE(error) << width << "x" << height;
-    EXPECT_EQ(error->code(), ExitCode::usage) << error->what();
+    EXPECT_NE(refusal(bytes), "none") << width << "x" << height;
   }
 }
 

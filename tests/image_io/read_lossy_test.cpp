@@ -1,3 +1,4 @@
+// HDR and JPEG files are decoded as their formats say; JPEG is marked lossy.
 #include <gmock/gmock.h>
 
 #include "image_io/read.h"
@@ -6,7 +7,9 @@
 namespace rainref::image_io {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 using Floats = std::array<float, 4>;
 
 Picture read_bytes(const std::string& bytes) {
@@ -53,29 +56,26 @@ TEST(ReadHdr, OtherLinesChangeNothing) {
 TEST(ReadHdr, AHeaderMayEndAnywhere) {
   const std::string whole = hdr(1, 1, {{1, 1, 1, 136}}, "-Y {h} +X {w}", "EXPOSURE=2\nCOLORCORR=1 2 3\n");
   for (std::size_t bytes = 11; bytes < whole.size(); ++bytes) {
-    const auto error = error_of([&] { read_bytes(whole.substr(0, bytes)); });
-    ASSERT_TRUE(error) << bytes;
-    EXPECT_EQ(error->code(), ExitCode::usage) << error->what();
+    EXPECT_THAT(error_of([&] { read_bytes(whole.substr(0, bytes)); }), StartsWith("2 ")) << bytes;
   }
 }
 TEST(ReadHdr, FactorsThatAreNoneAreRefused) {
   for (const char* lines : {"EXPOSURE=\n", "EXPOSURE=0\n", "EXPOSURE=-2\n", "EXPOSURE=nan\n", "EXPOSURE=inf\n", "EXPOSURE=1e999\n",
                             "EXPOSURE=2 3\n", "EXPOSURE=x\n", "COLORCORR=1 2\n", "COLORCORR=1 0 1\n", "COLORCORR=1 2 3 4\n",
                             "EXPOSURE=1e-30\nEXPOSURE=1e-30\n", "EXPOSURE=1e30\nEXPOSURE=1e30\n"}) {
-    const auto error = error_of([&] { read_with(lines); });
-    ASSERT_TRUE(error) << lines;
-    EXPECT_EQ(error->code(), ExitCode::usage);
-    EXPECT_THAT(error->what(), testing::AnyOf(HasSubstr("EXPOSURE"), HasSubstr("COLORCORR"))) << lines;
+    EXPECT_THAT(error_of([&] { read_with(lines); }), AllOf(StartsWith("2 "), testing::AnyOf(HasSubstr("EXPOSURE"), HasSubstr("COLORCORR"))))
+        << lines;
   }
-  EXPECT_THAT(error_of([] { read_with("EXPOSURE=-2\n"); })->what(), HasSubstr("a': EXPOSURE: expected a number above 0, found '-2'"));
+  EXPECT_THAT(error_of([] { read_with("EXPOSURE=-2\n"); }), HasSubstr("a': EXPOSURE: expected a number above 0, found '-2'"));
 }
 
 TEST(ReadHdr, AnUnusualOrientationIsRefused) {
   for (const char* axes : {"+Y {h} +X {w}", "-Y {h} -X {w}"}) {
-    const auto error = error_of([&] { read_bytes(hdr(1, 2, {{1, 1, 1, 136}, {2, 2, 2, 136}}, axes)); });
-    ASSERT_TRUE(error) << axes;
-    EXPECT_EQ(error->code(), ExitCode::usage);
-    EXPECT_THAT(error->what(), HasSubstr("save it upright"));
+    EXPECT_THAT(error_of([&] {
+                  read_bytes(hdr(1, 2, {{1, 1, 1, 136}, {2, 2, 2, 136}}, axes));
+                }),
+                AllOf(StartsWith("2 "), HasSubstr("save it upright")))
+        << axes;
   }
 }
 

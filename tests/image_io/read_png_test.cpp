@@ -1,3 +1,4 @@
+// PNG files keep their codes: no premultiplied alpha, no gamma, the top row first.
 #include <gmock/gmock.h>
 
 #include "image_io/read.h"

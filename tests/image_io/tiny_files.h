@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
-#include "rainref/error.h"
+#include "image/images.h"
 #include "rainref/image.h"
 
 namespace rainref::image_io {
@@ -138,36 +138,12 @@ inline std::string jpeg(int columns) {
   return out + "\xff\xd9";
 }
 
-/// The error that f throws, if it throws one.
-template <class F>
-std::optional<Error> error_of(F&& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error;
-  }
-  return std::nullopt;
-}
-
 /// The storage bytes of one texel, as numbers of type T.
 template <class T>
 std::array<T, 4> texel(const Image& image, int x, int y) {
   std::array<T, 4> out;
   std::memcpy(out.data(), image.row_bytes(y) + x * sizeof out, sizeof out);
   return out;
-}
-
-/// An image filled by f(x, y, channel), which returns the storage type of one channel.
-template <class F>
-Image make_image(Format format, int width, int height, F&& f) {
-  Image image(format, width, height);
-  using T = decltype(f(0, 0, 0));
-  for (int y = 0; y < height; ++y) {
-    for (int i = 0; i < width * image.channels(); ++i) {
-      image.row<T>(y)[i] = f(i / image.channels(), y, i % image.channels());
-    }
-  }
-  return image;
 }
 
 }  // namespace rainref::image_io

@@ -1,25 +1,25 @@
+// Written pictures keep their bits, are the same bytes each time, and leave an old file whole where writing fails.
 #include "image_io/write.h"
 
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <bit>
-#include <cmath>
 #include <thread>
 
 #include <gmock/gmock.h>
 
+#include "base/child_process.h"
 #include "image_io/read.h"
 #include "image_io/tiny_files.h"
 
 namespace rainref::image_io {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 Image codes(Format format, int width = 67, int height = 19) {
   return make_image(format, width, height, [](int x, int y, int c) {
@@ -120,10 +120,8 @@ TEST(WriteExr, NanIsWrittenAndRefusedOnReading) {
   const TemporaryFolder folder;
   const Image image = make_image(Format::r32f, 3, 2, [](int x, int y, int) { return x == 1 && y == 1 ? std::nanf("") : 0.0f; });
   write_exr(folder / "a.exr", {{"", {"height"}, &image}});
-  const auto error = error_of([&] { read(folder / "a.exr"); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::usage);
-  EXPECT_THAT(error->what(), HasSubstr("NaN at x 1, y 1 (from the top), channel 'height'"));
+  EXPECT_THAT(error_of([&] { read(folder / "a.exr"); }),
+              AllOf(StartsWith("2 "), HasSubstr("NaN at x 1, y 1 (from the top), channel 'height'")));
 }
 
 TEST(Write, TheSameImageGivesTheSameBytes) {
@@ -146,13 +144,12 @@ TEST(Write, AnUnwritablePlaceIsAnIoErrorWithItsReason) {
   const TemporaryFolder folder;
   put(folder / "file", "x");
   const Image image = halves(), display = codes(Format::rgba8);
-  const auto exr_error = error_of([&] { write_exr(folder / "file/a.exr", {{"", {"R", "G", "B"}, &image}}); });
-  const auto png_error = error_of([&] { write_png(folder / "none/a.png", display); });
-  ASSERT_TRUE(exr_error && png_error);
-  EXPECT_EQ(exr_error->code(), ExitCode::io);
-  EXPECT_EQ(exr_error->what(), "cannot write '" + (folder / "file/a.exr").string() + "': Not a directory");
-  EXPECT_EQ(png_error->code(), ExitCode::io);
-  EXPECT_EQ(png_error->what(), "cannot write '" + (folder / "none/a.png").string() + "': No such file or directory");
+  EXPECT_EQ(error_of([&] {
+              write_exr(folder / "file/a.exr", {{"", {"R", "G", "B"}, &image}});
+            }),
+            "4 cannot write '" + (folder / "file/a.exr").string() + "': Not a directory");
+  EXPECT_EQ(error_of([&] { write_png(folder / "none/a.png", display); }),
+            "4 cannot write '" + (folder / "none/a.png").string() + "': No such file or directory");
   EXPECT_THAT(folder.names(), ElementsAre("file"));
 }
 
@@ -160,17 +157,14 @@ TEST(Write, AFullDiskLeavesTheOldFileAndNothingElse) {
   const TemporaryFolder folder;
   put(folder / "a.exr", "old");
   const Image image = halves(200, 200);
-  const pid_t child = ::fork();
-  if (child == 0) {
+  ChildProcess child([&] {
     ::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{1000, 1000};
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    const auto error = error_of([&] { write_exr(folder / "a.exr", {{"", {"R", "G", "B"}, &image}}); });
-    ::_exit(error && error->code() == ExitCode::io ? 0 : 1);
-  }
-  int status = -1;
-  ::waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    const std::string error = error_of([&] { write_exr(folder / "a.exr", {{"", {"R", "G", "B"}, &image}}); });
+    return error.starts_with("4 ") ? 0 : 1;
+  });
+  EXPECT_EQ(child.wait(), 0);
   EXPECT_EQ(contents(folder / "a.exr"), "old");
   EXPECT_THAT(folder.names(), ElementsAre("a.exr"));
 }
@@ -185,11 +179,7 @@ TEST(Write, MisuseIsADefect) {
                                               {{"", {"a", "b", "c", "d", "e"}, &small}},
                                               {{"", {"R"}, &small}, {"n", {"X"}, &large}},
                                               {{"", {"R"}, &display}}};
-  for (const auto& layers : cases) {
-    const auto error = error_of([&] { write_exr(folder / "a.exr", layers); });
-    ASSERT_TRUE(error);
-    EXPECT_EQ(error->code(), ExitCode::internal);
-  }
+  for (const auto& layers : cases) EXPECT_THAT(error_of([&] { write_exr(folder / "a.exr", layers); }), StartsWith("5 "));
   EXPECT_THROW(write_png(folder / "a.png", small), Error);
   EXPECT_THAT(folder.names(), IsEmpty());
 }

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/npy.h"
 #include "judge/mini_port.h"
 #include "judge/support.h"
 #include "registry/registry.h"
@@ -18,16 +19,12 @@ using testing::HasSubstr;
 void put_three_channels(const std::filesystem::path& file, const Array& a) {
   const FormatInfo& f = info(a.format);
   const auto texel = static_cast<std::size_t>(f.texel_bytes()), kept = static_cast<std::size_t>(3 * f.channel_bytes);
-  std::string head = "{'descr': '" +
-                     std::string(f.channel_bytes == 1   ? "|u1"
-                                 : f.channel_bytes == 2 ? "<f2"
-                                                        : "<f4") +
-                     "', 'fortran_order': False, 'shape': (" + std::to_string(a.height) + ", " + std::to_string(a.width) + ", 3), }";
-  head.append(63 - (10 + head.size()) % 64, ' ').append("\n");
-  std::string bytes =
-      "\x93NUMPY" + std::string("\1\0", 2) + static_cast<char>(head.size() & 255) + static_cast<char>(head.size() >> 8) + head;
-  for (std::size_t t = 0; t < a.levels[0].size(); t += texel) bytes.append(reinterpret_cast<const char*>(&a.levels[0][t]), kept);
-  put(file, bytes);
+  std::string data;
+  for (std::size_t t = 0; t < a.levels[0].size(); t += texel) data.append(reinterpret_cast<const char*>(&a.levels[0][t]), kept);
+  put(file, npy(f.channel_bytes == 1   ? "'|u1'"
+                : f.channel_bytes == 2 ? "'<f2'"
+                                       : "'<f4'",
+                "(" + std::to_string(a.height) + ", " + std::to_string(a.width) + ", 3)", data));
 }
 
 TEST(PicturesWithoutAlpha, AreJudgedWhereItIsOne) {

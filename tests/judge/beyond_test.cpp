@@ -1,8 +1,6 @@
 // What a profile leaves without a bound fails where there is much of it that no device comes to.
 #include "judge/beyond.h"
 
-#include <cstring>
-
 #include <gmock/gmock.h>
 
 #include "faults/mistakes_drops_and_maps.h"
@@ -64,14 +62,9 @@ TEST(Beyond, LayersInTheWrongOrderFail) {
 }
 TEST(Beyond, TimeInMillisecondsFails) {
   const PublishedDrops drops;
-  const scene::UniformBlock& block = drops.pack.pass("drops").block;
-  const auto time = std::find_if(block.members.begin(), block.members.end(), [](const scene::Member& m) { return m.name == "time"; });
-  const PassJudgement j = drops.judged("", [&](PassCase& c) {
-    float seconds;
-    std::memcpy(&seconds, c.uniforms.data() + time->offset, 4);
-    seconds *= 1000;
-    std::memcpy(c.uniforms.data() + time->offset, &seconds, 4);
-  });
+  const std::size_t time = uniform_offset(drops.pack, "drops", "time");
+  const PassJudgement j =
+      drops.judged("", [&](PassCase& c) { change_at<float>(c.uniforms.data() + time, [](float seconds) { return 1000 * seconds; }); });
   EXPECT_EQ(j.status, Status::fail) << j.reason;
   EXPECT_THAT(j.reason, HasSubstr("elements that webgpu leaves without a bound are farther off than the coarsest device"));
   // They are failing elements as any: in the map, in the list of the worst with what is accepted there.

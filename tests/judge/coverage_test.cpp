@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <set>
 #include <span>
@@ -12,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/temporary_folder.h"
-#include "judge/pass_texts.h"
 #include "judge/support.h"
+#include "reports/figures.h"
 #include "scene/toml.h"
 #include "scene/unexercised.h"
 
@@ -31,17 +30,6 @@ Exercise coverage_of_pass(const capture::Pack& pack, const std::string& pass, co
   return all;
 }
 
-/// Alternatives of a pass that its cases take, and those that they do not.
-struct Sides {
-  std::set<std::string> taken, not_taken;
-};
-Sides sides_of(const capture::Pack& pack, const std::string& pass) {
-  Sides out;
-  for (const auto& [alternative, is_taken] : coverage_of_pass(pack, pass, parallel::Executor(2)).alternatives())
-    (is_taken ? out.taken : out.not_taken).insert(alternative);
-  return out;
-}
-
 class PackCoverage : public testing::TestWithParam<test::PackPasses> {};
 
 TEST_P(PackCoverage, IsTheManifestsForEveryNumberOfThreads) {
@@ -51,7 +39,8 @@ TEST_P(PackCoverage, IsTheManifestsForEveryNumberOfThreads) {
     if (!GetParam().has(pass["name"])) continue;
     for (const int threads : {1, 2, 3, 8}) {
       const std::string name = pass["name"];
-      const PassCoverage c = summary(coverage_of_pass(pack, name, parallel::Executor(threads)), pack.pass(name).unexercised);
+      const Exercise exercised = coverage_of_pass(pack, name, parallel::Executor(threads));
+      const PassCoverage c = summary(exercised, pack.pass(name).unexercised);
       if (c.alternatives == 0) {
         EXPECT_FALSE(pass.contains("coverage")) << pass["name"];
         continue;
@@ -62,17 +51,37 @@ TEST_P(PackCoverage, IsTheManifestsForEveryNumberOfThreads) {
       // The scene's own; what nothing can take is known without the manifest.
       auto reasons = pass["coverage"]["reasons"].get<std::map<std::string, std::string>>();
       for (const auto& [alternative, reason] : reasons) EXPECT_TRUE(c.reasons.contains(alternative)) << pass["name"] << alternative;
-      for (const auto& [alternative, reason] : unreached())
-        if (c.reasons.contains(alternative)) reasons.insert({alternative, reason});
+      for (const Alternative& a : exercised.alternatives())
+        if (!a.is_taken && !a.guard.empty()) reasons.insert({a.name, a.guard});
       EXPECT_EQ(reasons, c.reasons) << pass["name"];
     }
   }
 }
 
+// A sample takes nothing that all do not take, knows the same alternatives, and says that it is one.
+TEST(Coverage, OfASampleSaysSo) {
+  for (const test::BoundPass& pass : test::enveloped_passes({test::shipped_pack("puddle-corrected", {"wave_step"})})) {
+    const test::BoundCase& b = pass.cases.back();
+    const parallel::Executor executor(2);
+    const Exercise all = coverage_of(*b.c, b.model.get(), executor), some = coverage_of(*b.c, b.model.get(), executor, 50);
+    EXPECT_FALSE(all.is_sampled);
+    EXPECT_TRUE(some.is_sampled);
+    const std::vector<Alternative> every = all.alternatives(), sampled = some.alternatives();
+    ASSERT_EQ(sampled.size(), every.size()) << pass.name();
+    for (std::size_t k = 0; k < every.size(); ++k) {
+      EXPECT_EQ(sampled[k].name, every[k].name);
+      EXPECT_LE(sampled[k].is_taken, every[k].is_taken) << every[k].name;
+    }
+    EXPECT_EQ(reports::coverage_text(summary(all), 0).find("by a sample"), std::string::npos);
+    EXPECT_NE(reports::coverage_text(summary(some), 0).find(" alternatives by a sample"), std::string::npos);
+  }
+}
+
 /// What the shipped packs of an effect and a variant exercise of a pass, and which reasons their scenes give for the rest.
 struct Shipped {
-  Sides sides;
+  Exercise exercised;
   std::map<std::string, std::string> reasons;
+  std::map<std::string, int> lines;  ///< of names
 };
 std::map<std::string, Shipped> shipped_passes() {
   std::map<std::string, Shipped> all;
@@ -82,16 +91,18 @@ std::map<std::string, Shipped> shipped_passes() {
     const std::string file = rainref::test::pack_scene(name);
     const auto scene = scene::unexercised(scene::read_scene(file), file);
     for (const capture::PackPass& pass : pack.passes) {
-      Sides sides = sides_of(pack, pass.name);
+      const Exercise exercised = coverage_of_pass(pack, pass.name, parallel::Executor(2));
       Shipped& of = all[pack.effect + " " + pack.variant + " " + pass.name];
-      if (scene.contains(pass.name))
-        for (const auto& [alternative, reason] : scene.at(pass.name)) {
-          // No reason stands for what is done.
-          EXPECT_TRUE(sides.not_taken.contains(alternative)) << name << ' ' << pass.name << ": " << alternative;
-          of.reasons[alternative] = reason;
-        }
-      of.sides.taken.merge(sides.taken);
-      of.sides.not_taken.merge(sides.not_taken);
+      of.exercised.add(exercised);
+      // A name is of one line in each pack, though what a run does not reach has no number; those of guards are not told apart.
+      for (const Alternative& a : exercised.alternatives())
+        EXPECT_EQ(of.lines.emplace(a.name, a.line).first->second, a.line) << name << ' ' << pass.name << ": " << a.name;
+      if (!scene.contains(pass.name)) continue;
+      const PassCoverage c = summary(exercised, scene.at(pass.name));
+      for (const auto& [alternative, reason] : scene.at(pass.name)) {
+        EXPECT_TRUE(c.reasons.contains(alternative)) << "it is done: " << name << ' ' << pass.name << ": " << alternative;
+        of.reasons[alternative] = reason;
+      }
     }
   }
   return all;
@@ -99,17 +110,11 @@ std::map<std::string, Shipped> shipped_passes() {
 
 // In what the shipped packs never do a mistake would not be found: so it is a guard, or a scene says why.
 TEST(ShippedPacks, ExerciseEveryAlternativeButThoseWithAReason) {
-  std::set<std::string> unused;
-  for (const auto& [alternative, reason] : unreached()) unused.insert(alternative);
-  for (const auto& [pass, of] : shipped_passes()) {
-    for (const std::string& a : of.sides.not_taken) {
-      unused.erase(a);
-      if (of.sides.taken.contains(a)) continue;
-      EXPECT_EQ(of.reasons.contains(a) + unreached().contains(a), 1) << pass << ": " << a;
+  for (const auto& [pass, of] : shipped_passes())
+    for (const Alternative& a : of.exercised.alternatives()) {
+      const bool has_own = !a.is_taken && of.reasons.contains(a.name);
+      EXPECT_EQ(has_own + !a.guard.empty(), a.is_taken ? 0 : 1) << pass << ": " << a.name;
     }
-    for (const std::string& a : of.sides.taken) EXPECT_FALSE(unreached().contains(a)) << pass << ": " << a;
-  }
-  EXPECT_THAT(unused, testing::IsEmpty()) << "no pass text has these";
 }
 
 /// A made-up run of the windshield's normals, corrected.
@@ -195,29 +200,39 @@ TEST(ShippedPacks, AUniformThatAVariantDoesNotReadChangesNothing) {
   EXPECT_GE(tried, 60);
 }
 
-TEST(PassLine, IsTheLineWithoutIndentationAndComment) {
-  std::ifstream in(rainref::test::source_folder() + "/src/math/optics-inl.h");
-  int n = 0, found = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++n;
-    if (line == "  const N m = N(1.0f) - cosine, m2 = square(m);") {
-      EXPECT_EQ(pass_line("math/optics-inl.h", n), "const N m = N(1.0f) - cosine, m2 = square(m);");
-      ++found;
-    }
-    if (line.ends_with("// 1 / 2.4")) {
-      EXPECT_TRUE(pass_line("math/optics-inl.h", n).ends_with("N(0x1.aaaaaap-2f));")) << pass_line("math/optics-inl.h", n);
-      ++found;
-    }
+TEST(Alternatives, HaveNamesOfFunctionKindAndNumber) {
+  using perturbed::Perturbed;
+  Exercise e;
+  {
+    perturbed::Behaviour counting;
+    counting.coverage = &e.decisions;
+    const perturbed::Scope scope(counting);
+    const Perturbed zero(0.0f), one(1.0f);
+    max(one, zero);
+    scalar::guard<Perturbed>(max(one, zero), "one is larger");
+    max(zero, one);
+    [&] { saturate(one); }();
   }
-  EXPECT_EQ(found, 2);
-  EXPECT_EQ(pass_line("math/optics-inl.h", n + 5), "");
-  EXPECT_EQ(pass_line("math/none.h", 1), "");
+  e.values["uniform x: neither 0 nor 1"] = false;
+  e.guards["uniform x: neither 0 nor 1"] = "it is 1";
+  const auto is = [](const char* name, bool is_taken, const char* guard) {
+    return testing::AllOf(testing::Field(&Alternative::name, name), testing::Field(&Alternative::is_taken, is_taken),
+                          testing::Field(&Alternative::guard, guard));
+  };
+  EXPECT_THAT(
+      e.alternatives(),
+      testing::ElementsAre(
+          is("coverage_test.cpp, TestBody: max, the first", true, ""), is("coverage_test.cpp, TestBody: max, the second", false, ""),
+          is("coverage_test.cpp, TestBody: guarded max, the first", true, ""),
+          is("coverage_test.cpp, TestBody: guarded max, the second", false, "one is larger"),
+          is("coverage_test.cpp, TestBody: max 2, the first", false, ""), is("coverage_test.cpp, TestBody: max 2, the second", true, ""),
+          is("coverage_test.cpp, a lambda: clamp, below", false, ""), is("coverage_test.cpp, a lambda: clamp, within", true, ""),
+          is("coverage_test.cpp, a lambda: clamp, above", false, ""), is("uniform x: neither 0 nor 1", false, "it is 1")));
 }
-TEST(Alternative, NamesALookupByWhatItReads) {
+TEST(Alternatives, NameALookupByWhatItReads) {
   using perturbed::DecisionKind;
-  EXPECT_EQ(alternative({"clamp", 0, DecisionKind::address, "bed"}, 0), "lookup of bed by clamp: before the first texel");
-  EXPECT_EQ(alternative({"border", 0, DecisionKind::load, ""}, 2), "load of an image by border: behind the last texel");
-  EXPECT_EQ(alternative({"puddle/none.pass.h", 7, DecisionKind::choice, ""}, 1), "none.pass.h, select the second: line 7");
+  EXPECT_EQ(name_of({"clamp", 0, DecisionKind::address, "", "bed"}, 1, false, 0), "lookup of bed by clamp: before the first texel");
+  EXPECT_EQ(name_of({"border", 0, DecisionKind::load, "", ""}, 1, false, 2), "load of an image by border: behind the last texel");
 }
 
 INSTANTIATE_TEST_SUITE_P(Packs, PackCoverage, testing::ValuesIn(test::proven_packs()), test::name_of_pack_test);

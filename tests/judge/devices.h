@@ -156,10 +156,11 @@ inline void expect_looser_outside(const std::vector<BoundPass>& passes) {
   narrow.subtexel_bits = narrow.coordinate_bits = narrow.lod_bits = 0;
   for (const BoundPass& pass : passes) {
     Tally tally;
-    // Halves of the windshield's textures hide more.
-    const int devices = pass.pack.starts_with("windshield") ? 6000 : 2000;
-    for (const BoundCase& b : pass.cases) judge_devices(b, profile("vulkan"), narrow, 0, devices, tally);
     if (pass.is_one_number(profile("vulkan"))) continue;
+    // Halves that are stored on the way hide most: one device in thousands is seen there.
+    const int batch = 500, most = 24'000;
+    for (int begin = 0; begin < most && tally.outside <= 20; begin += batch)
+      for (const BoundCase& b : pass.cases) judge_devices(b, profile("vulkan"), narrow, begin, begin + batch, tally);
     EXPECT_GT(tally.outside, 20) << pass.name();
   }
 }

@@ -1,12 +1,11 @@
 // One rounding of half stores for a whole port: how it is found, and what is said of a pass that has another.
 #include "judge/half_votes.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <gmock/gmock.h>
 
+#include "base/words.h"
 #include "judge/mini_port.h"
 
 namespace rainref::judge {
@@ -96,18 +95,83 @@ TEST(HalfVotes, WhatTheProfileAsksForIsSaid) {
             "stores to binary16 round toward zero in this pass and to nearest in a, b: a port has one rounding");
 }
 
+// ---- what was not asked ----------------------------------------------------------------------------------------------
+HalfVotes least(const char* pass, std::vector<std::int64_t> failing, std::vector<std::int64_t> undecided,
+                const std::vector<HalfMode>& modes = open) {
+  HalfVotes v = votes(pass, std::move(failing), modes);
+  v.undecided = std::move(undecided);
+  return v;
+}
+
+TEST(UndecidedVotes, APortThatFitsTheFirstRoundingThroughoutNeedsNoMore) {
+  EXPECT_FALSE(first_undecided({least("a", {0, 0, 0}, {0, 900, 0}), least("b", {0, 3, 0}, {0, 900, 0})}, HalfMode::either, true));
+}
+TEST(UndecidedVotes, OneThatFitsTheSecondNeedsAPassThatTells) {
+  const HalfVotes unknown = least("a", {0, 0, 0}, {900, 0, 0}), tells = least("b", {3, 0, 0}, {900, 0, 0});
+  EXPECT_EQ(first_undecided({unknown, unknown}, HalfMode::either, false), 0u);
+  EXPECT_FALSE(first_undecided({unknown, tells}, HalfMode::either, false));
+  // A profile that asks for the first has a doubt to tell of each pass that fails by it.
+  EXPECT_EQ(first_undecided({least("b", {3, 0}, {900, 0}, asked_rtz), least("a", {0, 0}, {900, 0}, asked_rtz)}, HalfMode::rtz, false), 1u);
+}
+TEST(UndecidedVotes, AWrongPassBesideOthersNeedsNoMoreWhereOneTells) {
+  const HalfVotes wrong = least("wrong", {40, 38, 38}, {0, 900, 0}), other = least("a", {0, 0, 0}, {0, 900, 0});
+  EXPECT_FALSE(first_undecided({wrong, other, least("b", {0, 7, 0}, {0, 900, 0})}, HalfMode::either, true));
+  EXPECT_EQ(first_undecided({wrong, other}, HalfMode::either, true), 1u) << "files of other passes could have to tell";
+  EXPECT_FALSE(first_undecided({wrong, other}, HalfMode::either, false));
+}
+
+// Where nothing is to be asked, whatever the rest holds changes nothing that is found.
+TEST(UndecidedVotes, WhatIsFoundHoldsForEveryRest) {
+  rainref::test::Words words(7);
+  const auto below = [&](std::uint64_t end) { return static_cast<std::int64_t>(words() % end); };
+  int settled = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const bool is_asked = words.coin();
+    const std::vector<HalfMode>& modes = is_asked ? asked_rtz : open;
+    const HalfMode asked = is_asked ? HalfMode::rtz : HalfMode::either;
+    std::vector<HalfVotes> all;
+    for (std::int64_t k = 1 + below(3); k > 0; --k) {
+      HalfVotes v = votes(k == 1 ? "one" : k == 2 ? "two" : "three", {}, modes);
+      v.rounds_inside = below(4) == 0;
+      const std::size_t leading = words() % 2;
+      for (std::size_t m = 0; m < modes.size(); ++m) {
+        v.failing.push_back(words.coin() ? 0 : below(20));
+        v.undecided.push_back(m == leading || words.coin() ? 0 : below(12));
+      }
+      all.push_back(std::move(v));
+    }
+    if (const auto k = first_undecided(all, asked, true)) {
+      ASSERT_FALSE(all.at(*k).is_whole()) << "nothing more can be asked of it";
+      continue;
+    }
+    ++settled;
+    for (int rest = 0; rest < 20; ++rest) {
+      std::vector<HalfVotes> known = all;
+      for (HalfVotes& v : known)
+        for (std::size_t m = 0; m < modes.size(); ++m) v.failing[m] += below(static_cast<std::uint64_t>(v.undecided[m]) + 1);
+      EXPECT_EQ(port_rounding(known), port_rounding(all));
+      EXPECT_EQ(is_rounding_open(known), is_rounding_open(all));
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const FoundRounding a = found(all, k, asked), b = found(known, k, asked);
+        EXPECT_EQ(a.mode, b.mode);
+        EXPECT_EQ(a.doubt, b.doubt);
+        EXPECT_EQ(all[k].undecided[a.mode], 0) << "the failures that are reported are counted";
+      }
+    }
+  }
+  EXPECT_GT(settled, 2000);
+}
+
 // ---- whole ports ---------------------------------------------------------------------------------------------------
-PortJudgement judged(const char* stores_only) {
+PortJudgement truncating(const char* stores_only) {
   MiniPort port("windshield-corrected");
   port.stores = HalfMode::rtz;
   port.stores_only = stores_only;
-  TemporaryFolder folder;
-  port.run(folder.path());
-  return judge(port.pack, folder.path());
+  return judged(port);
 }
 
 TEST(PortRounding, TwoPassesThatDifferAreAWarning) {
-  const PortJudgement j = judged("normals");
+  const PortJudgement j = truncating("normals");
   EXPECT_EQ(j.status, Status::warn) << why(j);
   const PassJudgement& odd = pass_of(j, "normals");
   EXPECT_EQ(odd.status, Status::warn) << why(j);
@@ -119,7 +183,7 @@ TEST(PortRounding, TwoPassesThatDifferAreAWarning) {
   }
 }
 TEST(PortRounding, APortThatTruncatesThroughoutPasses) {
-  const PortJudgement j = judged("");
+  const PortJudgement j = truncating("");
   EXPECT_EQ(j.status, Status::pass) << why(j);
   for (const char* pass : {"normals", "composite"}) EXPECT_EQ(pass_of(j, pass).half_mode, HalfMode::rtz) << pass;
 }
@@ -136,15 +200,9 @@ TEST(HalfVotes, OthersAreAskedWhereAPassFailsEitherWayAndNoneTells) {
 TEST(HalfVotes, OnePassAloneIsJudgedByTheRoundingOfTheWholePort) {
   MiniPort port("windshield-as-published");
   port.stores = HalfMode::rtz;
-  const scene::UniformBlock& block = port.pack.pass("wipe_texture").block;
-  const auto keep = std::find_if(block.members.begin(), block.members.end(), [](const scene::Member& m) { return m.name == "keep"; });
-  ASSERT_NE(keep, block.members.end());
+  const std::size_t keep = uniform_offset(port.pack, "wipe_texture", "keep");
   port.before = [&](capture::PassCase& c) {
-    if (c.pass != "wipe_texture") return;
-    float v;
-    std::memcpy(&v, c.uniforms.data() + keep->offset, 4);
-    v = std::sqrt(v);
-    std::memcpy(c.uniforms.data() + keep->offset, &v, 4);
+    if (c.pass == "wipe_texture") change_at<float>(c.uniforms.data() + keep, [](float v) { return std::sqrt(v); });
   };
   TemporaryFolder folder;
   port.run(folder.path());

@@ -1,13 +1,10 @@
-// The judge on passes made up for it, where every count is known, and on the small packs, whose reference must pass.
+// The judge on passes made up for it, where every count is known.
 #include <gmock/gmock.h>
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
-
-#include <fmt/format.h>
 
 #include "judge/conclude.h"
 #include "judge/invocation_judge.h"
@@ -350,39 +347,6 @@ TEST(Judge, BitsAreBits) {
   EXPECT_EQ(std::tuple(j.outputs.back().worst[0].x, j.outputs.back().worst[0].y), std::tuple(1, 1));
   m.c.outputs[0].judge = capture::Judge::input_only;
   EXPECT_EQ(m.judged("vulkan").status, Status::data);
-}
-
-// ---- the small packs -----------------------------------------------------------------------------------------------
-// Every envelope holds the reference, stored as the profile has it; no small pack leaves a pass untested.
-TEST(Judge, TheReferenceOfTheSmallPacksPasses) {
-  const parallel::Executor executor;
-  std::vector<std::string> profiles = inexact_profiles();
-  profiles.push_back("ieee");
-  for (const BoundPass& pass : enveloped_passes()) {
-    for (const BoundCase& b : pass.cases) {
-      for (const std::string& name : profiles) {
-        const enclosed::Profile& p = profile(name);
-        std::vector<Array> port = b.expected();
-        if (p.half_store == enclosed::StoreRounding::rtz && !b.model->rounds_inside()) {
-          for (int y = 0; y < b.model->height(); ++y)
-            for (int x = 0; x < b.model->width(); ++x) {
-              std::vector<scalar::Scalar<float>> values(b.slots.size());
-              b.model->evaluate(x, y, values.data());
-              for (std::size_t v = 0; v < values.size(); ++v) {
-                const Slot& s = b.slots[v];
-                if (s.kind == FormatInfo::float16)
-                  store_value(s, values[v].v, Rounding::rtz, port[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
-              }
-            }
-        }
-        const ModeJudgements by_mode = judge_case(*b.c, b.model.get(), port, {&p, &profile("typical"), &executor, std::nullopt});
-        // A pass that rounds on its way has to be evaluated anew for another rounding.
-        const std::size_t mode = b.model->rounds_inside() && by_mode.modes.front() != HalfMode::rne ? 1 : 0;
-        const CaseJudgement& j = by_mode.judgements[mode];
-        EXPECT_EQ(j.status, Status::pass) << b.c->folder() << ' ' << name << ": " << j.reason << ", failing " << j.failing;
-      }
-    }
-  }
 }
 
 }  // namespace

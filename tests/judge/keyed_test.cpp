@@ -91,9 +91,8 @@ Array array_of(const std::vector<Bead>& beads) {
   using namespace scene;
   Array a;
   a.is_records = true;
-  a.record = record<Bead>("Bead", {member<&Bead::id>("id", "1", "Key."), member<&Bead::x>("x", "texel", "Place."),
-                                   member<&Bead::speed>("speed", "texel/s", "Speed."), member<&Bead::mass>("mass", "1", "Mass."),
-                                   member<&Bead::is_large>("is_large", "1", "Event.")});
+  a.record = record<Bead>({member<&Bead::id>("1", "Key."), member<&Bead::x>("texel", "Place."), member<&Bead::speed>("texel/s", "Speed."),
+                           member<&Bead::mass>("1", "Mass."), member<&Bead::is_large>("1", "Event.")});
   a.width = static_cast<int>(beads.size());
   a.height = 1;
   a.levels.emplace_back(beads.size() * sizeof(Bead));

@@ -1,6 +1,7 @@
 // A port in miniature: the passes of a small pack, evaluated as some device might, with or without a mistake.
 #pragma once
 
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
 #include "capture/npy_write.h"
 #include "capture/pack_read.h"
@@ -19,12 +21,11 @@
 #include "judge/judge_pass.h"
 #include "judge/slots.h"
 #include "judge/validate.h"
-#include "rainref/error.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::judge {
 
-inline const std::filesystem::path small_packs = rainref::test::source_folder() + "/tests/packs";
+inline const std::filesystem::path small_packs = rainref::test::packs_folder();
 
 inline const parallel::Executor& test_executor() {
   static const parallel::Executor executor(2);
@@ -111,6 +112,18 @@ struct MiniPort {
   }
 };
 
+/// Runs a port and judges what it gave.
+inline PortJudgement judged(const MiniPort& port, ValidateOptions options = {}) {
+  const TemporaryFolder folder;
+  port.run(folder.path());
+  options.executor = &test_executor();
+  return validate(port.pack, folder.path(), options);
+}
+inline PortJudgement judged(const MiniPort& port, const std::string& profile) {
+  ValidateOptions options;
+  options.profile = profile;
+  return judged(port, options);
+}
 inline PortJudgement judge(const capture::Pack& pack, const std::filesystem::path& port, const std::string& profile = "vulkan",
                            bool diagnose = false) {
   ValidateOptions options;
@@ -132,15 +145,18 @@ inline std::string why(const PortJudgement& j) {
   return out;
 }
 
-/// Runs what must throw an Error and gives its code and text.
-template <class Body>
-std::pair<ExitCode, std::string> error_of(const Body& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return {e.code(), e.what()};
-  }
-  return {ExitCode::pass, ""};
+/// Makes of the value that lies there what `change` gives.
+template <class T, class Change>
+void change_at(std::byte* at, const Change& change) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  value = change(value);
+  std::memcpy(at, &value, sizeof value);
+}
+inline std::size_t uniform_offset(const capture::Pack& pack, const std::string& pass, const std::string& name) {
+  for (const scene::Member& m : pack.pass(pass).block.members)
+    if (m.name == name) return m.offset;
+  throw std::runtime_error(name + " is no uniform of " + pass);
 }
 
 inline capture::CaseInput& input_of(capture::PassCase& c, const std::string& name) {

@@ -69,9 +69,10 @@ struct Made {
   }
 };
 std::string passing(const std::vector<const Made*>& cases, const std::string& rules = "vulkan", const std::string& typical = "") {
+  const parallel::Executor executor(2);
   NullPorts ports;
   for (const Made* m : cases)
-    ports.judge(m->c, m->model.get(), profile(rules), typical.empty() ? nullptr : &profile(typical), HalfMode::either);
+    ports.judge(m->c, m->model.get(), profile(rules), typical.empty() ? nullptr : &profile(typical), HalfMode::either, executor);
   return ports.passing();
 }
 
@@ -99,9 +100,11 @@ TEST(NullPorts, OneThatAJudgementWouldWarnOfDoesNotPass) {
   EXPECT_EQ(passing({&nearly}, "webgpu", "typical"), "zeros") << "a sine of 0 is 0";
 }
 TEST(NullPorts, NoPassOfTheSmallPacksIsPassedByOne) {
+  const parallel::Executor executor(2);
   for (const test::BoundPass& pass : test::judged_passes()) {
     NullPorts ports;
-    for (const test::BoundCase& b : pass.cases) ports.judge(*b.c, b.model.get(), profile("vulkan"), &profile("typical"), HalfMode::either);
+    for (const test::BoundCase& b : pass.cases)
+      ports.judge(*b.c, b.model.get(), profile("vulkan"), &profile("typical"), HalfMode::either, executor);
     EXPECT_THAT(ports.passing(), IsEmpty()) << pass.name();
   }
 }

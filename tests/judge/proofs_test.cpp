@@ -107,7 +107,7 @@ std::vector<Proof> proofs() {
   for (const documents::Written& w : documents::all_written())
     for (const std::string& of : w.packs) written.insert(of + " " + w.pass);
   return {
-      {"packed", "tests/packs/small_packs_test.cpp, tests/judge/own_outputs_test.cpp", packed},
+      {"packed", "tests/judge/small_packs_test.cpp, own_outputs_test.cpp", packed},
       {"alternatives", "tests/judge/coverage_test.cpp", counted},
       {"honest", "tests/judge/honesty_test.cpp, list_proofs_test.cpp", modelled},
       {"tight", "tests/judge/tightness_test.cpp, list_proofs_test.cpp", modelled},
@@ -188,7 +188,7 @@ TEST(Proofs, TheDocumentNamesWhatHasNoSecondTier) {
               testing::HasSubstr(fmt::format("The first tier alone is there for {}.", fmt::join(alone, ", "))));
 }
 
-// A folder without its scene, or a pass that a pack's manifest does not have, would be in no proof without a word.
+// A pack whose scene is gone, or a pass that a pack's manifest does not have, would be in no proof without a word.
 TEST(Proofs, EveryPackIsFoundWithItsPasses) {
   std::size_t folders = 0;
   for (const auto& entry : std::filesystem::directory_iterator(rainref::test::packs_folder())) folders += entry.is_directory();

@@ -3,8 +3,6 @@
 
 #include "judge/mini_port.h"
 
-#include <gmock/gmock.h>
-
 namespace rainref::judge {
 namespace {
 

@@ -1,16 +1,14 @@
 // Legal regroupings of formulas, written out as a compiler or an engineer writes them: none fails, and mistakes still do.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <map>
 
 #include "capture/bound_texture.h"
 #include "drops/records.h"
-#include "drops/splat_uniforms.h"
+#include "drops/splat/uniforms.h"
 #include "drops/uniforms.h"
-#include "judge/alternatives.h"
 #include "judge/mini_port.h"
 #include "judge/profiles.h"
 #include "judge/reference_outputs.h"
@@ -275,21 +273,18 @@ TEST(RearrangedPort, WhatIsFarOffIsNotSaidToBeMultipliedOut) {
 // Groups that hold the frame before, a camera that looks elsewhere, a buffer that was not cleared, a list cut short: none of it is a
 // rearrangement.
 TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
-  const auto reasons = [](const std::string& pack, const std::string& pass, auto change) {
+  const auto expect_other_reasons = [](const std::string& pack, const std::string& pass, auto change) {
     MiniPort port(pack);
     change(port);
-    const TemporaryFolder folder;
-    port.run(folder.path());
     ValidateOptions options;
     options.only = {pass};
-    options.executor = &test_executor();
-    const PassJudgement j = pass_of(validate(port.pack, folder.path(), options), pass);
+    const PassJudgement j = pass_of(judged(port, options), pass);
     EXPECT_EQ(j.status, Status::fail) << pass;
     std::string all = j.reason;
     for (const CaseJudgement& c : j.cases) all += c.reason;
-    return all;
+    EXPECT_EQ(all.find("multiplying out"), std::string::npos) << all;
   };
-  const std::string stale = reasons("puddle-corrected", "wave_step", [](MiniPort& port) {
+  expect_other_reasons("puddle-corrected", "wave_step", [](MiniPort& port) {
     port.after = [](const PassCase& c, std::vector<Array>& out) {
       if (c.pass != "wave_step") return;
       const Array& before = c.input("wave")->array;
@@ -297,21 +292,14 @@ TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
       for (std::size_t y = 0; y < 8; ++y) std::memcpy(&out[0].levels[0][y * row], &before.levels[0][y * row], 8 * texel);
     };
   });
-  EXPECT_EQ(stale.find("multiplying out"), std::string::npos) << stale;
-  const std::string camera = reasons("puddle-corrected", "shade", [](MiniPort& port) {
+  expect_other_reasons("puddle-corrected", "shade", [](MiniPort& port) {
     port.before = [](PassCase& c) {
       if (c.pass != "shade") return;
-      for (std::size_t at = 0; at < 16; at += 4) {
-        float value;
-        std::memcpy(&value, c.uniforms.data() + at, 4);
-        value *= 0.95f;
-        std::memcpy(c.uniforms.data() + at, &value, 4);
-      }
+      for (std::size_t at = 0; at < 16; at += 4) change_at<float>(c.uniforms.data() + at, [](float value) { return 0.95f * value; });
     };
   });
-  EXPECT_EQ(camera.find("multiplying out"), std::string::npos) << camera;
   // The drops of a still frame are added to those of the frame before: each half twice.
-  const std::string uncleared = reasons("windshield-corrected", "splat", [](MiniPort& port) {
+  expect_other_reasons("windshield-corrected", "splat", [](MiniPort& port) {
     port.after = [](const PassCase& c, std::vector<Array>& out) {
       if (c.pass != "splat") return;
       std::vector<std::byte>& halves = out[0].levels[0];
@@ -323,8 +311,7 @@ TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
       }
     };
   });
-  EXPECT_EQ(uncleared.find("multiplying out"), std::string::npos) << uncleared;
-  const std::string cut = reasons("windshield-corrected", "splat", [](MiniPort& port) {
+  expect_other_reasons("windshield-corrected", "splat", [](MiniPort& port) {
     port.before = [](PassCase& c) {
       if (c.pass != "splat") return;
       auto u = capture::uniforms_of<drops::SplatUniforms>(c);
@@ -332,7 +319,6 @@ TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
       std::memcpy(c.uniforms.data(), &u, sizeof u);
     };
   });
-  EXPECT_EQ(cut.find("multiplying out"), std::string::npos) << cut;
 }
 
 // ---- integrate -----------------------------------------------------------------------------------------------------
@@ -398,15 +384,7 @@ TEST(RearrangedPort, TheSecondTierHoldsTheFirst) {
           all.rearrange(*b.model, x, y, got.data(), p);
           if (all.gave_up) continue;
           ++checked;
-          bool is_held = false;
-          for (int a = 0; a < all.count && !is_held; ++a) {
-            is_held = true;
-            for (std::size_t v = 0; v < got.size(); ++v) {
-              const enclosed::Enclosure& e = all.values[static_cast<std::size_t>(a)][v];
-              is_held &= e.is_vacuous() || e.contains(got[v]) || b.model->is_free(static_cast<int>(v));
-            }
-          }
-          EXPECT_TRUE(is_held) << pass.name() << ' ' << name << " at " << x << ',' << y;
+          EXPECT_TRUE(test::one_holds(all, *b.model, got)) << pass.name() << ' ' << name << " at " << x << ',' << y;
         }
         EXPECT_GT(checked, 20) << pass.name();
       }

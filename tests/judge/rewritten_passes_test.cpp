@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "devices/defined_passes.h"
-#include "judge/alternatives.h"
 #include "judge/rewritten_passes.h"
 #include "judge/support.h"
 #include "math/recorded.h"
@@ -17,18 +16,7 @@ namespace {
 using enclosed::Enclosure;
 using enclosed::ProfileScope;
 using rainref::test::Recorded;
-
-bool held(const Alternatives& all, const capture::PassModel& model, const std::vector<float>& got) {
-  for (int a = 0; a < all.count; ++a) {
-    bool is_held = true;
-    for (std::size_t v = 0; v < got.size(); ++v) {
-      const Enclosure& e = all.values[static_cast<std::size_t>(a)][v];
-      is_held &= e.is_vacuous() || e.contains(got[v]) || model.is_free(static_cast<int>(v));
-    }
-    if (is_held) return true;
-  }
-  return false;
-}
+using test::one_holds;
 
 /// The values outside, to the last digit, and how they were computed.
 std::string explained(const Alternatives& all, const std::vector<float>& got, const std::vector<rainref::test::Tree>& trees) {
@@ -89,8 +77,8 @@ void rewrite(const test::BoundCase& b, const std::string& pass_name, const enclo
           got.push_back(computed(trees.back(), run).v);
         }
         ++tally.checked;
-        tally.outside_as_written += !held(written, *b.model, got);
-        ASSERT_TRUE(held(rearranged, *b.model, got))
+        tally.outside_as_written += !one_holds(written, *b.model, got);
+        ASSERT_TRUE(one_holds(rearranged, *b.model, got))
             << pass_name << " under " << p.name << " at " << x << ',' << y << ": " << testing::PrintToString(got) << ", reference "
             << testing::PrintToString(reference) << "\n"
             << explained(rearranged, got, trees);

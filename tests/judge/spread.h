@@ -124,7 +124,7 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       // while a blend's four roundings are bounded by several ULP.
       const double most = what == "screen_drops-corrected background"                           ? 7
                           : what == "puddle-as-published raindrops"                             ? 8
-                          : pass.pass == "falling_rain" && (name == "d3d" || name == "typical") ? 9
+                          : pass.pass == "falling_rain" && (name == "d3d" || name == "typical") ? 10
                                                                                                 : 4;
       EXPECT_LE(at(m.ratios, 0.5), most) << pass.name() << ' ' << name;
     }

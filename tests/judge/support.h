@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/words.h"
 #include "capture/pack_read.h"
+#include "judge/alternatives.h"
 #include "judge/evaluations.h"
 #include "judge/profiles.h"
 #include "judge/slots.h"
@@ -18,7 +20,7 @@
 
 namespace rainref::judge::test {
 
-using rainref::test::pack_folder, rainref::test::PackPasses, rainref::test::proven_packs, rainref::test::shipped_pack,
+using rainref::test::pack_folder, rainref::test::PackPasses, rainref::test::Words, rainref::test::proven_packs, rainref::test::shipped_pack,
     rainref::test::shipped_packs, rainref::test::name_of_pack_test;
 
 /// Every profile under which results may differ.
@@ -128,21 +130,18 @@ inline bool has_second_tier(const BoundPass& pass) {
   });
 }
 
-/// splitmix64 (Steele, Lea, Flood 2014).
-class Words {
- public:
-  explicit Words(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t operator()() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
+/// Whether one alternative holds every value.
+inline bool one_holds(const Alternatives& all, const capture::PassModel& model, const std::vector<float>& got) {
+  for (int a = 0; a < all.count; ++a) {
+    bool is_held = true;
+    for (std::size_t v = 0; v < got.size(); ++v) {
+      const enclosed::Enclosure& e = all.values[static_cast<std::size_t>(a)][v];
+      is_held &= e.is_vacuous() || e.contains(got[v]) || model.is_free(static_cast<int>(v));
+    }
+    if (is_held) return true;
   }
-  bool coin() { return (*this)() >> 63; }
-
- private:
-  std::uint64_t state_;
-};
+  return false;
+}
 
 /// The values of one invocation on a conforming device, the seed'th: three kinds take turns, whose errors lie anywhere,
 /// or lean to one end throughout.

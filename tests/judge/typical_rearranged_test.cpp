@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "judge/mini_port.h"
-#include "windshield/wipe_texture.pass.h"
+#include "windshield/surface/wipe_texture.pass.h"
 
 namespace rainref::judge::test {
 namespace {
@@ -58,9 +58,7 @@ PassJudgement judged(const std::string& profile) {
       }
     }
   };
-  TemporaryFolder folder;
-  port.run(folder.path());
-  return pass_of(judge(port.pack, folder.path(), profile), "wipe_texture");
+  return pass_of(judge::judged(port, profile), "wipe_texture");
 }
 
 std::int64_t atypical(const PassJudgement& pass) {

@@ -6,13 +6,13 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "drops/evaluations.h"
-#include "drops/scalar.h"
+#include "drops/info.h"
+#include "drops/motion/scalar.h"
 #include "judge/lists.h"
 #include "math/path_enumeration.h"
 #include "rainref/error.h"
-#include "windshield/evaluations.h"
-#include "windshield/motion.h"
+#include "windshield/info.h"
+#include "windshield/motion/uniforms.h"
 
 namespace rainref::judge {
 namespace {

@@ -1,5 +1,4 @@
 // The windshield's splat: its envelopes hold a device to one rounding.
-#include <cstdlib>
 #include <cstring>
 
 #include "judge/invocation_judge.h"

@@ -10,7 +10,7 @@
 #include "math/half.h"
 #include "rainref/error.h"
 #include "simulation/small_scenes.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref {
 namespace {
@@ -27,10 +27,6 @@ struct Judging : testing::Test {
 
   void take(const std::vector<std::string>& passes, int frames = 2) {
     for (int f = 0; f < frames; ++f) cases.add_next_frame(sim, passes);
-  }
-  std::size_t index_of(const std::string& pass, std::size_t from = 0) const {
-    while (cases.info(from).pass != pass) ++from;
-    return from;
   }
   void give_all(const std::function<void(const CaseInfo&, const std::string&, std::vector<std::byte>&)>& alter) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -212,7 +208,7 @@ TEST_F(Judging, ErrorsSayWhatWasExpected) {
 }
 
 TEST(JudgingAPack, SaysWhatValidateSays) {
-  const std::string pack = test::source_folder() + "/tests/packs/edge_splash-corrected";
+  const std::string pack = test::pack_folder("edge_splash-corrected");
   Cases cases(pack, {"display"});
   ASSERT_GT(cases.size(), 1u);
   for (std::size_t i = 0; i < cases.size(); ++i) {

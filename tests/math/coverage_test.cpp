@@ -12,7 +12,7 @@ using testing::ElementsAre;
 using testing::Pair;
 
 template <class Text>
-std::map<Decision, Coverage::Counts> met(const Text& text) {
+std::map<Decision, Sides> met(const Text& text) {
   Coverage coverage;
   Behaviour counting;
   counting.coverage = &coverage;
@@ -23,7 +23,12 @@ std::map<Decision, Coverage::Counts> met(const Text& text) {
   text();  // none of these
   return coverage.decisions();
 }
-Decision here(int line, DecisionKind kind) { return {"math/coverage_test.cpp", line, kind, ""}; }
+/// In a lambda of a test.
+Decision here(int line, DecisionKind kind) { return {"math/coverage_test.cpp", line, kind, "operator()", ""}; }
+template <class... Counts>
+auto taken(Counts... counts) {
+  return testing::Field(&Sides::counts, ElementsAre(counts...));
+}
 Perturbed n(float x) { return Perturbed::of(x); }
 
 TEST(Coverage, CountsEachSideAtTheLineOfThePassText) {
@@ -36,10 +41,10 @@ TEST(Coverage, CountsEachSideAtTheLineOfThePassText) {
     }
   });
   const int line = __LINE__ - 6;
-  EXPECT_THAT(all, ElementsAre(Pair(here(line, DecisionKind::choice), ElementsAre(1, 3, 0)),
-                               Pair(here(line + 1, DecisionKind::minimum), ElementsAre(3, 1, 0)),
-                               Pair(here(line + 2, DecisionKind::maximum), ElementsAre(2, 2, 0)),
-                               Pair(here(line + 3, DecisionKind::clamp), ElementsAre(1, 2, 1))));
+  EXPECT_THAT(
+      all,
+      ElementsAre(Pair(here(line, DecisionKind::choice), taken(1, 3, 0)), Pair(here(line + 1, DecisionKind::minimum), taken(3, 1, 0)),
+                  Pair(here(line + 2, DecisionKind::maximum), taken(2, 2, 0)), Pair(here(line + 3, DecisionKind::clamp), taken(1, 2, 1))));
 }
 
 // What a named function decides is one decision, of the line that calls it.
@@ -53,12 +58,12 @@ TEST(Coverage, NamedFunctionsAreOneDecision) {
     refract(scalar::Vec3<Perturbed>(n(0.8f), n(-0.6f), n(0.0f)), scalar::Vec3<Perturbed>(n(0.0f), n(1.0f), n(0.0f)), 0.75f);
   });
   const int line = __LINE__ - 7;
-  EXPECT_THAT(all, ElementsAre(Pair(here(line, DecisionKind::clamp), ElementsAre(0, 0, 1)),
-                               Pair(here(line + 1, DecisionKind::clamp), ElementsAre(0, 1, 0)),
-                               Pair(here(line + 2, DecisionKind::clamp), ElementsAre(1, 0, 0)),
-                               Pair(here(line + 3, DecisionKind::choice), ElementsAre(3, 0, 0)),
-                               Pair(here(line + 4, DecisionKind::total_reflection), ElementsAre(0, 1, 0)),
-                               Pair(here(line + 5, DecisionKind::total_reflection), ElementsAre(1, 0, 0))));
+  EXPECT_THAT(
+      all,
+      ElementsAre(Pair(here(line, DecisionKind::clamp), taken(0, 0, 1)), Pair(here(line + 1, DecisionKind::clamp), taken(0, 1, 0)),
+                  Pair(here(line + 2, DecisionKind::clamp), taken(1, 0, 0)), Pair(here(line + 3, DecisionKind::choice), taken(3, 0, 0)),
+                  Pair(here(line + 4, DecisionKind::total_reflection), taken(0, 1, 0)),
+                  Pair(here(line + 5, DecisionKind::total_reflection), taken(1, 0, 0))));
 }
 
 // A lookup's coordinates belong to the image that is fetched next; the numbers of the texels that they make are its own.
@@ -73,8 +78,29 @@ TEST(Coverage, LookupsAreOfTheImageThatTheyRead) {
   coverage.addressed("repeat", DecisionKind::load, 1);
   coverage.fetched(sky);
   coverage.name_inputs([&](const float* texel) { return texel == bed ? "bed" : ""; });
-  EXPECT_THAT(coverage.decisions(), ElementsAre(Pair(Decision{"clamp", 0, DecisionKind::address, "bed"}, ElementsAre(1, 1, 0)),
-                                                Pair(Decision{"repeat", 0, DecisionKind::load, ""}, ElementsAre(0, 1, 1))));
+  EXPECT_THAT(coverage.decisions(), ElementsAre(Pair(Decision{"clamp", 0, DecisionKind::address, "", "bed"}, taken(1, 1, 0)),
+                                                Pair(Decision{"repeat", 0, DecisionKind::load, "", ""}, taken(0, 1, 1))));
+}
+
+// A guard is the decision that it holds, and says of which sides nothing takes them.
+TEST(Coverage, AGuardSaysWhyASideIsNeverTaken) {
+  using scalar::guard, scalar::guard_below;
+  const auto all = met([] {
+    EXPECT_EQ(guard<Perturbed>(max(n(2), min(n(1), n(0))), "larger").v, 2);
+    EXPECT_EQ(guard<Perturbed>(saturate(n(0.5f)), "a share").v, 0.5f);
+    EXPECT_EQ(guard_below<Perturbed>(saturate(n(3)), "a length").v, 1);
+    EXPECT_EQ(guard<Perturbed>(select(true, scalar::Vec3<Perturbed>(n(4), n(5), n(6)), scalar::Vec3<Perturbed>()), "there").z.v, 6);
+  });
+  const int line = __LINE__ - 5;
+  const auto because = [](const char* first, const char* second, const char* third) {
+    return testing::Field(&Sides::reasons, ElementsAre(first, second, third));
+  };
+  EXPECT_THAT(all, ElementsAre(Pair(here(line, DecisionKind::minimum), because("", "", "")),
+                               Pair(here(line, DecisionKind::maximum), because("", "larger", "")),
+                               Pair(here(line + 1, DecisionKind::clamp), because("a share", "", "a share")),
+                               Pair(here(line + 2, DecisionKind::clamp), because("a length", "", "")),
+                               Pair(here(line + 3, DecisionKind::choice), because("", "there", ""))));
+  EXPECT_EQ(guard<scalar::Scalar<float>>(scalar::Scalar<float>(7.0f), "of any number").v, 7);
 }
 
 // Counting changes no value.

@@ -1,3 +1,4 @@
+// binary16 is its definition at every code and boundary, and on every SIMD target.
 #include "math/half.h"
 
 #include <gtest/gtest.h>

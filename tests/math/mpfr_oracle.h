@@ -73,30 +73,15 @@ class MpfrOracle {
     const bool positive_only = f == Function::log || f == Function::pow;
     mpfr_set_flt(x_, positive_only && !(a > 0) ? 0.0f : a, MPFR_RNDN);
     mpfr_set_flt(y_, b, MPFR_RNDN);
-    switch (f) {
-      case Function::exp:
-        mpfr_exp(value_, x_, MPFR_RNDN);
-        break;
-      case Function::exp2:
-        mpfr_exp2(value_, x_, MPFR_RNDN);
-        break;
-      case Function::log:
-        mpfr_log(value_, x_, MPFR_RNDN);
-        break;
-      case Function::sin:
-        mpfr_sin(value_, x_, MPFR_RNDN);
-        break;
-      case Function::cos:
-        mpfr_cos(value_, x_, MPFR_RNDN);
-        break;
-      case Function::pow:
-        mpfr_pow(value_, x_, y_, MPFR_RNDN);
-        break;
-      case Function::atan2:
-        mpfr_atan2(value_, x_, y_, MPFR_RNDN);
-        break;
-    }
+    if (f == Function::pow)
+      mpfr_pow(value_, x_, y_, MPFR_RNDN);
+    else if (f == Function::atan2)
+      mpfr_atan2(value_, x_, y_, MPFR_RNDN);
+    else
+      of_one_argument[static_cast<int>(f)](value_, x_, MPFR_RNDN);
   }
+  /// In the order of Function.
+  static constexpr int (*of_one_argument[])(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t) = {mpfr_exp, mpfr_exp2, mpfr_log, mpfr_sin, mpfr_cos};
 
   static float saturated(float x) { return std::clamp(x, -0x1.fffffep127f, 0x1.fffffep127f); }
 

@@ -65,45 +65,34 @@ inline float second_argument(const Case& c, std::uint32_t bits) {
   }
 }
 
-/// The function on the SIMD target in use.
-inline void run_array(Function f, std::span<const float> a, std::span<const float> b, float* out) {
-  switch (f) {
-    case Function::exp:
-      return exp_array(a.data(), out, a.size());
-    case Function::exp2:
-      return exp2_array(a.data(), out, a.size());
-    case Function::log:
-      return log_array(a.data(), out, a.size());
-    case Function::sin:
-      return sin_array(a.data(), out, a.size());
-    case Function::cos:
-      return cos_array(a.data(), out, a.size());
-    case Function::pow:
-      return pow_array(a.data(), b.data(), out, a.size());
-    case Function::atan2:
-      return atan2_array(a.data(), b.data(), out, a.size());
-  }
-}
+/// A function in plain C++ of floats, of doubles, and on the SIMD target in use.
+struct Implementation {
+  float (*plain)(float a, float b);
+  double (*real)(double a, double b);
+  void (*array)(const float* a, const float* b, float* out, std::size_t n);
+};
+/// In the order of Function.
+inline constexpr Implementation implementations[] = {
+    {[](float a, float) { return exp_float(a); }, [](double a, double) { return exp_real(Real64(a)).v; },
+     [](const float* a, const float*, float* out, std::size_t n) { exp_array(a, out, n); }},
+    {[](float a, float) { return exp2_float(a); }, [](double a, double) { return exp2_real(Real64(a)).v; },
+     [](const float* a, const float*, float* out, std::size_t n) { exp2_array(a, out, n); }},
+    {[](float a, float) { return log_float(a); }, [](double a, double) { return log_real(Real64(a)).v; },
+     [](const float* a, const float*, float* out, std::size_t n) { log_array(a, out, n); }},
+    {[](float a, float) { return sin_float(a); }, [](double a, double) { return sin_real(Real64(a)).v; },
+     [](const float* a, const float*, float* out, std::size_t n) { sin_array(a, out, n); }},
+    {[](float a, float) { return cos_float(a); }, [](double a, double) { return cos_real(Real64(a)).v; },
+     [](const float* a, const float*, float* out, std::size_t n) { cos_array(a, out, n); }},
+    {[](float a, float b) { return pow_float(a, b); }, [](double a, double b) { return pow_real(Real64(a), Real64(b)).v; },
+     [](const float* a, const float* b, float* out, std::size_t n) { pow_array(a, b, out, n); }},
+    {[](float a, float b) { return atan2_float(a, b); }, [](double a, double b) { return atan2_real(Real64(a), Real64(b)).v; },
+     [](const float* a, const float* b, float* out, std::size_t n) { atan2_array(a, b, out, n); }},
+};
+inline const Implementation& implementation(Function f) { return implementations[static_cast<int>(f)]; }
 
-/// The function in plain C++.
-inline float run_float(Function f, float a, float b) {
-  switch (f) {
-    case Function::exp:
-      return exp_float(a);
-    case Function::exp2:
-      return exp2_float(a);
-    case Function::log:
-      return log_float(a);
-    case Function::sin:
-      return sin_float(a);
-    case Function::cos:
-      return cos_float(a);
-    case Function::pow:
-      return pow_float(a, b);
-    case Function::atan2:
-      return atan2_float(a, b);
-  }
-  return 0;
+/// A function of each pair on the SIMD target in use.
+inline void run_array(Function f, std::span<const float> a, std::span<const float> b, float* out) {
+  implementation(f).array(a.data(), b.data(), out, a.size());
 }
 
 }  // namespace rainref::test

@@ -1,18 +1,19 @@
+// The transcendental functions are correctly rounded but for known exceptions, against MPFR, on every target.
 #include "math/transcendental.h"
+
+#include "math/disabled_targets.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <initializer_list>
 #include <limits>
-#include <memory>
-#include <sstream>
 #include <vector>
 
+#include "base/shell.h"
+#include "base/temporary_folder.h"
 #include "math/transcendental_cases.h"
 #include "source_folder.h"
 
@@ -148,7 +149,7 @@ TEST_P(Transcendental, HasTheSameBitsOnEveryTarget) {
   const Case& c = GetParam();
   const Inputs in = inputs_for(c, 16381);
   std::vector<float> plain(in.a.size());
-  for (std::size_t i = 0; i < plain.size(); ++i) plain[i] = run_float(c.function, in.a[i], in.b[i]);
+  for (std::size_t i = 0; i < plain.size(); ++i) plain[i] = implementation(c.function).plain(in.a[i], in.b[i]);
   const auto targets = hwy::SupportedAndGeneratedTargets();
   EXPECT_GE(targets.size(), 1u);
   for (const auto target : targets) {
@@ -184,7 +185,7 @@ TEST_P(Transcendental, IsFiniteForEveryArgument) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (const float a : {0.0f, -0.0f, -1.0f, 1.0f, 0.5f, smallest, -smallest, largest, -largest, infinity, -infinity})
     for (const float b : {0.0f, -0.0f, 1.0f, -1.0f, 0.5f, smallest, -smallest, largest, -largest})
-      EXPECT_TRUE(std::isfinite(run_float(c.function, a, b))) << a << ", " << b;
+      EXPECT_TRUE(std::isfinite(implementation(c.function).plain(a, b))) << a << ", " << b;
 }
 
 // The oracle of the passes computes in double throughout: the formulas have to hold for arguments that are no floats.
@@ -195,30 +196,7 @@ TEST_P(Transcendental, IsGoodInDouble) {
     // Small enough that nothing saturates; the angles reach far beyond the split at 2^22.
     const bool angle = c.function == Function::sin || c.function == Function::cos;
     const double a = std::ldexp(1 + fraction, angle ? i % 60 - 20 : i % 26 - 20), b = c.function == Function::pow ? 2.2 : a - 3;
-    double got = 0;
-    switch (c.function) {
-      case Function::exp:
-        got = exp_real(Real64(a)).v;
-        break;
-      case Function::exp2:
-        got = exp2_real(Real64(a)).v;
-        break;
-      case Function::log:
-        got = log_real(Real64(a)).v;
-        break;
-      case Function::sin:
-        got = sin_real(Real64(a)).v;
-        break;
-      case Function::cos:
-        got = cos_real(Real64(a)).v;
-        break;
-      case Function::pow:
-        got = pow_real(Real64(a), Real64(b)).v;
-        break;
-      case Function::atan2:
-        got = atan2_real(Real64(a), Real64(b)).v;
-        break;
-    }
+    const double got = implementation(c.function).real(a, b);
     const double expected = MpfrOracle::in_double(c.function, a, b);
     const double scale = angle ? 1 : c.function == Function::pow ? 16 * expected : std::fabs(expected);
     ASSERT_NEAR(got, expected, 0x1p-50 * scale) << a;
@@ -360,15 +338,9 @@ TEST(TranscendentalShape, Identities) {
 TEST(Coefficients, AreWhatTheScriptWrites) {
   if (std::system("/usr/bin/python3 -c 'import mpmath' > /dev/null 2>&1") != 0) GTEST_SKIP() << "needs python3-mpmath";
   const std::string root = rainref::test::source_folder();
-  std::string written;
-  FILE* pipe = popen(("/usr/bin/python3 '" + root + "/scripts/make_coefficients.py'").c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  char part[4096];
-  for (std::size_t n; (n = std::fread(part, 1, sizeof part, pipe)) > 0;) written.append(part, n);
-  ASSERT_EQ(pclose(pipe), 0);
-  std::ostringstream committed;
-  committed << std::ifstream(root + "/src/math/coefficients.h").rdbuf();
-  EXPECT_EQ(written, committed.str());
+  const auto [written, status] = output_of("/usr/bin/python3 '" + root + "/scripts/make_coefficients.py'");
+  ASSERT_EQ(status, 0);
+  EXPECT_EQ(written, contents(root + "/src/math/coefficients.h"));
 }
 
 }  // namespace

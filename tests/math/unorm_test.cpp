@@ -1,3 +1,4 @@
+// UNORM8 codes are quotients correctly rounded, and come back.
 #include "math/unorm.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Whole numbers are cut toward zero and held in their range, for every float.
 #include "math/whole.h"
 
 #include <gtest/gtest.h>

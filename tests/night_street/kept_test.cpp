@@ -1,22 +1,15 @@
 // What of the street is kept for other runs is what was rendered.
-#include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "base/temporary_folder.h"
 #include "cache/kept_images.h"
+#include "image/images.h"
 #include "night_street/night_street.h"
 
 namespace rainref::night_street {
 namespace {
 
-bool same(const Image& a, const Image& b) {
-  if (a.format() != b.format() || a.width() != b.width() || a.height() != b.height()) return false;
-  for (int y = 0; y < a.height(); ++y)
-    if (std::memcmp(a.row_bytes(y), b.row_bytes(y), static_cast<std::size_t>(a.width()) * info(a.format()).texel_bytes()) != 0)
-      return false;
-  return true;
-}
 class KeptStreet : public testing::Test {
  protected:
   ~KeptStreet() override { cache::keep_in({}); }
@@ -49,7 +42,6 @@ TEST_F(KeptStreet, APanoramaAndAViewAreWhatWasRendered) {
     for (const auto& [expected, found] : views) {
       EXPECT_TRUE(same(found.colour, expected->colour));
       EXPECT_TRUE(same(found.depth, expected->depth));
-      EXPECT_TRUE(same(found.normal, expected->normal));
     }
     EXPECT_EQ(files(), 6u);
   }

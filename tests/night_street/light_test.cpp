@@ -11,7 +11,6 @@
 #include "night_street/facade.h"
 #include "night_street/light_map.h"
 #include "night_street/sky.h"
-#include "night_street/support.h"
 #include "parallel/rows.h"
 
 namespace rainref::night_street {
@@ -256,7 +255,7 @@ TEST(StreetLight, AViewOfOneTexelIsItsRay) {
     const scene::Vector3 direction = unit(Vec(std::sin(0.7 * k), 0.3 * std::sin(1.9 * k), std::cos(0.7 * k)));
     const scene::Vector3 eye{0.4, 1.3, -2.0 * k};
     const Street::View view = street.view({eye, eye + direction, {0, 1, 0}, 10}, 1, 1, 400, executor);
-    const scene::Vector3 ray = street.radiance(eye, direction);
+    const scene::Vector3 ray = street.look(eye, direction).radiance;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(view.colour.row<float>(0)[c], ray[c], 1e-5 * ray[c] + 1e-9) << k << " channel " << c;
   }
 }

@@ -1,16 +1,18 @@
-// The street's promises: same bits everywhere, sound numbers, geometry that agrees with arithmetic done by hand.
+// The street's promises: sound numbers, geometry that agrees with arithmetic done by hand. Its bits are in tests/golden.
 #include "night_street/night_street.h"
 
 #include <cmath>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "night_street/support.h"
 #include "rainref/error.h"
 
 namespace rainref::night_street {
 namespace {
+
+/// A driver's look down the street.
+scene::Camera driver() { return {{1.9, 1.35, 0}, {1.2, 1.75, -20}, {0, 1, 0}, 50}; }
+constexpr scene::Vector3 puddle_eye{0, 0.05, 0};
 
 const Street& street() {
   static const Street one({1});
@@ -20,30 +22,6 @@ const Street& street() {
 const Image& small_panorama() {
   static const Image image = street().panorama(256, 128, puddle_eye, parallel::Executor(2));
   return image;
-}
-
-TEST(NightStreet, HasTheSameBitsOnAnyNumberOfThreadsInAnyOrder) {
-  // The executor of one thread is gone before the others come: while it lives, it limits them too.
-  std::string panorama, view;
-  {
-    const parallel::Executor one(1);
-    panorama = hash_of(street().panorama(96, 48, puddle_eye, one));
-    view = hash_of(street().view(driver(), 96, 54, 400, one));
-  }
-  for (const int threads : {2, 3, 8}) {
-    for (const std::uint64_t shuffle : {0u, 1u, 977u}) {
-      parallel::Executor executor(threads);
-      executor.shuffle_tiles(shuffle);
-      EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), panorama) << threads << " threads, shuffle " << shuffle;
-      EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), view) << threads << " threads, shuffle " << shuffle;
-    }
-  }
-}
-
-TEST(NightStreet, HasTheRecordedBits) {
-  const parallel::Executor executor(2);
-  EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), "e504582cb2514ed447a1dd920b17a160");
-  EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), "f60c47c226363a842ad4e18ed9547152");
 }
 
 TEST(NightStreet, AClearLaneHasNoCarAndNothingElseChanges) {
@@ -80,25 +58,6 @@ TEST(NightStreet, RadianceIsFiniteAndNotNegativeAndAlphaIsOne) {
   }
 }
 
-TEST(NightStreet, NormalsAreUnitOnSurfacesAndZeroOnSky) {
-  const double far = 150;
-  const Street::View view = street().view(driver(), 160, 90, far, parallel::Executor(2));
-  int surfaces = 0, skies = 0;
-  for (int y = 0; y < 90; ++y) {
-    for (int x = 0; x < 160; ++x) {
-      const float* n = view.normal.row<float>(y) + 4 * x;
-      const double squared = double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2];
-      const bool is_surface = n[3] == 1;
-      ASSERT_TRUE(is_surface || n[3] == 0);
-      ASSERT_NEAR(std::sqrt(squared), is_surface ? 1 : 0, 1e-6) << x << ' ' << y;
-      ASSERT_EQ(is_surface, view.depth.row<float>(y)[x] < far);
-      (is_surface ? surfaces : skies)++;
-    }
-  }
-  EXPECT_GT(surfaces, 1000);
-  EXPECT_GT(skies, 100);
-}
-
 TEST(NightStreet, DepthOfTheRoadIsThatOfThePlane) {
   // Down at the road before the camera, which is empty for 6 m: depth follows from the height alone.
   const double height = 1.4;
@@ -117,7 +76,6 @@ TEST(NightStreet, DepthOfTheRoadIsThatOfThePlane) {
       if (expected * ray[2] < -6) continue;                                   // a car may stand there
       ++judged;
       ASSERT_NEAR(view.depth.row<float>(y)[x], expected, 1e-6 * expected) << x << ' ' << y;
-      ASSERT_EQ(view.normal.row<float>(y)[4 * x + 1], 1);
     }
   }
   EXPECT_GT(judged, width * rows / 2);

@@ -1,10 +1,10 @@
+// A team does each piece of a loop once before the next loop begins, whichever thread is late or throws.
 #include "parallel/team.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <stdexcept>
 #include <thread>
 #include <vector>

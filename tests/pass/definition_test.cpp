@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <random>
 
+#include "base/error_of.h"
 #include "capture/capture_recorder.h"
 #include "capture/check_case.h"
 #include "image/footprint.h"
+#include "image/images.h"
 #include "image/texture.h"
 #include "math/simd_target.h"
 #include "pass/frost.pass.h"
@@ -20,10 +22,7 @@ namespace scalar {
 using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
-#include "image/sampling_perturbed-inl.h"
-#include "image/sampling-inl.h"
-#include "image/sampling_enclosed-inl.h"
-#include "image/sampling_rearranged-inl.h"
+#include "image/sampling_numbers-inl.h"
 #include "pass/frost.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
@@ -34,20 +33,16 @@ using testing::ElementsAre;
 
 template <class Storage>
 Image noise(Format format, int width, int height, unsigned seed) {
-  Image image(format, width, height);
   std::mt19937 words(seed);
-  for (int y = 0; y < height; ++y) {
-    for (int i = 0; i < width * image.channels(); ++i) {
-      const float value = static_cast<float>(words() >> 8) * 0x1p-24f;
-      if constexpr (std::is_same_v<Storage, Half>)
-        image.row<Half>(y)[i] = to_half(value);
-      else if constexpr (std::is_same_v<Storage, Unorm8>)
-        image.row<Unorm8>(y)[i] = to_unorm8(value);
-      else
-        image.row<float>(y)[i] = value;
-    }
-  }
-  return image;
+  return make_image(format, width, height, [&](int, int, int) {
+    const float value = static_cast<float>(words() >> 8) * 0x1p-24f;
+    if constexpr (std::is_same_v<Storage, Half>)
+      return to_half(value);
+    else if constexpr (std::is_same_v<Storage, Unorm8>)
+      return to_unorm8(value);
+    else
+      return value;
+  });
 }
 
 /// A pane of frost and its two passes.
@@ -146,8 +141,8 @@ capture::EffectInfo frost() {
   capture::EffectInfo info;
   info.name = "frost";
   info.passes = {pass::info_of<GrowPass>(), pass::info_of<ShinePass>()};
-  info.records = {scene::record<Seed>("Seed", {scene::member<&Seed::column>("column", "texel", "Of the crystal."),
-                                               scene::member<&Seed::strength>("strength", "mm", "There.")})};
+  info.records = {
+      scene::record<Seed>({scene::member<&Seed::column>("texel", "Of the crystal."), scene::member<&Seed::strength>("mm", "There.")})};
   info.buffers = {{"height", "r16f", "Of the glass."},
                   {"mask", "r8", "Where ice may be."},
                   {"seeds", "records", "Crystals.", "1", {0, 1}, "none", "none", "none", "", "Seed", "corrected"},
@@ -284,12 +279,8 @@ TEST(Definition, ACaseWithoutItsInputsIsRefused) {
   EXPECT_THROW((pass::bind<GrowPass, scalar::GrowPassText>(fewer)), Error);
   // The uniform counts a third seed.
   reinterpret_cast<GrowUniforms*>(c.uniforms.data())->seed_count = 3;
-  try {
-    pass::bind<GrowPass, scalar::GrowPassText>(c);
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(std::string(e.what()), "frost.grow/0005.0: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
-  }
+  EXPECT_THAT(error_of([&] { pass::bind<GrowPass, scalar::GrowPassText>(c); }),
+              testing::EndsWith(" frost.grow/0005.0: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3"));
   // What is optional may be missing.
   capture::PassCase bare = captured(p, true)[1];
   bare.inputs.pop_back();
@@ -298,27 +289,21 @@ TEST(Definition, ACaseWithoutItsInputsIsRefused) {
 
 TEST(Definition, ARunWithoutItsImagesIsRefused) {
   Pane p(9, 5);
-  const auto refused = [&](const pass::HostIo<GrowPass>& io, bool corrected) -> std::string {
-    try {
-      pass::Run<GrowPass> run(p.grow, corrected, Rounding::rne, io);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+  const auto refused = [&](const pass::HostIo<GrowPass>& io) {
+    return error_of([&] { pass::Run<GrowPass>(p.grow, true, Rounding::rne, io); });
   };
-  EXPECT_EQ(refused(p.grow_io(true), true), "");
-  EXPECT_EQ(refused(p.grow_io(false), true), "grow: seeds is missing");
+  EXPECT_EQ(refused(p.grow_io(true)), "none");
+  EXPECT_EQ(refused(p.grow_io(false)), "5 grow: seeds is missing");
   pass::HostIo<GrowPass> io = p.grow_io(true);
   io.mask = p.heights;
-  EXPECT_EQ(refused(io, true), "grow: mask has another format");
+  EXPECT_EQ(refused(io), "5 grow: mask has another format");
   EXPECT_THROW(pass::Run<ShinePass>(p.shine, false, Rounding::rne, p.shine_io()), Error) << "as published there is none";
   p.grow.seed_count = 3;
-  EXPECT_EQ(refused(p.grow_io(true), true),
-            "grow: seeds does not fit: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
+  EXPECT_EQ(refused(p.grow_io(true)), "5 grow: seeds does not fit: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
   p.grow.seed_count = 2;
   const Image narrow(Format::r8, 8, 5);
   io.mask = narrow;
-  EXPECT_EQ(refused(io, true), "grow: mask has another size");
+  EXPECT_EQ(refused(io), "5 grow: mask has another size");
 }
 
 }  // namespace

@@ -15,15 +15,12 @@ struct GrowUniforms {
   std::int32_t seed_count;
   float padding0;
 };
-struct GrowPass {
+struct GrowPass : pass::Takes<GrowUniforms> {
   static constexpr pass::About about{"grow", "Ice on the pane.", {3}, {4}, {"the seeds"}};
-  using Uniforms = GrowUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("GrowUniforms", {member<&U::gain>("gain", "1", {0, 10}, "Of a difference of heights."),
-                                                    member<&U::rate>("rate", "1", {0, 10}, "corrected: of the height."),
-                                                    member<&U::seed_count>("seed_count", "1", {0, 100}, "Seeds in the list.")});
+    return block({member<&U::gain>("1", {0, 10}, "Of a difference of heights."),
+                  member<&U::rate>("1", {0, 10}, "corrected: of the height."),
+                  member<&U::seed_count>("1", {0, 100}, "Seeds in the list.")});
   }
   template <class B>
   struct Io {
@@ -41,15 +38,12 @@ struct ShineUniforms {
   std::int32_t has_tint;
   float padding0;
 };
-struct ShinePass {
+struct ShinePass : pass::Takes<ShineUniforms> {
   static constexpr pass::About about{"shine", "The ice as it is seen.", {}, {1}};
-  using Uniforms = ShineUniforms;
   static scene::UniformBlock uniforms() {
-    using scene::member;
-    using U = Uniforms;
-    return scene::uniform_block<U>("ShineUniforms", {member<&U::scale>("scale", "1/mm", {0, 10}, "Radiance of a millimetre."),
-                                                     member<&U::threshold>("threshold", "1", {0, 1}, "From which it is thick."),
-                                                     member<&U::has_tint>("has_tint", "1", scene::flag, "1: tint counts.")});
+    return block({member<&U::scale>("1/mm", {0, 10}, "Radiance of a millimetre."),
+                  member<&U::threshold>("1", {0, 1}, "From which it is thick."),
+                  member<&U::has_tint>("1", scene::flag, "1: tint counts.")});
   }
   template <class B>
   struct Io {

@@ -1,3 +1,4 @@
+// The made-up passes of frost.pass.h, compiled once for each SIMD target.
 #include "image/texture.h"
 #include "pass/frost.pass.h"
 #include "pass/run.h"

@@ -1,3 +1,4 @@
+// DDS files of ports are read in every format and layout that fits; others are refused.
 #include "port_dump/dds.h"
 
 #include "port_dump/support.h"

@@ -1,3 +1,4 @@
+// A port's file is found by its name in one of the accepted kinds, or the refusal says why.
 #include "port_dump/dump_file.h"
 
 #include "port_dump/support.h"
@@ -7,6 +8,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const capture::Array r8 = image(Format::r8, 1, 1);
 
@@ -17,10 +19,8 @@ TEST(DumpFile, MissingFilesNameTheNearest) {
   EXPECT_THAT(dump.refusal(r8), Not(HasSubstr("did you mean")));
   dump.file("out.d.npy", "");
   EXPECT_THAT(dump.refusal(r8), HasSubstr("did you mean 'out.d.npy'?"));
-  const auto error = image_io::error_of([&] { find_dump_file(dump.path() / "puddle.wave_step", "out.b"); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::port_files);
-  EXPECT_THAT(error->what(), AllOf(HasSubstr("no folder '"), HasSubstr("puddle.wave_step'")));
+  EXPECT_THAT(error_of([&] { find_dump_file(dump.path() / "puddle.wave_step", "out.b"); }),
+              AllOf(StartsWith("3 "), HasSubstr("no folder '"), HasSubstr("puddle.wave_step'")));
 }
 
 TEST(DumpFile, SeveralAreRefused) {
@@ -46,10 +46,7 @@ TEST(DumpFile, LossyKindsAreRefusedWithTheReason) {
 TEST(DumpFile, AFolderInThePlaceOfAFileIsThePorts) {
   Dump dump;
   std::filesystem::create_directory(dump.path() / "out.b.npy");
-  const auto error = image_io::error_of([&] { dump.read(r8); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ExitCode::port_files);
-  EXPECT_THAT(error->what(), HasSubstr("out.b.npy': expected a file, found a folder"));
+  EXPECT_THAT(dump.refusal(r8), HasSubstr("out.b.npy': expected a file, found a folder"));
 }
 
 }  // namespace

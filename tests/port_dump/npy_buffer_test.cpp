@@ -1,3 +1,4 @@
+// A port's .npy is taken where its type and shape are the buffer's, with its bits kept.
 #include <bit>
 #include <limits>
 
@@ -113,6 +114,9 @@ TEST(NpyBuffer, OtherTypesAreRefused) {
   EXPECT_THAT(refusal("'<f4'", 4, Format::r32ui), HasSubstr("expected r32ui as 32-bit unsigned integers, found floats"));
   EXPECT_THAT(refusal("'<f8'", 8, Format::r32f), HasSubstr("found '<f8'"));
   EXPECT_THAT(refusal("[('x', '<f4')]", 4, Format::r32f), HasSubstr("records; an image was expected"));
+  // A sampler or a writer that decodes sRGB changes codes.
+  EXPECT_THAT(Dump().file("out.b.npy", npy("'<f4'", "(1, 1, 4)", std::string(16, '\0'))).refusal(image(Format::rgba8_srgb, 1, 1)),
+              HasSubstr("a copy of the codes in another type has been converted"));
 }
 
 TEST(NpyBuffer, OtherShapesAreRefused) {

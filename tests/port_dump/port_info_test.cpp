@@ -1,3 +1,4 @@
+// port.json is read key by key; what is not understood is refused.
 #include "port_dump/port_info.h"
 
 #include "port_dump/support.h"
@@ -8,11 +9,9 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string refusal(const std::string& text) {
-  const auto error = image_io::error_of([&] { parse_port_info(text, "'port.json'"); });
-  if (!error) return "accepted";
-  EXPECT_EQ(error->code(), ExitCode::port_files);
-  EXPECT_THAT(error->what(), ::testing::StartsWith("'port.json': "));
-  return error->what();
+  const std::string error = error_of([&] { parse_port_info(text, "'port.json'"); });
+  EXPECT_THAT(error, ::testing::AnyOf("none", ::testing::StartsWith("3 'port.json': ")));
+  return error;
 }
 
 TEST(PortInfo, EveryKey) {
@@ -43,9 +42,7 @@ TEST(PortInfo, DefaultsAndAbsentFile) {
   put(folder / "port.json", R"({"origin": "bottom-left"})");
   EXPECT_EQ(read_port_info(folder.path()).origin, Origin::bottom_left);
   put(folder / "port.json", R"({"origin": "up"})");
-  const auto error = image_io::error_of([&] { read_port_info(folder.path()); });
-  ASSERT_TRUE(error);
-  EXPECT_THAT(error->what(), HasSubstr((folder / "port.json").string()));
+  EXPECT_THAT(error_of([&] { read_port_info(folder.path()); }), HasSubstr((folder / "port.json").string()));
 }
 
 TEST(PortInfo, Refusals) {
@@ -70,7 +67,7 @@ TEST(PortInfo, Refusals) {
 
 TEST(PortInfo, EveryTruncationIsRefused) {
   const std::string whole = R"({"api": "Vulkan", "half_store": "rne", "flush_denormals": true, "precise": false})";
-  ASSERT_EQ(refusal(whole), "accepted");
+  ASSERT_EQ(refusal(whole), "none");
   for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_THAT(refusal(whole.substr(0, size)), HasSubstr("not JSON")) << size;
 }
 

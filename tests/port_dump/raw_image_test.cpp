@@ -1,3 +1,4 @@
+// Raw bytes with their sidecar are images of the declared pitch, origin and order.
 #include "port_dump/support.h"
 
 namespace rainref::port_dump {

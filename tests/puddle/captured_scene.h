@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "night_street/night_street.h"
-#include "puddle/environment.h"
+#include "puddle/scenery.h"
 #include "puddle/golden_scenes.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
@@ -34,7 +33,7 @@ struct Scene : Recorder {
       if (g.name == name) settings = g.settings;
     }
     corrected = settings.variant == Variant::corrected;
-    around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);
+    around = golden_surroundings(executor);
     puddle = std::make_unique<Puddle>(settings, around, executor);
     for (int frame = 0; frame < frames; ++frame) puddle->simulate(this);
     puddle->render();

@@ -5,8 +5,7 @@
 #include <bit>
 #include <cstring>
 
-#include "capture/hashing.h"
-#include "math/simd_target.h"
+#include "determinism.h"
 #include "rainref/executor.h"
 #include "puddle/bounds.h"
 #include "puddle/ground.h"
@@ -19,6 +18,8 @@
 namespace rainref::puddle {
 namespace {
 
+using rainref::test::expect_one_result;
+using rainref::test::hash_of_frames;
 using F = scalar::Scalar<float>;
 
 // An environment and a ground with structure, small enough to be made for every case.
@@ -70,70 +71,38 @@ Settings settings(Variant variant, int width, Format storage = Format::rg16f) {
   return s;
 }
 
-std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, int frames = 3) {
-  parallel::Executor executor(threads);
-  executor.shuffle_tiles(shuffle);
-  Puddle puddle(s, surroundings(), executor);
-  capture::HashRecorder recorder;
-  for (int frame = 0; frame < frames; ++frame) {
-    puddle.simulate(&recorder);
-    puddle.render(&recorder);
-    recorder.take_lines();
-  }
-  return recorder.scene_hash().text();
+auto run_of(const Settings& s) {
+  return [s](const parallel::Executor& executor) { return hash_of_frames(Puddle(s, surroundings(), executor)); };
 }
 
-class Determinism : public testing::TestWithParam<Variant> {
- protected:
-  ~Determinism() override { select_simd_target(""); }
-};
+class PuddleDeterminism : public rainref::test::OfVariant {};
+INSTANTIATE_TEST_SUITE_P(Variants, PuddleDeterminism, rainref::test::both_variants, rainref::test::variant_name);
 
-TEST_P(Determinism, EveryTargetThreadCountOrderAndWidth) {
-  for (int width = 1; width <= 33; ++width) {
-    const Settings s = settings(GetParam(), width);
-    select_simd_target(simd_targets().back());
-    const std::string expected = hash_of_run(s, 1, 0);
-    for (const std::string& target : simd_targets()) {
-      select_simd_target(target);
-      for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected)
-            << target << ", " << threads << " threads, width " << width;
-      }
-    }
-  }
+TEST_P(PuddleDeterminism, EveryTargetThreadCountOrderAndWidth) {
+  for (int width = 1; width <= 33; ++width) expect_one_result(fmt::format("width {}", width), run_of(settings(GetParam(), width)));
 }
 
-TEST_P(Determinism, EveryStorageAndRounding) {
+TEST_P(PuddleDeterminism, EveryStorageAndRounding) {
   for (const Format storage : {Format::rg16f, Format::rg32f, Format::rgba8}) {
     for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
       Settings s = settings(GetParam(), 45, storage);
       s.rounding = rounding;
       s.height = 70;  // several tiles
       if (GetParam() == Variant::corrected) s.grid = {47, 71};
-      select_simd_target(simd_targets().back());
-      const std::string expected = hash_of_run(s, 1, 0);
-      for (const std::string& target : simd_targets()) {
-        select_simd_target(target);
-        EXPECT_EQ(hash_of_run(s, 3, 99), expected) << target << " " << info(storage).name << " " << name(rounding);
-      }
+      expect_one_result(fmt::format("{} {}", info(storage).name, name(rounding)), run_of(s), {3});
     }
   }
 }
 
-TEST_P(Determinism, TwoRunsAndTwoPuddlesAgree) {
-  const Settings s = settings(GetParam(), 29);
-  EXPECT_EQ(hash_of_run(s, 2, 0, 10), hash_of_run(s, 2, 0, 10));
-}
-
-TEST_P(Determinism, OtherSeedOrRainOtherBits) {
+TEST_P(PuddleDeterminism, OtherSeedOrRainOtherBits) {
   // The hashes above would also agree if nothing happened.
   Settings s = settings(GetParam(), 33);
-  const std::string before = hash_of_run(s, 1, 0);
+  const std::string before = run_of(s)(parallel::Executor(1));
   if (GetParam() == Variant::corrected)
     s.seed = 4;
   else
     s.rain_speed = 8;
-  EXPECT_NE(hash_of_run(s, 1, 0), before);
+  EXPECT_NE(run_of(s)(parallel::Executor(1)), before);
 }
 
 void expect_same(const float found, F expected, const char* what, int x, int y) {
@@ -146,7 +115,7 @@ void expect_same(Half found, F expected, const char* what, int x, int y) {
 }
 
 // Each picture pass of a run against the scalar evaluation of the same text, from the same stored inputs.
-TEST_P(Determinism, LanesEqualTheScalarEvaluation) {
+TEST_P(PuddleDeterminism, LanesEqualTheScalarEvaluation) {
   const bool corrected = GetParam() == Variant::corrected;
   Settings s = settings(GetParam(), 37);
   s.height = 23;
@@ -200,9 +169,6 @@ TEST_P(Determinism, LanesEqualTheScalarEvaluation) {
     }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Puddle, Determinism, testing::Values(Variant::as_published, Variant::corrected),
-                         [](const auto& param) { return param.param == Variant::corrected ? "corrected" : "as_published"; });
 
 }  // namespace
 }  // namespace rainref::puddle

@@ -1,8 +1,6 @@
 // display, fog and the ground: gamma, vignette, Beer's fog, checkerboard, image ground, noise (P11).
 #include <map>
 
-#include <gmock/gmock.h>
-
 #include "image/colour.h"
 #include "puddle/scene_support.h"
 

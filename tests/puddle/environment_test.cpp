@@ -1,9 +1,7 @@
 // The environment that shade looks up: latitude/longitude and cube, orientation, poles, seam, rotation.
 #include <algorithm>
 
-#include <gmock/gmock.h>
-
-#include "puddle/environment.h"
+#include "puddle/scenery.h"
 #include "puddle/scene_support.h"
 #include "random/counter.h"
 

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "capture/hashing.h"
-#include "golden/caller.h"
-#include "night_street/night_street.h"
+#include "golden/lines.h"
 #include "rainref/executor.h"
 #include "rainref/puddle.h"
+#include "scene/test_card.h"
 #include "settings.h"
 
 namespace rainref::puddle {
@@ -62,9 +60,7 @@ inline std::vector<GoldenScene> golden_scenes() {
           s.camera_position = {0.2, 0.5, 1.6};
           s.camera_target = {0, 0, 0};
         }
-        scenes.push_back({fmt::format("puddle/{}/{}{}", variant == Variant::as_published ? "as-published" : "corrected", info(storage).name,
-                                      rounding == Rounding::rtz ? "/rtz" : ""),
-                          s});
+        scenes.push_back({fmt::format("puddle/{}/{}{}", name(variant), info(storage).name, rounding == Rounding::rtz ? "/rtz" : ""), s});
       }
     }
   }
@@ -80,23 +76,17 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+/// What is around the puddle in all of them.
+inline Surroundings golden_surroundings(const parallel::Executor& executor) {
+  Surroundings around;
+  around.environment = scene::TestCard().panorama(64, 32, {0, 0.05, 0}, executor);
+  return around;
+}
+
+/// golden/lines.h.
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
                                              const golden::Caller& caller = golden::call_plainly) {
-  static Surroundings around;  // one for all scenes
-  if (around.environment.empty()) around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);
-  std::optional<Puddle> puddle;
-  caller([&] { puddle.emplace(scene.settings, around, executor); });
-  std::vector<std::string> lines;
-  for (int frame = 0; frame < frames; ++frame) {
-    capture::HashRecorder recorder;
-    const bool golden = frame <= 2 || frame == 59;
-    caller([&] { puddle->simulate(golden ? &recorder : nullptr); });
-    if (!golden) continue;
-    caller([&] { puddle->render(&recorder); });
-    for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
-  }
-  return lines;
+  return golden::lines_of<Puddle>(scene.name, frames, caller, scene.settings, golden_surroundings(executor), executor);
 }
 
 }  // namespace rainref::puddle

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "image/images.h"
 #include "puddle/scene_support.h"
 
 namespace rainref::puddle::test {
@@ -157,12 +158,7 @@ TEST(PuddleKnownDefects, Defect17_PublishedWaterDependsOnTheFrameRate) {
     for (int i = 0; i < fps; ++i) p->simulate();
     return p;
   };
-  const auto bytes = [](const Puddle& p) {
-    std::vector<float> all;
-    for (int y = 0; y < p.newest().height(); ++y)
-      all.insert(all.end(), p.newest().row<float>(y), p.newest().row<float>(y) + p.newest().width());
-    return all;
-  };
+  const auto bytes = [](const Puddle& p) { return bytes_of(p.newest()); };
   Settings published = as_published(24, 16);
   EXPECT_EQ(one_second(published, 30)->steps(), 30);
   EXPECT_EQ(one_second(published, 120)->steps(), 120);
@@ -170,11 +166,9 @@ TEST(PuddleKnownDefects, Defect17_PublishedWaterDependsOnTheFrameRate) {
   Settings s = corrected(1, 1);
   s.rain_rate = 100;
   s.smallest_drop = 0.5;
-  const auto slow = one_second(s, 30), normal = one_second(s, 60), fast = one_second(s, 120), odd = one_second(s, 50);
+  const auto normal = one_second(s, 60), odd = one_second(s, 50);  // other rates: WaveRate
   EXPECT_EQ(normal->steps(), 240);
-  EXPECT_NE(bytes(*normal), std::vector<float>(1200, 0.0f)) << "it rains";
-  EXPECT_EQ(bytes(*slow), bytes(*normal));
-  EXPECT_EQ(bytes(*fast), bytes(*normal));
+  EXPECT_NE(bytes(*normal), std::string(bytes(*normal).size(), '\0')) << "it rains";
   EXPECT_EQ(bytes(*odd), bytes(*normal)) << "240 / 50 is not whole";
 }
 

@@ -58,16 +58,9 @@ TEST(PuddleObjects, RestBeforeAndAfterAndGoEvenlyBetween) {
   EXPECT_EQ(objects[1].at(100).x, 5);
 }
 TEST(PuddleObjects, WhatIsNoListOfThemIsRefused) {
-  const auto message = [](const std::string& text) -> std::string {
-    try {
-      parse_objects(text);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(message(""), "");
-  EXPECT_THAT(message("0.1 0.1"), HasSubstr("puddle.objects, object 1: expected \"radius depth: time x z, ...\""));
+  const auto message = [](const std::string& text) { return error_of([&] { parse_objects(text); }); };
+  EXPECT_EQ(message(""), "none");
+  EXPECT_THAT(message("0.1 0.1"), HasSubstr("2 puddle.objects, object 1: expected \"radius depth: time x z, ...\""));
   EXPECT_THAT(message("0.1: 0 0 0"), HasSubstr("expected \"radius depth\", found '0.1'"));
   EXPECT_THAT(message("0.1 0.1: 0 0"), HasSubstr("expected \"time x z\", found '0 0'"));
   EXPECT_THAT(message("0.1 0.1: 0 0 0; 0 0.1: 0 0 0"), HasSubstr("object 2: radius"));

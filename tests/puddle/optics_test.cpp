@@ -4,8 +4,6 @@
 // evaluation agrees with closed forms in double to 2e-7, the float evaluation to 1e-6; a table adds half of its last digit.
 #include <functional>
 
-#include <gmock/gmock.h>
-
 #include "puddle/scene_support.h"
 
 namespace rainref::puddle::test {

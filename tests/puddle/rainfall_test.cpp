@@ -1,8 +1,6 @@
 // Corrected raindrops: how many, where, how large, and the energy of the crater each leaves.
 #include <algorithm>
 
-#include <gmock/gmock.h>
-
 #include "puddle/rainfall.h"
 #include "puddle/scene_support.h"
 #include "rain/rain.h"

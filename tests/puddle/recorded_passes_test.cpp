@@ -5,7 +5,6 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <numeric>
 
 #include "capture/capture_recorder.h"
 #include "puddle/golden_scenes.h"

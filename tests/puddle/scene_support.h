@@ -10,12 +10,13 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error_of.h"
+#include "image/images.h"
 #include "rainref/executor.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 #include "puddle/parameters.h"
 #include "puddle/scalar.h"
-#include "rainref/error.h"
 #include "rainref/puddle.h"
 #include "scene/toml.h"
 
@@ -41,15 +42,6 @@ inline const scene::EffectTable& effect_table() {
 }
 inline scene::Config config_of(const std::string& variant, const std::vector<std::string>& overrides = {}) {
   return scene::parse("effect = \"puddle\"\nvariant = \"" + variant + "\"\n", "test.toml", overrides, effect_table());
-}
-/// The error that `body` throws, its exit code first; "none" when it throws nothing.
-inline std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return std::to_string(static_cast<int>(e.code())) + " " + e.what();
-  }
-  return "none";
 }
 
 /// As published, float storage, clear air, no vignette, image ground.
@@ -87,14 +79,8 @@ inline Settings looking_down(Settings s, double height) {
 }
 
 inline Image uniform_image(int width, int height, float r, float g, float b) {
-  Image image(Format::rgba32f, width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      float* texel = image.row<float>(y) + 4 * x;
-      texel[0] = r, texel[1] = g, texel[2] = b, texel[3] = 1;
-    }
-  }
-  return image;
+  const float texel[] = {r, g, b, 1};
+  return make_image(Format::rgba32f, width, height, [&](int, int, int c) { return texel[c]; });
 }
 /// The same radiance from everywhere, over a ground of one albedo. The ambient radiance is a midpoint sum over 64 rows:
 /// above the integral by (pi / 64)^2 / 6, 0.04 %.

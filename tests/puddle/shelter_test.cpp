@@ -1,5 +1,4 @@
 // Roofs over the water: where no rain falls, how much falls elsewhere, and that it is the same rain.
-#include "puddle/shelter.h"
 
 #include <gmock/gmock.h>
 

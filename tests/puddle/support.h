@@ -12,12 +12,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/error_of.h"
 #include "math/half.h"
 #include "math/unorm.h"
 #include "rainref/executor.h"
 #include "puddle/host.h"
 #include "puddle/oracle.h"
-#include "rainref/error.h"
 #include "rainref/puddle.h"
 #include "settings.h"
 
@@ -237,16 +237,6 @@ inline double growth(const Settings& s, int steps) {
     sum += rings ? std::min(answer, std::pow(gamma, (m - 1) * 0.5) / std::sqrt(1 - gamma)) : answer;
   }
   return sum;
-}
-
-/// The message of the Error that body throws, its exit code first; "none" when it throws nothing.
-inline std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return fmt::format("{} {}", static_cast<int>(e.code()), e.what());
-  }
-  return "none";
 }
 
 }  // namespace rainref::puddle

@@ -1,11 +1,11 @@
-// Where the puddle's ground ends and the surroundings' own begins, and from where the street made here is seen.
-#include <cstring>
+// Where the puddle's ground ends and the surroundings' own begins, and from where the street is seen.
 
 #include <gtest/gtest.h>
 
-#include "night_street/night_street.h"
+#include "image/images.h"
 #include "puddle/instance.h"
 #include "puddle/scene_support.h"
+#include "scene/test_card.h"
 
 namespace rainref::puddle::test {
 namespace {
@@ -54,15 +54,11 @@ std::unique_ptr<effect::Instance> opened(const std::string& variant, std::vector
   overrides.emplace_back("environment.width=64");
   overrides.emplace_back("run.size=[8,6]");
   effect::Inputs inputs;
+  inputs.street = scene::TestCard::make;
   return entry().open(config_of(variant, overrides), executor(), inputs);
 }
 bool is_seen_from(const std::unique_ptr<effect::Instance>& puddle, const scene::Vector3& eye) {
-  const Image& image = static_cast<const Instance&>(*puddle).surroundings().environment;
-  const Image expected = night_street::Street().panorama(64, 32, eye, executor());
-  if (image.width() != 64 || image.height() != 32) return false;
-  for (int y = 0; y < 32; ++y)
-    if (std::memcmp(image.row<float>(y), expected.row<float>(y), 64 * 4 * sizeof(float)) != 0) return false;
-  return true;
+  return same(static_cast<const Instance&>(*puddle).surroundings().environment, scene::TestCard().panorama(64, 32, eye, executor()));
 }
 
 TEST(PuddleSurroundings, StreetIsSeenFromTheCamera) {
@@ -76,6 +72,7 @@ int columns_of(const std::vector<std::string>& overrides) {
   std::vector<std::string> all = overrides;
   all.emplace_back("puddle.grid=[16,16]");
   effect::Inputs inputs;
+  inputs.street = scene::TestCard::make;
   const auto puddle = entry().open(config_of("corrected", all), executor(), inputs);
   return static_cast<const Instance&>(*puddle).surroundings().environment.width();
 }

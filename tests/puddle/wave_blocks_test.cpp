@@ -10,7 +10,7 @@
 #include "math/simd_target.h"
 #include "puddle/scene_support.h"
 #include "puddle/support.h"
-#include "puddle/wave_blocks.h"
+#include "puddle/kernels.h"
 
 namespace rainref::puddle {
 namespace {

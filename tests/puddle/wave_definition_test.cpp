@@ -4,7 +4,6 @@
 
 #include "math/simd_target.h"
 #include "pass/same_as_definition.h"
-#include "puddle/evaluations.h"
 #include "puddle/info.h"
 #include "puddle/support.h"
 

@@ -1,6 +1,7 @@
 // The scalar evaluations against the reference: every other test of waves rests on them.
 #include <cstring>
 
+#include "image/images.h"
 #include "math/simd_target.h"
 #include "puddle/support.h"
 
@@ -106,12 +107,10 @@ TEST(WaveOracle, EveryTargetGivesTheSameBitsUnderRainInHalves) {
     const auto bits_after = [&](const std::string& target) {
       select_simd_target(target);
       Puddle puddle = puddle_of(s);
-      std::vector<std::uint16_t> bits;
+      std::string bits;
       for (int frame = 0; frame < 30; ++frame) {
         puddle.simulate();
-        for (int y = 0; y < 70; ++y) {
-          for (int x = 0; x < 37; ++x) bits.push_back(puddle.previous().row<Half>(y)[x].bits);
-        }
+        bits += bytes_of(puddle.previous());
       }
       select_simd_target("");
       return bits;

@@ -1,16 +1,14 @@
-// Frame rate and resolution: what the corrected water does not depend on, and the published does.
+// Frame rate and resolution: what the corrected water does not depend on. (The published: Defect17.)
 #include "puddle/support.h"
 
 namespace rainref::puddle {
 namespace {
 
-Settings rain_at(Variant variant, double fps, Format storage) {
-  Settings s = no_rain(variant, 61, 47);
+Settings rain_at(double fps, Format storage) {
+  Settings s = no_rain(Variant::corrected, 61, 47);
   s.storage = storage;
   s.fps = fps;
-  s.drop_intensity = 1;
   s.rain_rate = 60;
-  s.rain_speed = 3;
   s.step_rate = 240;
   s.cell_size = 0.005;
   return s;
@@ -31,24 +29,15 @@ std::vector<Levels> levels_at_each_thirtieth(const Settings& s) {
 
 TEST(WaveRate, CorrectedWaterHasTheSameBitsAtEqualTimesForEveryFrameRate) {
   for (const Format storage : {Format::rg32f, Format::rg16f}) {
-    const std::vector<Levels> expected = levels_at_each_thirtieth(rain_at(Variant::corrected, 30, storage));
+    const std::vector<Levels> expected = levels_at_each_thirtieth(rain_at(30, storage));
     EXPECT_GT(largest(expected.back().newest), 1e-4) << "there are waves";
-    for (const double fps : {60.0, 120.0, 240.0})
-      EXPECT_EQ(levels_at_each_thirtieth(rain_at(Variant::corrected, fps, storage)), expected) << fps;
-  }
-}
-// Defect 17: a published step is a frame, so speed, fading and impulse follow the frame rate.
-TEST(WaveRate, PublishedWaterDependsOnTheFrameRate) {
-  const std::vector<Levels> at_30 = levels_at_each_thirtieth(rain_at(Variant::as_published, 30, Format::rg32f));
-  for (const double fps : {60.0, 120.0}) {
-    const std::vector<Levels> other = levels_at_each_thirtieth(rain_at(Variant::as_published, fps, Format::rg32f));
-    EXPECT_GT(largest(minus(other.back().newest, at_30.back().newest)), 0.05) << fps;
+    for (const double fps : {60.0, 120.0, 240.0}) EXPECT_EQ(levels_at_each_thirtieth(rain_at(fps, storage)), expected) << fps;
   }
 }
 
 TEST(WaveRate, CorrectedStepsKeepUpWithTimeForEveryFrameRate) {
   for (const double fps : {7.0, 24.0, 25.0, 29.97, 60.0, 144.0, 240.0, 1000.0}) {
-    const Settings s = rain_at(Variant::corrected, fps, Format::rg32f);
+    const Settings s = rain_at(fps, Format::rg32f);
     for (const int frames : {1, 2, 59, 144, 1000, 1000000}) {
       const std::int64_t steps = steps_until(s, frames);
       // Whole steps that have ended: one less only where the quotient itself rounds, which no whole quotient does.

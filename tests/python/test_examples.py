@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 
-from conftest import ROOT
+from conftest import PACKS, ROOT
 
 
 def test_waves(tmp_path):
@@ -31,7 +31,7 @@ def test_a_port_in_process(tmp_path):
 
 
 def test_a_port_in_files(tmp_path):
-    pack = ROOT / "tests/packs/puddle-corrected"
+    pack = PACKS / "puddle-corrected"
     run("file_port.py", [pack, tmp_path])
     done = subprocess.run([os.environ["RAINREF_PROGRAM"], "validate", pack, "--port", tmp_path, "--only", "wave_step"], capture_output=True,
                           text=True)

@@ -15,7 +15,7 @@ PROGRAM = """
 import rainref, sys
 sim = rainref.open("edge_splash", {"run.size": (16, 9)})
 sim.step().picture
-sim.write_png(sys.argv[1])  # by the module that lies in the package
+sim.write_exr(sys.argv[1])  # by the module that lies in the package
 assert rainref.open("windshield/drive.toml", {"run.size": (16, 9), "windshield.height_size": (32, 18), "scene.size": (32, 18)}).effect == "windshield"
 print(rainref.__version__, rainref._library._loaded._name)
 """
@@ -34,9 +34,9 @@ def test_an_installed_package_stands_on_its_own(tmp_path):
     python = tmp_path / "env/bin/python"
     clean = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "RAINREF_LIBRARY")}
     run(python, "-m", "pip", "install", "-q", "--no-build-isolation", "--no-index", "--no-deps", ROOT, env=clean)
-    version, library = run(python, "-c", PROGRAM, tmp_path / "a.png", cwd=tmp_path, env=clean).split()
+    version, library = run(python, "-c", PROGRAM, tmp_path / "a.exr", cwd=tmp_path, env=clean).split()
     assert version == rr.version() and library.startswith(str(tmp_path))
-    assert (tmp_path / "a.png").read_bytes()[1:4] == b"PNG"
+    assert (tmp_path / "a.exr").read_bytes()[:4] == b"\x76\x2f\x31\x01"
     # Nothing of it looks back into the clone.
     run_path = run("readelf", "-d", library)
     assert "$ORIGIN" in run_path and str(ROOT) not in run_path

@@ -5,7 +5,7 @@ import shutil
 import numpy as np
 import numpy_ports as ports
 import pytest
-from conftest import PUDDLE, ROOT
+from conftest import PACKS, PUDDLE, ROOT
 
 import rainref as rr
 
@@ -42,7 +42,7 @@ def test_a_port_that_does_nothing_fails(puddle):
 
 
 def test_a_port_of_a_pack():
-    pack = ROOT / "tests/packs/puddle-corrected"
+    pack = PACKS / "puddle-corrected"
     assert rr.judge(pack, ports.right, strict=True).status == "PASS"
     assert rr.judge(str(pack), ports.levels_exchanged).status == "FAIL"
     with pytest.raises(ValueError, match="ports of puddle, found one of edge_splash.display"):
@@ -52,9 +52,11 @@ def test_a_port_of_a_pack():
 
 
 def test_files_of_a_port(tmp_path):
-    pack, port = ROOT / "tests/packs/puddle-corrected", tmp_path / "port"
+    pack, port = PACKS / "puddle-corrected", tmp_path / "port"
     shutil.copytree(pack, port)
     assert rr.judge_folder(pack, port).status == "PASS"
+    every = rr.judge_folder(pack, port, passes=["shade"], exhaustive=True)["shade"]
+    assert every.status == "PASS" and every.sampled == every.elements
     # rainref rounds halves to nearest, and Direct3D asks for truncation.
     assert rr.judge_folder(pack, port, "d3d", passes=["wave_step"]).status == "WARN"
     strict = rr.judge_folder(pack, port, "d3d", passes=["wave_step"], strict=True)

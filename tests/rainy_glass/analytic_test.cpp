@@ -1,7 +1,7 @@
 // The effect against theory: alpha erosion, phases of the flow, masks by slope, refraction, tiles without an edge.
 #include <algorithm>
-#include <numeric>
 
+#include "image/images.h"
 #include "rainy_glass/support.h"
 
 namespace rainref::rainy_glass {
@@ -259,10 +259,8 @@ TEST(RainyGlassRefraction, NeverReachesBeforeTheGlass) {
 }
 // near_depth: a bilinear lookup above z touches no texel of depth z or less. Random depths, random places.
 TEST(RainyGlassRefraction, NearDepthIsBelowEveryTexelOfALookup) {
-  Image depth(Format::r32f, 33, 21);
-  for (int y = 0; y < 21; ++y) {
-    for (int x = 0; x < 33; ++x) depth.row<float>(y)[x] = 0.1f + static_cast<float>((x * 193 + y * 389) % 97);
-  }
+  const Image depth =
+      make_image(Format::r32f, 33, 21, [](int x, int y, int) { return 0.1f + static_cast<float>((x * 193 + y * 389) % 97); });
   const TextureData near(near_depth(depth), Address::clamp, Address::clamp);
   for (int k = 0; k < 20000; ++k) {
     const double u = std::fmod(k * 0.61803398875, 1.2) - 0.1, v = std::fmod(k * 0.7548776662, 1.2) - 0.1;

@@ -2,29 +2,24 @@
 // float after another.
 #include <bit>
 
-#include "capture/hash_of_frames.h"
-#include "math/simd_target.h"
+#include "determinism.h"
 #include "rainy_glass/support.h"
 #include "pass/same_as_definition.h"
-#include "rainy_glass/evaluations.h"
 #include "rainy_glass/info.h"
 
 namespace rainref::rainy_glass {
 namespace {
 
+using rainref::test::expect_one_result;
+using rainref::test::hash_of_frames;
 using test::Single;
 
-std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, int frames = 3) {
-  parallel::Executor executor(threads);
-  executor.shuffle_tiles(shuffle);
-  RainyGlass glass(s, test::surroundings(s), executor);
-  return capture::hash_of_frames(frames, [&](Recorder* recorder) { glass.next_frame(recorder); });
+auto run_of(const Settings& s) {
+  return [&s](const parallel::Executor& executor) { return hash_of_frames(RainyGlass(s, test::surroundings(s), executor)); };
 }
 
-class RainyGlassDeterminism : public testing::TestWithParam<Variant> {
- protected:
-  ~RainyGlassDeterminism() override { select_simd_target(""); }
-};
+class RainyGlassDeterminism : public rainref::test::OfVariant {};
+INSTANTIATE_TEST_SUITE_P(Variants, RainyGlassDeterminism, rainref::test::both_variants, rainref::test::variant_name);
 
 TEST_P(RainyGlassDeterminism, EveryTargetThreadCountOrderAndWidth) {
   for (int width = 1; width <= 33; ++width) {
@@ -33,15 +28,7 @@ TEST_P(RainyGlassDeterminism, EveryTargetThreadCountOrderAndWidth) {
     s.droplet_count = 12;
     s.shape = width % 3 == 0 ? Shape::sphere : Shape::pane;
     s.use_probe = width % 5 == 0;
-    select_simd_target(simd_targets().back());
-    const std::string expected = hash_of_run(s, 1, 0);
-    for (const std::string& target : simd_targets()) {
-      select_simd_target(target);
-      for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected)
-            << target << ", " << threads << " threads, width " << width;
-      }
-    }
+    expect_one_result(fmt::format("width {}", width), run_of(s));
   }
 }
 
@@ -52,25 +39,19 @@ TEST_P(RainyGlassDeterminism, EveryStorageRoundingAndManyBakeTiles) {
       s.map_storage = storage;
       s.rounding = rounding;
       s.map_size = 147;  // several tiles of the bakes, the last ones cut
-      select_simd_target(simd_targets().back());
-      const std::string expected = hash_of_run(s, 1, 0);
-      for (const std::string& target : simd_targets()) {
-        select_simd_target(target);
-        EXPECT_EQ(hash_of_run(s, 3, 99), expected) << target << " " << info(storage).name << " " << name(rounding);
-      }
+      expect_one_result(fmt::format("{} {}", info(storage).name, name(rounding)), run_of(s), {3});
     }
   }
 }
 
 TEST_P(RainyGlassDeterminism, OtherSeedTimeOrRainOtherBits) {
   Settings s = test::settings(GetParam(), 33, 21);
-  const std::string before = hash_of_run(s, 1, 0);
-  EXPECT_EQ(hash_of_run(s, 2, 0), before);
+  const std::string before = run_of(s)(parallel::Executor(1));
   s.seed = 4;
-  EXPECT_NE(hash_of_run(s, 1, 0), before);
+  EXPECT_NE(run_of(s)(parallel::Executor(1)), before);
   s.seed = 3;
   s.rain_amount = 0.6;
-  EXPECT_NE(hash_of_run(s, 1, 0), before);
+  EXPECT_NE(run_of(s)(parallel::Executor(1)), before);
 }
 
 void expect_same(Half found, Single expected, const char* what, int x, int y) {
@@ -139,9 +120,6 @@ TEST_P(RainyGlassDeterminism, FloatIsNearDouble) {
     }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Variants, RainyGlassDeterminism, testing::Values(Variant::as_published, Variant::corrected),
-                         [](const auto& param) { return param.param == Variant::corrected ? "corrected" : "as_published"; });
 
 }  // namespace
 }  // namespace rainref::rainy_glass

@@ -1,10 +1,13 @@
 // Bad settings and images: one clear error each, naming key, expected and found.
 #include <gmock/gmock.h>
 
+#include "image/flipped.h"
+#include "image/images.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/info.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/support.h"
+#include "scene/test_card.h"
 #include "scene/toml.h"
 
 namespace rainref::rainy_glass {
@@ -85,10 +88,7 @@ TEST(RainyGlassMaps, SeamTellsATileFromAPicture) {
   glass.next_frame();
   EXPECT_LT(seam(glass.raindrops()), 2);
   EXPECT_LT(seam(glass.rivulets()), 2);
-  Image ramp(Format::rgba32f, 32, 32);
-  for (int y = 0; y < 32; ++y) {
-    for (int i = 0; i < 128; ++i) ramp.row<float>(y)[i] = static_cast<float>(i / 4) / 32;
-  }
+  const Image ramp = make_image(Format::rgba32f, 32, 32, [](int x, int, int) { return static_cast<float>(x) / 32; });
   EXPECT_GT(seam(ramp), worst_seam);
   EXPECT_EQ(seam(test::uniform_image(Format::rgba32f, 8, 8, 0.5f, 0.5f, 0, 0)), 0);
 }
@@ -99,13 +99,8 @@ TEST(RainyGlassMaps, FromFilesGiveWhatTheBakeGives) {
     Surroundings around = test::surroundings(s), again = test::surroundings(s);
     RainyGlass baked(s, around, test::executor());
     baked.next_frame();
-    const auto copy = [](const Image& map) {
-      Image out(map.format(), map.width(), map.height());
-      for (int y = 0; y < map.height(); ++y) std::copy_n(map.row_bytes(y), BufferView(map).row_bytes(), out.row_bytes(y));
-      return out;
-    };
-    again.raindrops = copy(baked.raindrops());
-    again.rivulets = copy(baked.rivulets());
+    again.raindrops = copy_of(baked.raindrops());
+    again.rivulets = copy_of(baked.rivulets());
     RainyGlass read(s, again, test::executor());
     read.next_frame();
     for (int y = 0; y < s.height; ++y) {
@@ -166,7 +161,7 @@ TEST(RainyGlassMaps, ProbeStandsInForTheScene) {
 // The built-in scene: bars stand before the glass, the street behind it.
 TEST(RainyGlassBackdrop, HasBarsBeforeAndAStreetBehind) {
   Settings s = settings(Variant::corrected, 96, 54);
-  const Surroundings around = make_backdrop(s, {0.02, 0.2, 0.02}, test::executor());
+  const Surroundings around = make_backdrop(s, {0.02, 0.2, 0.02}, scene::TestCard(), test::executor());
   int before = 0, behind = 0;
   for (int y = 0; y < s.height; ++y) {
     for (int x = 0; x < s.width; ++x) {

@@ -1,18 +1,16 @@
 // The scenes of rainy_glass behind tests/golden/hashes.txt: every pass, variant and storage, at frames 0, 1, 2 and 59.
 #pragma once
 
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "capture/hashing.h"
-#include "golden/caller.h"
+#include "golden/lines.h"
 #include "rainref/executor.h"
 #include "rainref/rainy_glass.h"
-#include "rainy_glass/backdrop.h"
+#include "rainy_glass/host.h"
+#include "scene/test_card.h"
 #include "settings.h"
 
 namespace rainref::rainy_glass {
@@ -51,7 +49,7 @@ inline std::vector<GoldenScene> golden_scenes() {
         s.flow_cells = 1;
         s.flow_gain = 0.6;
       }
-      scenes.push_back({fmt::format("rainy_glass/{}/{}", variant == Variant::as_published ? "as-published" : "corrected", what), s});
+      scenes.push_back({fmt::format("rainy_glass/{}/{}", name(variant), what), s});
     };
     add(Format::rgba8, Rounding::rne, Shape::pane, false, "rgba8");
     add(Format::rgba16f, Rounding::rne, Shape::pane, false, "rgba16f");
@@ -61,23 +59,21 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+/// What is seen through the glass, and all around it.
+inline Surroundings golden_surroundings(const Settings& s, const parallel::Executor& executor) {
+  const scene::TestCard card;
+  scene::Scenery::View view = card.view(camera(s), s.width, s.height, 1000, executor);
+  Surroundings around;
+  around.colour = std::move(view.colour);
+  around.depth = std::move(view.depth);
+  if (s.use_probe) around.probe = card.panorama(64, 32, camera(s).position, executor);
+  return around;
+}
+
+/// golden/lines.h.
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
                                              const golden::Caller& caller = golden::call_plainly) {
-  static std::map<std::string, Surroundings> made;  // once, however often a test takes the scene
-  Surroundings& around = made[scene.name];
-  if (around.colour.empty()) around = make_backdrop(scene.settings, {0.02, 0.3, 0.03}, executor);
-  std::optional<RainyGlass> glass;
-  caller([&] { glass.emplace(scene.settings, around, executor); });
-  std::vector<std::string> lines;
-  for (int frame = 0; frame < frames; ++frame) {
-    capture::HashRecorder recorder;
-    const bool golden = frame <= 2 || frame == 59;
-    caller([&] { glass->next_frame(golden ? &recorder : nullptr); });
-    if (!golden) continue;
-    for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
-  }
-  return lines;
+  return golden::lines_of<RainyGlass>(scene.name, frames, caller, scene.settings, golden_surroundings(scene.settings, executor), executor);
 }
 
 }  // namespace rainref::rainy_glass

@@ -1,3 +1,4 @@
+// Random numbers are functions of their counters: known answers, even, without collisions.
 #include "random/counter.h"
 
 #include <gtest/gtest.h>

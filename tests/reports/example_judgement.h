@@ -10,7 +10,7 @@
 #include "base/temporary_folder.h"
 #include "capture/pack_read.h"
 #include "judge/verdict.h"
-#include "source_folder.h"
+#include "shipped_packs.h"
 
 namespace rainref::reports {
 
@@ -103,9 +103,7 @@ inline judge::PortJudgement example_judgement() {
   return j;
 }
 
-inline std::filesystem::path small_pack(const std::string& name) {
-  return std::filesystem::path(rainref::test::source_folder()) / "tests/packs" / name;
-}
+inline std::filesystem::path small_pack(const std::string& name) { return rainref::test::pack_folder(name); }
 
 /// Writes a port's outputs: the pack's own, after `alter` (case, output, array) had its way with each.
 inline void write_port(const capture::Pack& pack, const std::filesystem::path& folder,

@@ -24,7 +24,7 @@ using namespace judge;
 using Json = nlohmann::json;
 
 TEST(ReportJson, HoldsTheWholeJudgement) {
-  const Json j = Json::parse(report_json(example_judgement(), 1));
+  const Json j = Json::parse(report_json(example_judgement(), 1, {}));
   EXPECT_EQ(j["format"], "rainref.judgement");
   EXPECT_EQ(j["version"], 1);
   EXPECT_EQ(j["status"], "FAIL");
@@ -33,6 +33,7 @@ TEST(ReportJson, HoldsTheWholeJudgement) {
   EXPECT_EQ(j["device"], (Json{{"api", "Vulkan 1.3"}, {"name", "Test & <Device>"}, {"driver", ""}}));
   EXPECT_EQ(j["command"], "rainref validate pack --port port");
   EXPECT_EQ(j["notes"], (Json{"port/x.exr: one note"}));
+  EXPECT_EQ(j["counts"], "1 FAIL, 1 UNTESTED, 1 WARN, 1 PASS");
   ASSERT_EQ(j["passes"].size(), 4u);
 
   const Json& hit = j["passes"][1];
@@ -44,6 +45,10 @@ TEST(ReportJson, HoldsTheWholeJudgement) {
   EXPECT_EQ(out["vacuous"], 1);
   EXPECT_EQ(out["loose"], 2);
   EXPECT_EQ(out["atypical"], 2);
+  EXPECT_EQ(out["shape"], "r32f 4x2");
+  EXPECT_EQ(out["median_text"], "7 codes");
+  EXPECT_EQ(out["p99_text"], "vacuous");
+  EXPECT_EQ(out["worst_quantity"], nullptr);
   EXPECT_EQ(out["median_width"], 7);
   EXPECT_EQ(out["p99_width"], 4e9);
   EXPECT_EQ(out["map"], (Json{0, 1, 2, 2, 0, 4, 1, 1}));
@@ -54,10 +59,17 @@ TEST(ReportJson, HoldsTheWholeJudgement) {
   EXPECT_EQ(shade["half_votes"], (Json{{"rne", 8}, {"rtz", 2}, {"either", 2}}));
   EXPECT_EQ(shade["causes"][0], (Json{{"name", "upside down"},
                                       {"sentence", "the buffer is stored from the bottom up"},
+                                      {"counted", "texels"},
                                       {"explained", 2},
                                       {"of", 2},
                                       {"inside", 1},
                                       {"is_likely", true}}));
+  EXPECT_EQ(shade["figures"]["failing"], 2);
+  EXPECT_EQ(shade["figures"]["invocations"], 16);  // of two cases
+  EXPECT_EQ(shade["figures"]["outside"], 6);
+  EXPECT_EQ(shade["figures"]["elements"], 64);
+  EXPECT_EQ(shade["figures"]["median_text"], "2 codes");
+  EXPECT_THAT(shade["half_text"].get<std::string>(), testing::HasSubstr("toward zero: 2"));
   EXPECT_EQ(shade["where"], "only channel y of colour");
   EXPECT_EQ(j["passes"][0]["where"], "");
   const Json& worst = shade["cases"][0]["outputs"][0]["worst"];
@@ -70,12 +82,49 @@ TEST(ReportJson, HoldsTheWholeJudgement) {
   EXPECT_EQ(worst[1]["channel"], 3);
   EXPECT_EQ(worst[1]["low"], (Json{{"value", 1.0}, {"bits", "0x3c00"}, {"code", 0x3c00}}));
   EXPECT_EQ(worst[1]["distance"], 3);
+  EXPECT_EQ(worst[1]["text"], (Json{{"place", "(0, 1).w"},
+                                    {"got", "1.00391 (0x3c04)"},
+                                    {"accepted", "1 (0x3c00) to 1.00098 (0x3c01)"},
+                                    {"expected", "1 (0x3c00)"},
+                                    {"off", "0.00293"}}));
+}
+
+// What fails worst in the first failing case, as a share of its range.
+TEST(ReportJson, SaysWhatFailsWorst) {
+  PortJudgement j = example_judgement();
+  OutputJudgement& colour = j.passes[3].cases[0].outputs[0];
+  colour.quantities = {{"x", "1", 2, 32, 2, 0, 0, 0, 0, 0, 0, 0, 1.5}, {"y", "m", 0.5, 32, 1, 0, 0, 0, 0, 0, 0, 0, 0.5}};
+  const auto worst = [&] { return Json::parse(report_json(j, 1, {}))["passes"][3]["worst"]; };
+  EXPECT_EQ(worst(), (Json{{"case", "rain.shade/0000.0"}, {"output", "colour"}, {"quantity", "y"}, {"off", "0.5 m"}}));
+  colour.quantities[0].farthest = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(worst(), (Json{{"case", "rain.shade/0000.0"}, {"output", "colour"}, {"quantity", "x"}, {"off", nullptr}}));
+  const Json pass = Json::parse(report_json(j, 1, {}))["passes"][3];
+  EXPECT_EQ(pass["cases"][0]["outputs"][0]["worst_quantity"], "x");
+  ASSERT_EQ(pass["quantities"].size(), 2u);
+  EXPECT_EQ(pass["quantities"][1]["output"], "colour");
+  EXPECT_EQ(pass["quantities"][1]["name"], "y");
+  EXPECT_EQ(pass["quantities"][1]["counted"], "values");
+  j.passes[3].cases[0].failing = 0;
+  EXPECT_EQ(worst(), nullptr);
+}
+
+TEST(ReportJson, SaysWhatAPassDoesAndTakes) {
+  PageSource source;
+  source.edges = {{"shade", "hit", "hit", false}, {"wave", "wave", "wave", true}, {"shade", "bed", "host", false}};
+  source.sentences["shade"] = "what it does";
+  const Json passes = Json::parse(report_json(example_judgement(), 1, source))["passes"];
+  EXPECT_EQ(passes[3]["sentence"], "what it does");
+  EXPECT_EQ(passes[0]["sentence"], "");
+  EXPECT_EQ(passes[0]["takes"], (Json{{{"input", "wave"}, {"from", "wave"}, {"previous", true}}}));
+  EXPECT_EQ(passes[3]["takes"],
+            (Json{{{"input", "hit"}, {"from", "hit"}, {"previous", false}}, {{"input", "bed"}, {"from", "host"}, {"previous", false}}}));
+  EXPECT_EQ(passes[1]["takes"], Json::array());
 }
 
 TEST(ReportJson, TheRunsOfAMapAreTheMap) {
   PortJudgement j = example_judgement();
   OutputJudgement& o = j.passes[3].cases[0].outputs[0];
-  const Json runs = Json::parse(report_json(j, 1))["passes"][3]["cases"][0]["outputs"][0]["map"];
+  const Json runs = Json::parse(report_json(j, 1, {}))["passes"][3]["cases"][0]["outputs"][0]["map"];
   std::vector<std::uint8_t> map;
   for (std::size_t k = 0; k < runs.size(); k += 2) map.insert(map.end(), runs[k + 1].get<std::size_t>(), runs[k].get<std::uint8_t>());
   EXPECT_EQ(map, o.map);
@@ -88,10 +137,11 @@ TEST(ReportJson, NamesThatAreNoUtf8AndRangesWithoutEnds) {
   f.low = INT64_MIN;
   f.high = INT64_MAX;
   f.got = -0x7c00;
-  const Json out = Json::parse(report_json(j, 1));
+  const Json out = Json::parse(report_json(j, 1, {}));
   EXPECT_EQ(out["port"], "bad \xef\xbf\xbd name");
   const Json& worst = out["passes"][3]["cases"][0]["outputs"][0]["worst"][1];
   EXPECT_EQ(worst["low"], nullptr);
+  EXPECT_EQ(worst["text"]["accepted"], "any number");
   EXPECT_EQ(worst["high"], nullptr);
   EXPECT_EQ(worst["got"], (Json{{"value", nullptr}, {"bits", "0xfc00"}, {"code", -0x7c00}}));
 }
@@ -102,7 +152,7 @@ TEST(ReportJson, RecordsAndKnownFailures) {
   o.records = true;
   o.map.clear();
   o.known = "a reason";
-  const Json out = Json::parse(report_json(j, 1))["passes"][3]["cases"][0]["outputs"][0];
+  const Json out = Json::parse(report_json(j, 1, {}))["passes"][3]["cases"][0]["outputs"][0];
   EXPECT_EQ(out["format"], "records");
   EXPECT_EQ(out["worst"][0], (Json{{"record", 2}}));
   EXPECT_EQ(out["known"], "a reason");
@@ -154,7 +204,7 @@ TEST(ReportJson, QuantitiesAndWhatWasNotJudged) {
   j.passes[0].cases[0].outputs[0].quantities = {q};
   j.passes.push_back(example_pass("display", Status::not_judged, {}));
   j.files = {{ExitCode::io, "wave", "rain.wave/0001.0", "out.height", "cannot be read"}};
-  const Json out = Json::parse(report_json(j, 4));
+  const Json out = Json::parse(report_json(j, 4, {}));
   EXPECT_EQ(out["passes"][0]["cases"][0]["outputs"][0]["quantities"], (Json{{{"name", "y"},
                                                                              {"unit", "m/s"},
                                                                              {"extent", 4.0},
@@ -163,6 +213,7 @@ TEST(ReportJson, QuantitiesAndWhatWasNotJudged) {
                                                                              {"vacuous", 5},
                                                                              {"loose", 6},
                                                                              {"free", 1},
+                                                                             {"sampled", 39},
                                                                              {"median_codes", 11.0},
                                                                              {"p99_codes", 12.0},
                                                                              {"median_width", 0.25},
@@ -195,7 +246,10 @@ TEST(ReportJson, TheDocumentNamesEveryKeyAndNoOther) {
   options.executor = &executor;
   options.explain = faults::diagnose;
   const PortJudgement j = validate(pack, folder.path(), options);
-  const Json json = Json::parse(report_json(j, 1));
+  PageSource source;
+  source.edges = pack.edges;
+  source.sentences["shade"] = "what it does";
+  const Json json = Json::parse(report_json(j, 1, source));
   std::set<std::string> keys;
   add_keys(json, "", keys);
   const std::set<std::string> named = documented_keys();

@@ -1,15 +1,20 @@
-// The HTML page: its text without a browser, its behaviour in one where Chromium is installed.
+// The HTML page: what it holds, without a browser; what its script makes of it, in one where Chromium is installed.
 #include "reports/html.h"
 
+#include <algorithm>
 #include <cstring>
+#include <numeric>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "faults/diagnose.h"
 #include "judge/validate.h"
 #include "reports/browser.h"
 #include "reports/example_judgement.h"
+#include "reports/json.h"
 
 namespace rainref::reports {
 namespace {
@@ -19,8 +24,21 @@ using namespace judge;
 using capture::Array;
 using testing::HasSubstr;
 using testing::Not;
+using Json = nlohmann::json;
 
-/// The corrected small pack, and a port of it whose shade is upside down and whose drops differ in a field.
+/// One of the page's objects: "judgement" or "buffers".
+Json part(const std::string& page, const std::string& id) {
+  const std::string begin = fmt::format("<script type=\"application/json\" id=\"{}\">", id);
+  const std::size_t at = page.find(begin) + begin.size();
+  return Json::parse(page.substr(at, page.find("</script>", at) - at));
+}
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
+  return n;
+}
+
+/// The corrected small pack, and a port of it whose shade is upside down.
 class ReportPage : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -43,33 +61,49 @@ class ReportPage : public testing::Test {
     options.explain = faults::diagnose;
     PortJudgement j = validate(pack, port, options);
     j.command = "rainref validate pack --port port";
-    return report_html(j, page_source(std::make_shared<const capture::Pack>(pack.folder()), port));
-  }
-  static std::size_t count(const std::string& text, const std::string& what) {
-    std::size_t n = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
-    return n;
+    const PageSource source = page_source(std::make_shared<const capture::Pack>(pack.folder()), port);
+    const std::string text = report_html(j, 1, source);
+    EXPECT_EQ(part(text, "judgement"), Json::parse(report_json(j, 1, source)));
+    return text;
   }
   static TemporaryFolder* folder_;
 };
 TemporaryFolder* ReportPage::folder_ = nullptr;
 
-TEST_F(ReportPage, SaysWhatFailsAndWhy) {
+TEST_F(ReportPage, HoldsTheJudgementAndPictures) {
   const std::string text = contents(*folder_ / "bad.html");
   EXPECT_THAT(text, HasSubstr("<title>FAIL: puddle corrected, vulkan</title>"));
-  EXPECT_THAT(text, HasSubstr("<a href=\"#pass-shade\">shade</a> is the first bad pass: "));
-  EXPECT_THAT(text, HasSubstr("Likely cause: <b>upside down</b>"));
-  EXPECT_THAT(text, HasSubstr("<code>rainref validate pack --port port</code>"));
-  EXPECT_EQ(count(text, "<section class=\"pass "), 5u);
-  EXPECT_EQ(count(text, "class=\"node is-fail first\""), 1u);
-  EXPECT_EQ(count(text, "class=\"node is-pass\""), 4u);
-  EXPECT_EQ(count(text, "class=\"edge previous\""), 1u);  // the wave of the step before
+  const Json judgement = part(text, "judgement"), buffers = part(text, "buffers");
+  EXPECT_EQ(judgement["first_bad_pass"], "shade");
+  EXPECT_EQ(judgement["command"], "rainref validate pack --port port");
   // Two failing cases of shade; a sample of each other pass: wave, hit in four channels, normal in four, picture.
-  EXPECT_EQ(count(text, "<figure class=\"pane verdict\">"), 2u + 2 + 4 + 4 + 1);
-  EXPECT_THAT(text, HasSubstr("The worst 100 of "));
+  std::vector<std::size_t> views;
+  for (const Json& pass : buffers["passes"]) {
+    views.push_back(0);
+    for (const Json& shown : pass) views.back() += shown.value("views", Json::array()).size();
+  }
+  EXPECT_THAT(views, testing::ElementsAre(0u, 2u, 4u + 4u, 2u, 1u));
+  EXPECT_EQ(count(text, "\"data:image/png;base64,"), 4u * (2 + 4 + 4 + 2 + 1));
+  const Json& shade = buffers["passes"][3][0];
+  EXPECT_EQ(shade["is_left_out"], false);
+  EXPECT_EQ(shade["views"][0]["label"], "colour");
+  const std::vector<int> verdicts = shade["verdicts"];
+  EXPECT_EQ(std::accumulate(verdicts.begin(), verdicts.end(), 0), 35 * 21);
+  EXPECT_EQ(shade["views"][0]["colours"].size() % 2, 1u);  // from the lowest difference to the highest, 0 in the middle
+  EXPECT_EQ(part(contents(*folder_ / "good.html"), "judgement")["status"], "PASS");
 }
 
-// The first bad pass stands first, its worst output before its others, and the banner leads there.
+// Who has no scripts reads the text of the terminal.
+TEST_F(ReportPage, WithoutScriptsItSaysTheVerdict) {
+  const std::string text = contents(*folder_ / "bad.html"), words = text.substr(text.find("<noscript>"), text.find("</noscript>"));
+  EXPECT_THAT(words, HasSubstr("FAIL shade is outside the as-written envelope of puddle.shade.corrected/2"));
+  EXPECT_THAT(words, HasSubstr("(1 FAIL, 4 PASS)"));
+  PortJudgement j;
+  j.reason = "port: there is no such <folder>";
+  EXPECT_THAT(report_html(j, 4, {}), HasSubstr("UNTESTED:  against , profile &#10;  port: there is no such &lt;folder&gt;"));
+}
+
+// The worst output of the first failing case comes before its others.
 TEST_F(ReportPage, OpensOnWhatFailsWorst) {
   const TemporaryFolder folder;
   const capture::Pack pack(small_pack("puddle-corrected"));
@@ -82,127 +116,74 @@ TEST_F(ReportPage, OpensOnWhatFailsWorst) {
       for (std::size_t at = 4; at < a.levels[0].size(); at += 8) a.levels[0][at + 1] ^= std::byte{0x80};
   });
   const std::string text = page(pack, folder.path());
-  EXPECT_THAT(text, HasSubstr("Worst in <a href=\"#at-puddle.surface_hit/0012.0/out.normal\">channel z of out.normal</a>, off by up to "));
-  const auto at = [&](const std::string& what) { return text.find(what); };
-  EXPECT_LT(at("id=\"pass-surface_hit\""), at("id=\"dataflow\""));
-  EXPECT_LT(at("id=\"dataflow\""), at("id=\"pass-wave_step\""));
-  EXPECT_NE(at("id=\"at-puddle.surface_hit/0012.0/out.hit\""), std::string::npos);
-  EXPECT_LT(at("id=\"at-puddle.surface_hit/0012.0/out.normal\""), at("id=\"at-puddle.surface_hit/0012.0/out.hit\""));
-  EXPECT_EQ(count(text, "<section class=\"pass "), 5u);
-  EXPECT_EQ(count(text, "<div class=\"view\" data-open data-label=\"z\""), 1u);
-  EXPECT_EQ(count(text, "<div class=\"view\" data-open "), 2u);  // one of each output that fails
-  EXPECT_THAT(text, HasSubstr("<th class=\"n\">off by</th>"));
+  const Json judgement = part(text, "judgement"), worst = judgement["passes"][2]["worst"], shown = part(text, "buffers")["passes"][2];
+  EXPECT_EQ(worst["case"], "puddle.surface_hit/0012.0");
+  EXPECT_EQ(worst["output"], "normal");
+  EXPECT_EQ(worst["quantity"], "z");
+  EXPECT_EQ(shown[0]["output"], "normal");
+  EXPECT_EQ(shown[1]["output"], "hit");
+  EXPECT_EQ(shown[1]["case"], worst["case"]);
   if (!Browser::is_installed()) return;
   put(folder / "page.html", text);
   Browser browser;
   browser.open(folder / "page.html");
+  EXPECT_EQ(browser.value("[...document.querySelectorAll('main > section')].map(s => s.id).filter(id => id).slice(0, 4).join()"),
+            "pass-surface_hit,dataflow,overview,pass-raindrops");
+  EXPECT_THAT(browser.value("document.querySelector('.summary').textContent").get<std::string>(),
+              HasSubstr("Worst in channel z of out.normal, off by up to "));
   const std::string viewer = "document.querySelector('#pass-surface_hit .viewer')";
   EXPECT_EQ(browser.value("[..." + viewer + ".querySelectorAll('.view:not([hidden])')].map(v => v.dataset.label).join()"), "z");
   EXPECT_EQ(browser.value(viewer + ".querySelectorAll('.view:not([hidden]) .mark').length"), 4);  // in each picture
 }
 
-// What a port in progress has not, and files that cannot be used: in the banner and by name.
-TEST_F(ReportPage, SaysWhatWasNotJudged) {
-  const TemporaryFolder folder;
-  const capture::Pack pack(small_pack("puddle-corrected"));
-  write_port(pack, folder.path());
-  std::filesystem::remove_all(folder / "puddle.display");
-  std::filesystem::remove(folder / "puddle.shade/0012.0/out.colour.npy");
-  const parallel::Executor executor;
-  ValidateOptions options;
-  options.executor = &executor;
-  options.partial = true;
-  const PortJudgement j = validate(pack, folder.path(), options);
-  const std::string text = report_html(j, page_source(std::make_shared<const capture::Pack>(pack.folder()), folder.path()));
-  EXPECT_THAT(text,
-              HasSubstr("<a href=\"#files\">1 file is</a> missing, or cannot be used. Not judged: <a href=\"#pass-shade\">shade</a>, <a "
-                        "href=\"#pass-display\">display</a>."));
-  EXPECT_THAT(text, HasSubstr("<section id=\"files\">"));
-  EXPECT_THAT(text, HasSubstr("no 'out.colour' as .npy"));
-  EXPECT_THAT(text, HasSubstr("<section class=\"pass is-not-judged\" id=\"pass-display\">"));
-  EXPECT_THAT(text, HasSubstr("NOT JUDGED</span> puddle.shade/0012.0: out.colour: missing, or cannot be used"));
-  EXPECT_EQ(count(text, "id=\"at-puddle.shade/0011.0/out.colour\""), 1u);  // a sample of what was judged
-}
-
-TEST_F(ReportPage, TheFieldsOfAListHaveFigures) {
+TEST_F(ReportPage, ListsHaveRowsOfFields) {
   const TemporaryFolder folder;
   const capture::Pack pack(small_pack("windshield-corrected"));
   write_port(pack, folder.path(), [](const capture::PackCase& c, const std::string&, Array& a) {
     if (c.id == "windshield.integrate/0012.0") a.levels[0][6] ^= std::byte{0x10};  // of the first drop's position
   });
   const std::string text = page(pack, folder.path());
-  EXPECT_THAT(text, HasSubstr("<td>drops</td><td>velocity.y</td><td>1/s</td><td>field</td>"));
-  EXPECT_THAT(text, HasSubstr("Worst in <a href=\"#at-windshield.integrate/0012.0/out.drops\">position.y of out.drops</a>"));
-  EXPECT_THAT(text, HasSubstr("fields outside, of "));
-}
-
-TEST_F(ReportPage, PassesWithoutFailures) {
-  const std::string text = contents(*folder_ / "good.html");
-  EXPECT_THAT(text, HasSubstr("<p class=\"verdict\">PASS</p>"));
-  EXPECT_THAT(text, HasSubstr("100 % of the elements have the reference's own bits."));
-  EXPECT_THAT(text, Not(HasSubstr("The worst")));
+  const Json passes = part(text, "judgement")["passes"];
+  const auto at = std::find_if(passes.begin(), passes.end(), [](const Json& p) { return p["pass"] == "integrate"; });
+  ASSERT_NE(at, passes.end());
+  EXPECT_EQ((*at)["worst"]["quantity"], "position.y");
+  const Json shown = part(text, "buffers")["passes"][static_cast<std::size_t>(at - passes.begin())][0];
+  ASSERT_FALSE(shown["rows"].empty());
+  ASSERT_EQ(shown["rows"][0].size(), 7u);
+  EXPECT_EQ(shown["rows"][0][1], "position.y");
+  EXPECT_NE(shown["rows"][0][2], shown["rows"][0][4]);  // got and expected
 }
 
 TEST_F(ReportPage, IsOneFile) {
   for (const std::string name : {"bad.html", "good.html"}) {
     const std::string text = contents(*folder_ / name);
-    EXPECT_THAT(text, Not(HasSubstr("http:")));
+    EXPECT_EQ(count(text, "http:"), count(text, "\"http://www.w3.org/2000/svg\""));  // a name, which nothing loads
     EXPECT_THAT(text, Not(HasSubstr("https:")));
-    EXPECT_EQ(count(text, "src=\""), count(text, "src=\"data:image/png;base64,"));
+    EXPECT_THAT(text, Not(HasSubstr("\nimport ")));
+    EXPECT_THAT(text, Not(HasSubstr("src=\"")));
   }
 }
 
 TEST_F(ReportPage, HostileNamesStayText) {
   PortJudgement j = example_judgement();
-  j.port = j.command = j.passes[3].pass = j.first_bad_pass = "</script><script>alert(1)</script>\"'";
-  j.passes[3].causes[0].sentence = j.notes[0] = "<img src=x onerror=alert(1)>{{js}}";
-  const std::string text = report_html(j, {});
-  EXPECT_EQ(count(text, "<script>"), 1u);
+  const std::string script = "</script><script>alert(1)</script>\"'<!--", image = "<img src=x onerror=alert(1)>{{report.js}}";
+  j.port = j.command = j.passes[3].pass = j.first_bad_pass = script;
+  j.passes[3].causes[0].sentence = j.notes[0] = image;
+  const std::string text = report_html(j, 1, {});
+  EXPECT_EQ(count(text, "<script"), 3u);
+  EXPECT_EQ(count(text, "</script>"), 3u);
   EXPECT_THAT(text, Not(HasSubstr("<img src=x")));
-  EXPECT_THAT(text, HasSubstr("&lt;img src=x onerror=alert(1)&gt;{{js}}"));
-}
-
-TEST_F(ReportPage, NothingJudged) {
-  PortJudgement j;
-  j.reason = "port: there is no such folder";
-  const std::string text = report_html(j, {});
-  EXPECT_THAT(text, HasSubstr("UNTESTED"));
-  EXPECT_THAT(text, HasSubstr("port: there is no such folder."));
-}
-
-TEST_F(ReportPage, UntestedSaysWhichPassAndWhy) {
-  PortJudgement j = example_judgement();
-  j.passes.pop_back();
-  j.first_bad_pass.clear();
-  j.status = Status::untested;
-  EXPECT_THAT(report_html(j, {}),
-              HasSubstr("Too little could be judged. <a href=\"#pass-noise\">noise</a>: 100 % of the elements have no useful bound.</p>"));
-}
-
-// --only: the one pass is drawn at its size, and what it takes from others is no link to nowhere.
-TEST_F(ReportPage, OnePassAlone) {
-  PortJudgement j = example_judgement();
-  j.passes = {j.passes[3]};
-  PageSource source;
-  source.edges = {{"shade", "hit", "hit", false}};
-  const std::string text = report_html(j, source);
-  EXPECT_THAT(text, HasSubstr("viewBox=\"0 0 214 80\" style=\"max-width:214px;min-width:214px\""));
-  EXPECT_THAT(text, HasSubstr("Takes hit of hit."));
-  EXPECT_THAT(text, Not(HasSubstr("#pass-hit")));
-}
-
-// A port that took a stale input is wrong in what it stored as well. The input is the news.
-TEST_F(ReportPage, AWrongInputIsTheCause) {
-  PortJudgement j = example_judgement();
-  PassJudgement& shade = j.passes[3];
-  shade.causes.clear();
-  shade.cases[0].broken = true;
-  shade.reason = shade.cases[0].reason = "input hit is that of the run before";
-  const std::string text = report_html(j, {});
-  EXPECT_THAT(text, HasSubstr("is the first bad pass: input hit is that of the run before."));
-  EXPECT_THAT(text, Not(HasSubstr("ause unknown")));
-  EXPECT_THAT(text, Not(HasSubstr("cause is unknown")));
-  EXPECT_EQ(count(text, shade.reason), 2u);  // in the banner, and with its run
+  EXPECT_THAT(text, Not(HasSubstr("<!--")));
+  const Json judgement = part(text, "judgement");
+  EXPECT_EQ(judgement["port"], script);
+  EXPECT_EQ(judgement["notes"][0], image);
+  if (!Browser::is_installed()) return;
+  put(*folder_ / "hostile.html", text);
+  Browser browser;
+  browser.open(*folder_ / "hostile.html");
+  EXPECT_EQ(browser.value("document.querySelectorAll('section.pass')[0].id"), "pass-" + script);
+  EXPECT_EQ(browser.value("document.querySelectorAll('script').length"), 3);
+  EXPECT_EQ(browser.value("document.images.length"), 0);
 }
 
 class ReportPageInBrowser : public ReportPage {
@@ -212,7 +193,7 @@ class ReportPageInBrowser : public ReportPage {
   }
   /// Nothing was logged, thrown or fetched.
   static void expect_quiet(const Browser& browser, const std::filesystem::path& file) {
-    for (const Browser::Json& e : browser.events) {
+    for (const Json& e : browser.events) {
       const std::string method = e.value("method", "");
       EXPECT_TRUE(method != "Log.entryAdded" && method != "Runtime.consoleAPICalled" && method != "Runtime.exceptionThrown") << e.dump();
       if (method != "Network.requestWillBeSent") continue;
@@ -249,73 +230,60 @@ TEST_F(ReportPageInBrowser, LoadsQuietlyAndEveryPictureIsDecoded) {
   }
 }
 
-TEST_F(ReportPageInBrowser, FlickerShowsThePortInThePlaceOfTheReference) {
+// The port lies over the reference in the first picture; zoom is about the middle and never beyond the edge.
+TEST_F(ReportPageInBrowser, KeysFlickerSwapZoomMoveAndEnlarge) {
   Browser browser;
   browser.open(*folder_ / "bad.html");
-  const std::string viewer = "document.querySelector('#pass-shade .viewer')";
-  const auto port_is_shown = [&] {
-    return browser.value("getComputedStyle(" + viewer + ".querySelector('.reference .other')).visibility");
-  };
-  const auto wait_for = [&](const std::string& state) {
-    return browser.value("new Promise(done => { const end = Date.now() + 10000; (function look() { const v = getComputedStyle(" + viewer +
-                         ".querySelector('.reference .other')).visibility; "
-                         "v === '" +
-                         state + "' || Date.now() > end ? done(v) : setTimeout(look, 10); })(); })");
-  };
-  EXPECT_EQ(port_is_shown(), "hidden");
-  EXPECT_EQ(browser.value(viewer + ".querySelector('.reference .other').src === " + viewer + ".querySelector('.port img').src"), true);
-  browser.value(viewer + ".focus()");
+  browser.value("window.viewer = document.querySelector('#pass-shade .viewer'), viewer.focus()");
+  const std::string other = "getComputedStyle(viewer.querySelector('.reference .other')).visibility";
+  const std::string flickers = "viewer.querySelector('.flicker').getAttribute('aria-pressed')";
+  EXPECT_EQ(browser.value("viewer.querySelector('.reference .other').src === viewer.querySelector('.port img').src"), true);
+  EXPECT_EQ(browser.value(other), "hidden");
   browser.press("f");
-  EXPECT_EQ(browser.value(viewer + ".querySelector('.flicker').getAttribute('aria-pressed')"), "true");
-  for (const std::string state : {"hidden", "visible", "hidden", "visible"}) EXPECT_EQ(wait_for(state), state);
+  EXPECT_EQ(browser.value(flickers), "true");
+  for (const std::string state : {"hidden", "visible", "hidden"}) {
+    EXPECT_EQ(browser.value("new Promise(done => { const end = Date.now() + 10000; (function look() { const v = " + other + "; v === '" +
+                            state + "' || Date.now() > end ? done(v) : setTimeout(look, 10); })(); })"),
+              state);
+  }
   browser.press("f");
-  EXPECT_EQ(browser.value(viewer + ".querySelector('.flicker').getAttribute('aria-pressed')"), "false");
-  EXPECT_EQ(port_is_shown(), "hidden");
+  EXPECT_EQ(browser.value(flickers), "false");
+  EXPECT_EQ(browser.value(other), "hidden");
   browser.press("s");
-  EXPECT_EQ(port_is_shown(), "visible");
+  EXPECT_EQ(browser.value(other), "visible");
+
+  browser.value("window.viewer = document.querySelector('#pass-surface_hit .viewer'), viewer.focus()");
+  const auto zoom_and_left = [&] {
+    return browser.value("['--zoom', '--px'].map(name => parseFloat(getComputedStyle(viewer).getPropertyValue(name)))");
+  };
+  browser.press("+");
+  EXPECT_EQ(zoom_and_left(), (Json{2, -50}));
+  browser.press("ArrowRight");
+  EXPECT_EQ(zoom_and_left(), (Json{2, -60}));
+  browser.press("-");
+  EXPECT_EQ(zoom_and_left(), (Json{1, 0}));
+  const std::string view = "viewer.querySelector('.view:not([hidden])')";
+  browser.press("2");
+  EXPECT_EQ(browser.value("[..." + view + ".querySelectorAll('.pane')].map(p => Boolean(p.offsetParent)).join()"),
+            "false,true,false,false");
+  browser.press("2");
+  browser.press("v");
+  EXPECT_EQ(browser.value(view + ".dataset.label"), "y");
   expect_quiet(browser, *folder_ / "bad.html");
 }
 
-TEST_F(ReportPageInBrowser, KeysZoomMoveAndEnlarge) {
-  Browser browser;
-  browser.open(*folder_ / "bad.html");
-  const std::string viewer = "document.querySelector('#pass-surface_hit .viewer')";
-  const auto zoom = [&] { return browser.value("+getComputedStyle(" + viewer + ").getPropertyValue('--zoom')"); };
-  const auto left = [&] { return browser.value("parseFloat(getComputedStyle(" + viewer + ").getPropertyValue('--px'))").get<double>(); };
-  browser.value(viewer + ".focus()");
-  browser.press("+");
-  EXPECT_EQ(zoom(), 2);
-  EXPECT_EQ(left(), -50);  // about the middle
-  browser.press("ArrowRight");
-  EXPECT_EQ(left(), -60);
-  browser.press("-");
-  EXPECT_EQ(zoom(), 1);
-  EXPECT_EQ(left(), 0);  // never beyond the edge
-  browser.press("2");
-  EXPECT_EQ(
-      browser.value("[...document.querySelectorAll('#pass-surface_hit .viewer')][0].querySelectorAll('.view:not([hidden]) .pane').length"),
-      4);
-  EXPECT_EQ(browser.value("[..." + viewer + ".querySelectorAll('.view:not([hidden]) .pane')].filter(p => p.offsetParent).length"), 1);
-  browser.press("2");
-  browser.press("v");
-  EXPECT_EQ(browser.value(viewer + ".querySelector('.view:not([hidden])').dataset.label"), "y");
-}
-
+// The middle of the mark, in texels, row 0 at the bottom.
 TEST_F(ReportPageInBrowser, AWorstElementIsFound) {
   Browser browser;
   browser.open(*folder_ / "bad.html");
-  const std::string viewer = "document.querySelector('#pass-shade .viewer')";
-  browser.value(viewer + ".querySelector('.place').click()");
-  // The mark lies on the texel that the button names: the middle of the mark, in texels, row 0 at the bottom.
-  const Browser::Json place =
-      browser.value("[+" + viewer + ".querySelector('.place').dataset.x, +" + viewer + ".querySelector('.place').dataset.y]");
-  const Browser::Json mark =
-      browser.value("(() => { const m = " + viewer + ".querySelector('.view:not([hidden]) .mark').getBoundingClientRect(), i = " + viewer +
-                    ".querySelector('.view:not([hidden]) img').getBoundingClientRect(); const u = (m.x + m.width / 2 - i.x) / i.width, v = "
-                    "(m.y + m.height / 2 - i.y) / i.height; "
-                    "return [Math.floor(35 * u), 20 - Math.floor(21 * v)]; })()");
-  EXPECT_EQ(mark, place);
-  EXPECT_THAT(browser.value(viewer + ".querySelector('.readout').textContent").get<std::string>(), HasSubstr("accepted"));
+  browser.value("window.viewer = document.querySelector('#pass-shade .viewer'), viewer.querySelector('.place').click()");
+  EXPECT_EQ(
+      browser.value(
+          "(() => { const [m, i] = ['.mark', 'img'].map(e => viewer.querySelector('.view:not([hidden]) ' + e).getBoundingClientRect()); "
+          "return [Math.floor(35 * (m.x + m.width / 2 - i.x) / i.width), 20 - Math.floor(21 * (m.y + m.height / 2 - i.y) / i.height)]; "
+          "})()"),
+      browser.value("(({x, y}) => [+x, +y])(viewer.querySelector('.place').dataset)"));
+  EXPECT_THAT(browser.value("viewer.querySelector('.readout').textContent").get<std::string>(), HasSubstr("accepted"));
 }
 
 TEST_F(ReportPageInBrowser, DarkAndLight) {

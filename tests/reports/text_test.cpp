@@ -74,6 +74,22 @@ TEST(ReportText, OneAlignedLineForEachPass) {
                         "elements have no useful bound\n"));
 }
 
+TEST(ReportText, SharesOfASampleSaySo) {
+  PortJudgement j = example_judgement();
+  EXPECT_EQ(sample_text(j.passes[1]), "");
+  EXPECT_THAT(report_text(j), testing::Not(HasSubstr("sample")));
+  j.passes[1].cases[0].outputs[0].unsampled = 4;
+  EXPECT_EQ(sample_text(j.passes[1]), "widths and shares are those of a sample of 4 of 8 elements (--exhaustive computes all)");
+  const std::string text = report_text(j);
+  EXPECT_THAT(text, HasSubstr("WARN      hit     0 of 8  75.00 %       7 codes  vacuous          4  25.00 %  50.00 %\n"));
+  EXPECT_THAT(text, HasSubstr("note: widths and shares of hit are those of samples; --exhaustive computes all\n"));
+  PassJudgement& shade = j.passes[3];
+  shade.half_is_least = {true, false, false};
+  EXPECT_THAT(half_text(shade), HasSubstr("if to nearest: at least 8, toward zero: 2, either way: 2"));
+  shade.half_votes = {0, 0, 0};
+  EXPECT_EQ(half_text(shade), "stores to half: nothing that had to be computed tells how they round");
+}
+
 TEST(ReportText, WhatFailsWhereByHowMuchAndWhy) {
   const std::string text = report_text(example_judgement());
   EXPECT_THAT(

@@ -1,3 +1,4 @@
+// A camera's half height and basis are exact, the same on every machine, and refused where undefined.
 #include "scene/camera.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// A configuration has typed values, knows where they came from, and is a scene that loads as itself.
 #include "scene/config.h"
 
 #include <nlohmann/json.hpp>

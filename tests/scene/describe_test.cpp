@@ -1,3 +1,4 @@
+// Parameters are described in text and JSON with the same content.
 #include "scene/describe.h"
 
 #include <sstream>

@@ -1,14 +1,13 @@
 // An effect with a parameter of each type, for the tests of this room.
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 
-#include "rainref/error.h"
+#include "base/error_of.h"
 #include "scene/effect_table.h"
 
 namespace rainref::scene {
@@ -30,16 +29,6 @@ inline const std::vector<Parameter>& puddle_parameters() {
 
 inline EffectTable example_effects() {
   return {{{"puddle", {"as-published", "corrected"}, puddle_parameters()}, {"windshield", {"as-published", "corrected"}, {}}}};
-}
-
-/// The error that `body` throws, as text with its exit code first: "2 x.toml:1:1: …"; "none" when it throws nothing.
-inline std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return std::to_string(static_cast<int>(e.code())) + " " + e.what();
-  }
-  return "none";
 }
 
 }  // namespace rainref::scene

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
+#include "image/images.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 
@@ -16,15 +16,11 @@ const double pi = std::acos(-1.0);
 
 /// Every texel says its own direction: (d + 1) / 2.
 Image directions(int width, int height) {
-  Image image(Format::rgba32f, width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double azimuth = 2 * pi * ((x + 0.5) / width - 0.5), rise = pi * ((y + 0.5) / height - 0.5);
-      const double d[4] = {std::cos(rise) * std::cos(azimuth), std::sin(rise), std::cos(rise) * std::sin(azimuth), 0};
-      for (int k = 0; k < 4; ++k) image.row<float>(y)[4 * x + k] = static_cast<float>(0.5 + 0.5 * d[k]);
-    }
-  }
-  return image;
+  return make_image(Format::rgba32f, width, height, [=](int x, int y, int k) {
+    const double azimuth = 2 * pi * ((x + 0.5) / width - 0.5), rise = pi * ((y + 0.5) / height - 0.5);
+    const double d[4] = {std::cos(rise) * std::cos(azimuth), std::sin(rise), std::cos(rise) * std::sin(azimuth), 0};
+    return static_cast<float>(0.5 + 0.5 * d[k]);
+  });
 }
 void expect_directions(const Image& view, const Camera& camera, double tolerance) {
   const Camera::Basis b = camera.basis();
@@ -55,15 +51,12 @@ TEST(PanoramaView, ShowsWhatLiesInEachPixelsDirection) {
   // Far away: the eye's place does not count.
   const Camera here{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 40}, there{{7, 8, 9}, {8, 8, 9}, {0, 1, 0}, 40};
   const Image a = panorama_view(panorama, here, 16, 9, executor), b = panorama_view(panorama, there, 16, 9, executor);
-  for (int y = 0; y < 9; ++y) EXPECT_EQ(std::memcmp(a.row_bytes(y), b.row_bytes(y), 16 * 16), 0);
+  EXPECT_TRUE(same(a, b));
 }
 
 // A pixel that covers many texels shows their mean, not one of them: of stripes a grey.
 TEST(PanoramaView, CoarseViewsAreFiltered) {
-  Image stripes(Format::rgba32f, 1024, 512);
-  for (int y = 0; y < 512; ++y) {
-    for (int i = 0; i < 4096; ++i) stripes.row<float>(y)[i] = static_cast<float>(i / 4 % 2);
-  }
+  const Image stripes = make_image(Format::rgba32f, 1024, 512, [](int x, int, int) { return static_cast<float>(x % 2); });
   const Image view = panorama_view(stripes, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 60}, 32, 18, parallel::Executor(1));
   for (int y = 0; y < 18; ++y) {
     for (int x = 0; x < 32; ++x) EXPECT_NEAR(view.row<float>(y)[4 * x], 0.5, 1e-6);
@@ -76,10 +69,8 @@ TEST(PanoramaView, ThreadsAndTargetsGiveTheSameBits) {
   const Image one = panorama_view(panorama, camera, 33, 21, parallel::Executor(1));
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
-    for (const int threads : {2, 3, 8}) {
-      const Image again = panorama_view(panorama, camera, 33, 21, parallel::Executor(threads));
-      for (int y = 0; y < 21; ++y) ASSERT_EQ(std::memcmp(one.row_bytes(y), again.row_bytes(y), 33 * 16), 0) << target << " " << threads;
-    }
+    for (const int threads : {2, 3, 8})
+      ASSERT_TRUE(same(panorama_view(panorama, camera, 33, 21, parallel::Executor(threads)), one)) << target << " " << threads;
   }
   select_simd_target("");
 }

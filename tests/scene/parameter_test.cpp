@@ -1,3 +1,4 @@
+// A parameter accepts its type in its range, and tables that contradict themselves are refused.
 #include "scene/parameter.h"
 
 #include <limits>

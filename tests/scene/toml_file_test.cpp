@@ -1,9 +1,5 @@
 // Files: how they are read, and what no file may do.
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
+#include "base/temporary_folder.h"
 #include "scene/example_effect.h"
 #include "scene/toml.h"
 
@@ -59,16 +55,11 @@ TEST(HostileScene, AHugeFileIsRefused) {
 
 class SceneFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / ("rainref_scene_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path write(const std::string& text) const {
-    std::ofstream(folder_ / "x.toml", std::ios::binary) << text;
-    return folder_ / "x.toml";
+    put(folder / "x.toml", text);
+    return folder / "x.toml";
   }
-  std::filesystem::path folder_;
+  TemporaryFolder folder;
 };
 
 TEST_F(SceneFile, IsReadWithItsFolderAndItsPlaces) {
@@ -76,17 +67,17 @@ TEST_F(SceneFile, IsReadWithItsFolderAndItsPlaces) {
   const Config c = load(file, {"run.frames=2"}, example_effects());
   EXPECT_EQ(c.real("puddle.damping"), 0.96);
   EXPECT_EQ(c.integer("run.frames"), 2);
-  EXPECT_EQ(c.directory(), folder_);
+  EXPECT_EQ(c.directory(), folder.path());
   EXPECT_EQ(c.entry("puddle.damping").origin.text(), file.string() + ":4:1");
 }
 
 TEST_F(SceneFile, ThatCannotBeReadIsAnInputError) {
-  const std::string missing = (folder_ / "none.toml").string();
+  const std::string missing = (folder / "none.toml").string();
   EXPECT_EQ(error_of([&] { load(missing, {}, example_effects()); }), "4 " + missing + ": cannot be read: No such file or directory");
   const std::string inside = (write(head) / "y.toml").string();
   EXPECT_EQ(error_of([&] { load(inside, {}, example_effects()); }), "4 " + inside + ": cannot be read: Not a directory");
-  EXPECT_EQ(error_of([&] { load(folder_, {}, example_effects()); }),
-            "4 " + folder_.string() + ": expected a scene file, found a directory");
+  EXPECT_EQ(error_of([&] { load(folder.path(), {}, example_effects()); }),
+            "4 " + folder.path().string() + ": expected a scene file, found a directory");
 }
 
 TEST_F(SceneFile, LargerThanAnySceneIsRefused) {

@@ -1,22 +1,20 @@
+// Layouts are printed in each language, and compiled they have the offsets of the block.
 #include "scene/uniform_layout.h"
 
-#include <unistd.h>
-
 #include <array>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "base/shell.h"
+#include "base/temporary_folder.h"
 #include "scene/example_effect.h"
 
 namespace rainref::scene {
 namespace {
 
 // Every scalar type and every vector length, with gaps within a row, at its end and at the end of the block.
-struct Uniforms {
+struct WaveStepUniforms {
   std::array<float, 3> camera_position;
   float pixel_scale;
   std::int32_t drop_count;
@@ -37,24 +35,23 @@ struct Uniforms {
 };
 
 UniformBlock uniforms() {
-  return uniform_block<Uniforms>("WaveStepUniforms",
-                                 {
-                                     member<&Uniforms::camera_position>("camera_position", "m", any_word, "Where the camera is."),
-                                     member<&Uniforms::pixel_scale>("pixel_scale", "1", any_word, "Height of a pixel at distance 1."),
-                                     member<&Uniforms::drop_count>("drop_count", "1", any_word, "Number of drops."),
-                                     member<&Uniforms::texel>("texel", "1", any_word, "One over the size."),
-                                     member<&Uniforms::seed_bits>("seed_bits", "1", any_word, "The seed."),
-                                     member<&Uniforms::frame_index>("frame_index", "frame", any_word, "The frame."),
-                                     member<&Uniforms::cell>("cell", "1", any_word, "The cell."),
-                                     member<&Uniforms::tint>("tint", "1", any_word, "The tint."),
-                                     member<&Uniforms::wave_size>("wave_size", "texel", any_word, "Size of the wave buffer."),
-                                     member<&Uniforms::hash_bits>("hash_bits", "1", any_word, "A hash."),
-                                     member<&Uniforms::bounds>("bounds", "texel", any_word, "A rectangle."),
-                                     member<&Uniforms::time>("time", "s", any_word, "Time of the frame."),
-                                 });
+  return uniform_block<WaveStepUniforms>({
+      member<&WaveStepUniforms::camera_position>("m", any_word, "Where the camera is."),
+      member<&WaveStepUniforms::pixel_scale>("1", any_word, "Height of a pixel at distance 1."),
+      member<&WaveStepUniforms::drop_count>("1", any_word, "Number of drops."),
+      member<&WaveStepUniforms::texel>("1", any_word, "One over the size."),
+      member<&WaveStepUniforms::seed_bits>("1", any_word, "The seed."),
+      member<&WaveStepUniforms::frame_index>("frame", any_word, "The frame."),
+      member<&WaveStepUniforms::cell>("1", any_word, "The cell."),
+      member<&WaveStepUniforms::tint>("1", any_word, "The tint."),
+      member<&WaveStepUniforms::wave_size>("texel", any_word, "Size of the wave buffer."),
+      member<&WaveStepUniforms::hash_bits>("1", any_word, "A hash."),
+      member<&WaveStepUniforms::bounds>("texel", any_word, "A rectangle."),
+      member<&WaveStepUniforms::time>("s", any_word, "Time of the frame."),
+  });
 }
 
-struct DropRecord {
+struct Drop {
   float x, y;
   float strength;
   float padding0;
@@ -64,34 +61,24 @@ struct DropRecord {
 };
 
 UniformBlock drop() {
-  return record<DropRecord>("Drop", {
-                                        member<&DropRecord::x>("x", "texel", "Centre."),
-                                        member<&DropRecord::y>("y", "texel", "Centre."),
-                                        member<&DropRecord::strength>("strength", "1", "Strength."),
-                                        member<&DropRecord::velocity>("velocity", "texel/s", "Velocity."),
-                                        member<&DropRecord::id>("id", "1", "Stable id."),
-                                    });
+  return record<Drop>({
+      member<&Drop::x>("texel", "Centre."),
+      member<&Drop::y>("texel", "Centre."),
+      member<&Drop::strength>("1", "Strength."),
+      member<&Drop::velocity>("texel/s", "Velocity."),
+      member<&Drop::id>("1", "Stable id."),
+  });
 }
 
 class LayoutFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / ("rainref_layout_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void write(const std::string& name, const std::string& text) const { put(folder_ / name, text); }
   // The output of a shell command, which must succeed.
-  std::string output(const std::string& command) const {
-    std::string out;
-    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) return "cannot start " + command;
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-    EXPECT_EQ(pclose(pipe), 0) << command << "\n" << out;
-    return out;
+  static std::string output(const std::string& command) {
+    const auto [text, status] = output_of(command);
+    EXPECT_EQ(status, 0) << command << "\n" << text;
+    return text;
   }
   // "name offset" lines and "size N", as this C or C++ compiler lays the structs out.
   std::string offsets(const std::string& compiler, const std::string& file, const std::string& source) const {
@@ -115,7 +102,7 @@ class LayoutFile : public testing::Test {
     return out;
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(LayoutFile, CompiledCHasTheOffsetsOfTheBlock) {
@@ -167,14 +154,14 @@ TEST_F(LayoutFile, ShadersDeclareTheBlock) {
 }
 
 // A block of one row for the exact texts.
-struct Small {
+struct SmallUniforms {
   std::array<float, 2> texel;
   std::uint32_t frame_index;
   float padding0;
 };
 UniformBlock small() {
-  return uniform_block<Small>("SmallUniforms", {member<&Small::texel>("texel", "1", any_word, "One over the size."),
-                                                member<&Small::frame_index>("frame_index", "frame", any_word, "The frame.")});
+  return uniform_block<SmallUniforms>({member<&SmallUniforms::texel>("1", any_word, "One over the size."),
+                                       member<&SmallUniforms::frame_index>("frame", any_word, "The frame.")});
 }
 const std::string head = "// SmallUniforms: 16 bytes, little endian. Comments: offset in bytes, [unit], meaning.\n";
 

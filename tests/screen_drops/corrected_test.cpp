@@ -4,7 +4,6 @@
 #include <set>
 
 #include "pass/same_as_definition.h"
-#include "screen_drops/evaluations.h"
 #include "screen_drops/info.h"
 #include "screen_drops/support.h"
 

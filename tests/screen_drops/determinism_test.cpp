@@ -1,7 +1,6 @@
 // The determinism proof: every SIMD target, 1, 2, 3 and 8 threads, shuffled tiles, widths 1 to 33 give the bits of one plain
 // float after another; and how far those are from doubles.
-#include "capture/hash_of_frames.h"
-#include "math/simd_target.h"
+#include "determinism.h"
 #include "pass/display.h"
 #include "pass/display_scalar.h"
 #include "screen_drops/support.h"
@@ -9,24 +8,23 @@
 namespace rainref::screen_drops {
 namespace {
 
+using rainref::test::expect_one_result;
+using rainref::test::hash_of_frames;
 using test::Double;
 using test::Single;
 
-std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, int frames = 3, bool flows = true) {
-  parallel::Executor executor(threads);
-  executor.shuffle_tiles(shuffle);
-  FlowSettings flow = test::wet_pane();
-  flow.pane = {s.pane_height * s.width / s.height, s.pane_height};
-  flow.wind = 100;
-  flow.warm_up = 0.2;
-  ScreenDrops window(s, test::inputs(s), executor, flows && s.variant == Variant::corrected ? &flow : nullptr);
-  return capture::hash_of_frames(frames, [&](Recorder* recorder) { window.next_frame(recorder); });
+auto run_of(const Settings& s, bool flows = true) {
+  return [&s, flows](const parallel::Executor& executor) {
+    FlowSettings flow = test::wet_pane();
+    flow.pane = {s.pane_height * s.width / s.height, s.pane_height};
+    flow.wind = 100;
+    flow.warm_up = 0.2;
+    return hash_of_frames(ScreenDrops(s, test::inputs(s), executor, flows && s.variant == Variant::corrected ? &flow : nullptr));
+  };
 }
 
-class ScreenDropsDeterminism : public testing::TestWithParam<Variant> {
- protected:
-  ~ScreenDropsDeterminism() override { select_simd_target(""); }
-};
+class ScreenDropsDeterminism : public rainref::test::OfVariant {};
+INSTANTIATE_TEST_SUITE_P(Variants, ScreenDropsDeterminism, rainref::test::both_variants, rainref::test::variant_name);
 
 TEST_P(ScreenDropsDeterminism, EveryTargetThreadCountOrderAndWidth) {
   for (int width = 1; width <= 33; ++width) {
@@ -35,35 +33,14 @@ TEST_P(ScreenDropsDeterminism, EveryTargetThreadCountOrderAndWidth) {
     s.printed_normal = width % 5 == 0;
     s.noise_filter = width % 3 == 0 ? Filter::nearest : Filter::linear;
     s.layers = 1 + width % 6;
-    select_simd_target(simd_targets().back());
-    const std::string expected = hash_of_run(s, 1, 0);
-    for (const std::string& target : simd_targets()) {
-      select_simd_target(target);
-      for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected)
-            << target << ", " << threads << " threads, width " << width;
-      }
-    }
+    expect_one_result(fmt::format("width {}", width), run_of(s));
   }
-}
-TEST_P(ScreenDropsDeterminism, EveryRounding) {
-  Settings s = test::settings(GetParam(), 61, 41);
-  s.rounding = Rounding::rtz;
-  select_simd_target(simd_targets().back());
-  const std::string expected = hash_of_run(s, 1, 0);
-  for (const std::string& target : simd_targets()) {
-    select_simd_target(target);
-    EXPECT_EQ(hash_of_run(s, 3, 99), expected) << target;
-  }
-  s.rounding = Rounding::rne;
-  EXPECT_NE(hash_of_run(s, 1, 0), expected);
 }
 TEST_P(ScreenDropsDeterminism, OtherSeedOtherBits) {
   Settings s = test::settings(GetParam(), 33, 21);
-  const std::string before = hash_of_run(s, 1, 0, 2, false);
-  EXPECT_EQ(hash_of_run(s, 2, 0, 2, false), before);
+  const std::string before = run_of(s, false)(parallel::Executor(1));
   s.seed = 4;
-  EXPECT_NE(hash_of_run(s, 1, 0, 2, false), before);
+  EXPECT_NE(run_of(s, false)(parallel::Executor(1)), before);
 }
 
 void expect_same(Half found, Single expected, const char* what, int x, int y) {
@@ -146,9 +123,6 @@ TEST_P(ScreenDropsDeterminism, LanesEqualTheScalarEvaluationWhichIsNearDouble) {
     EXPECT_LE(far, 3) << target;  // at the edge of total reflection a root magnifies
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Variants, ScreenDropsDeterminism, testing::Values(Variant::as_published, Variant::corrected),
-                         [](const auto& param) { return param.param == Variant::corrected ? "corrected" : "as_published"; });
 
 }  // namespace
 }  // namespace rainref::screen_drops

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
 #include "drops/physics.h"
+#include "image/images.h"
 #include "screen_drops/flow.h"
 
 namespace rainref::screen_drops::test {
@@ -56,12 +56,6 @@ inline Drop after(const FlowSettings& settings, float mass, int frames, const pa
   return flow.drops().at(0);
 }
 
-inline std::string bytes_of(const Image& image, std::size_t texel) {
-  std::string out;
-  for (int y = 0; y < image.height(); ++y)
-    out.append(reinterpret_cast<const char*>(image.row_bytes(y)), texel * static_cast<std::size_t>(image.width()));
-  return out;
-}
 template <class T>
 std::string bytes_of(const std::vector<T>& all) {
   return {reinterpret_cast<const char*>(all.data()), all.size() * sizeof(T)};

@@ -7,10 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "capture/hashing.h"
-#include "golden/caller.h"
-#include "night_street/night_street.h"
+#include "golden/lines.h"
 #include "rainref/executor.h"
+#include "scene/test_card.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "settings.h"
@@ -56,7 +55,7 @@ inline std::vector<GoldenScene> golden_scenes() {
         flow->splat.height = 70;
         flow->splat.rounding = rounding;
       }
-      scenes.push_back({fmt::format("screen_drops/{}/{}", variant == Variant::as_published ? "as-published" : "corrected", what), s, flow});
+      scenes.push_back({fmt::format("screen_drops/{}/{}", name(variant), what), s, flow});
     };
     const char* other = variant == Variant::corrected ? "flow" : "misprint";
     add(Rounding::rne, false, "still");
@@ -66,23 +65,18 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+/// What is seen through the window.
+inline Inputs golden_inputs(const Settings& s, const parallel::Executor& executor) {
+  Inputs in;
+  in.colour = scene::TestCard().view(scene_camera(s), s.width, s.height, 1000, executor).colour;
+  return in;
+}
+
+/// golden/lines.h.
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
                                              const golden::Caller& caller = golden::call_plainly) {
-  const Settings& s = scene.settings;
-  Inputs in;
-  in.colour = night_street::Street({s.seed}).view(scene_camera(s), s.width, s.height, 1000, executor).colour;
-  std::optional<ScreenDrops> window;
-  caller([&] { window.emplace(s, in, executor, scene.flow ? &*scene.flow : nullptr); });
-  std::vector<std::string> lines;
-  for (int frame = 0; frame < frames; ++frame) {
-    capture::HashRecorder recorder;
-    const bool golden = frame <= 2 || frame == 59;
-    caller([&] { window->next_frame(golden ? &recorder : nullptr); });
-    if (!golden) continue;
-    for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
-  }
-  return lines;
+  return golden::lines_of<ScreenDrops>(scene.name, frames, caller, scene.settings, golden_inputs(scene.settings, executor), executor,
+                                       scene.flow ? &*scene.flow : nullptr);
 }
 
 }  // namespace rainref::screen_drops

@@ -1,6 +1,7 @@
 // What drops need not ask for shows nothing, and there is enough of it to be worth the asking.
 #include "screen_drops/reach.h"
 
+#include "image/images.h"
 #include "screen_drops/support.h"
 
 namespace rainref::screen_drops {
@@ -17,12 +18,11 @@ Count ask(int width, int height, int stretch, std::uint32_t seed) {
   s.seed = seed;
   const auto grids = make_layers(s);
   const auto size = cells_size(grids);
-  Image cells(Format::rgba32f, size[0], size[1]), flow(Format::r16f, width / 2 + 1, height / 3 + 1);
+  Image cells(Format::rgba32f, size[0], size[1]);
   test::fill_cells(cells_uniforms(s, grids, 7), cells);
-  for (int y = 0; y < flow.height(); ++y) {
-    for (int x = 0; x < flow.width(); ++x)
-      flow.row<Half>(y)[x] = to_half((x * 7 + y * 13 + static_cast<int>(seed)) % 61 == 0 ? 3.0f : 0.0f);
-  }
+  const Image flow = make_image(Format::r16f, width / 2 + 1, height / 3 + 1, [&](int x, int y, int) {
+    return to_half((x * 7 + y * 13 + static_cast<int>(seed)) % 61 == 0 ? 3.0f : 0.0f);
+  });
   const DropsUniforms u = drops_uniforms(s, grids, {flow.width(), flow.height()});
   const TextureData cell_texture(cells, Address::clamp, Address::clamp), flow_texture(flow, Address::clamp, Address::clamp);
   const auto stored_cells = stored_texture<float>(cells);

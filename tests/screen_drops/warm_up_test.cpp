@@ -30,7 +30,7 @@ struct Ran {
 Ran ran(const FlowSettings& s, const parallel::Executor& executor) {
   Flow flow(s, executor);
   for (int n = 0; n < 5; ++n) flow.simulate();
-  return {bytes_of(flow.drops()), bytes_of(flow.height(), 2), bytes_of(flow.film(), 4), flow.mass_balance(), flow.residual()};
+  return {bytes_of(flow.drops()), bytes_of(flow.height()), bytes_of(flow.film()), flow.mass_balance(), flow.residual()};
 }
 
 TEST_F(KeptWarmUp, GoesOnAsTheOneThatWasMade) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
 #include "rainref/error.h"
 #include "rainref/simulation.h"
@@ -24,13 +25,7 @@ Simulation opened(std::vector<std::string> set) {
 }
 
 void expect_refused(const std::function<void()>& call, ExitCode code, const std::string& why) {
-  try {
-    call();
-    ADD_FAILURE() << why;
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), code);
-    EXPECT_THAT(e.what(), HasSubstr(why));
-  }
+  EXPECT_THAT(error_of(call), testing::AllOf(testing::StartsWith(std::to_string(static_cast<int>(code)) + " "), HasSubstr(why)));
 }
 
 TEST(LeftOut, AConfigurationOfEmbreeIsRefusedWithoutIt) {

@@ -2,12 +2,11 @@
 #include "simulation/development.h"
 
 #include <cmath>
-#include <cstring>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "image/colour.h"
+#include "image/images.h"
 #include "rainref/error.h"
 #include "rainref/simulation.h"
 #include "scene/toml.h"
@@ -25,18 +24,8 @@ const parallel::Executor& executor() {
   return two;
 }
 int code(const Image& image, int x, int y, int c = 0) { return image.row<Unorm8>(y)[4 * x + c].code; }
-bool same(const Image& a, const Image& b) {
-  if (a.width() != b.width() || a.height() != b.height()) return false;
-  for (int y = 0; y < a.height(); ++y)
-    if (std::memcmp(a.row<Unorm8>(y), b.row<Unorm8>(y), static_cast<std::size_t>(4 * a.width())) != 0) return false;
-  return true;
-}
 Image radiance(int width, int height, const std::function<float(int x, int y)>& of) {
-  Image image(Format::rgba32f, width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 4; ++c) image.row<float>(y)[4 * x + c] = of(x, y);
-  return image;
+  return make_image(Format::rgba32f, width, height, [&](int x, int y, int) { return of(x, y); });
 }
 double sum(const LightImage& image) {
   double all = 0;

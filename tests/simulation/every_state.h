@@ -21,11 +21,9 @@ inline std::string tiny_film() {
   static const TemporaryFolder folder;
   static const std::string name = [] {
     for (int k = 0; k < 40; ++k) {
-      std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (21, 33, 3), }";
-      header.resize(117, ' ');
-      std::ofstream file(folder / fmt::format("{:02}.npy", k), std::ios::binary);
-      file << "\x93NUMPY" << '\1' << '\0' << '\x76' << '\0' << header << '\n';
-      for (int i = 0; i < 21 * 33 * 3; ++i) file.put(static_cast<char>(i * 37 % 251 + k));
+      std::string codes;
+      for (int i = 0; i < 21 * 33 * 3; ++i) codes += static_cast<char>(i * 37 % 251 + k);
+      put(folder / fmt::format("{:02}.npy", k), npy("'|u1'", "(21, 33, 3)", codes));
     }
     return (folder / "%02d.npy").string();
   }();

@@ -4,14 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <map>
 
-#include <fmt/format.h>
-
+#include "base/error_of.h"
 #include "capture/hashing.h"
+#include "image/images.h"
 #include "rainref/error.h"
+#include "rainref/windshield.h"
 #include "registry/registry.h"
 #include "simulation/small_scenes.h"
 #include "source_folder.h"
@@ -28,14 +28,12 @@ class Given : public Recorder {
   void pass(const PassCall& call) override {
     for (const PassOutput& output : call.outputs) last[std::string(output.name)] = bytes_of(output.content);
   }
-  static std::vector<std::byte> bytes_of(const std::variant<BufferView, RecordView>& content) {
-    if (const auto* records = std::get_if<RecordView>(&content)) return {records->bytes().begin(), records->bytes().end()};
-    const auto& image = std::get<BufferView>(content);
-    std::vector<std::byte> bytes(image.row_bytes() * static_cast<std::size_t>(image.height()));
-    for (int y = 0; y < image.height(); ++y) image.copy_row(y, bytes.data() + static_cast<std::size_t>(y) * image.row_bytes());
-    return bytes;
+  static std::string bytes_of(const std::variant<BufferView, RecordView>& content) {
+    if (const auto* records = std::get_if<RecordView>(&content))
+      return {reinterpret_cast<const char*>(records->bytes().data()), records->bytes().size()};
+    return rainref::bytes_of(std::get<BufferView>(content));
   }
-  std::map<std::string, std::vector<std::byte>> last;
+  std::map<std::string, std::string> last;
 };
 
 class EveryEffect : public testing::TestWithParam<std::pair<std::string, std::string>> {};
@@ -97,14 +95,9 @@ INSTANTIATE_TEST_SUITE_P(Simulation, EveryEffect, testing::ValuesIn(all()),
                          [](const auto& p) { return p.param.first + (p.param.second == "corrected" ? "_corrected" : "_as_published"); });
 
 std::string refusal(const auto& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::usage);
-    return e.what();
-  }
-  ADD_FAILURE() << "expected an error";
-  return "";
+  const std::string error = error_of(body);
+  EXPECT_TRUE(error.starts_with("2 ")) << error;
+  return error.substr(2);
 }
 
 TEST(Simulation, WhatCannotBeIsRefused) {
@@ -151,6 +144,21 @@ TEST(Simulation, ReadsSceneFilesAndWritesPictures) {
     again.write_png(folder / "again.png");
     EXPECT_TRUE(contents(folder / "again.png") == contents(folder / "a.png")) << name;
   }
+}
+
+TEST(StreetAtNight, IsTheOneThatSimulationsDriveAlong) {
+  const parallel::Executor executor(2);
+  const SceneText scene = small("windshield", "corrected", {"seed=3", "vehicle.speed=10"});
+  Simulation simulation(scene, executor);
+  windshield::Windshield alone(scene, {{}, {}, street_at_night(3)}, executor), elsewhere(scene, {{}, {}, street_at_night(4)}, executor);
+  for (int frame = 0; frame < 2; ++frame) {
+    simulation.next_frame();
+    alone.next_frame();
+    elsewhere.next_frame();
+  }
+  const auto hash = [](const Image& picture) { return capture::hash_of(picture).text(); };
+  EXPECT_EQ(hash(alone.picture()), hash(simulation.picture()));
+  EXPECT_NE(hash(elsewhere.picture()), hash(simulation.picture()));
 }
 
 }  // namespace

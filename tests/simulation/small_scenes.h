@@ -1,10 +1,10 @@
 // Scenes so small that a frame takes no time.
 #pragma once
 
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "base/npy.h"
 #include "base/temporary_folder.h"
 #include "rainref/scene_text.h"
 
@@ -14,11 +14,8 @@ namespace rainref {
 inline std::string tiny_picture() {
   static const TemporaryFolder folder;
   static const std::string file = [] {
-    std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (1, 2, 3), }";
-    header.resize(117, ' ');
-    const std::string path = (folder / "tiny.npy").string();
-    std::ofstream(path, std::ios::binary) << "\x93NUMPY" << '\1' << '\0' << '\x76' << '\0' << header << '\n' << "\x20\x40\x60\x80\xa0\xc0";
-    return path;
+    put(folder / "tiny.npy", npy("'|u1'", "(1, 2, 3)", "\x20\x40\x60\x80\xa0\xc0"));
+    return (folder / "tiny.npy").string();
   }();
   return file;
 }

@@ -7,8 +7,9 @@
 #include <map>
 #include <set>
 
+#include "night_street/night_street.h"
 #include "simulation/every_state.h"
-#include "state/load.h"
+#include "state/file.h"
 #include "windshield/instance.h"
 
 namespace rainref {
@@ -99,6 +100,7 @@ struct Reached {
 
   Reached(const StateScene& scene, const parallel::Executor& executor) {
     const scene::Config config = scene::parse(scene.text, simulation::effect_table());
+    inputs.street = night_street::Street::make;
     instance = registry::find(config.effect())->open(config, executor, inputs);
   }
   state::Items items() const {

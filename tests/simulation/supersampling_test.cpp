@@ -1,15 +1,14 @@
 // Pictures of which the passes run at a multiple: what the mean weighs, and that nothing else changes.
-#include "simulation/supersampling.h"
+#include "simulation/light_mean.h"
 
 #include <cstring>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
+#include "base/error_of.h"
 #include "image/colour.h"
-#include "rainref/error.h"
+#include "image/images.h"
 #include "rainref/simulation.h"
 #include "simulation/small_scenes.h"
 
@@ -23,17 +22,9 @@ const parallel::Executor& executor() {
   return two;
 }
 Image filled(int width, int height, int code) {
-  Image image(Format::rgba8, width, height);
-  for (int y = 0; y < height; ++y) std::memset(image.row<Unorm8>(y), code, static_cast<std::size_t>(4 * width));
-  return image;
+  return make_image(Format::rgba8, width, height, [=](int, int, int) { return static_cast<std::uint8_t>(code); });
 }
 int red(const Image& image, int x, int y) { return image.row<Unorm8>(y)[4 * x].code; }
-bool same(const Image& a, const Image& b) {
-  if (a.width() != b.width() || a.height() != b.height()) return false;
-  for (int y = 0; y < a.height(); ++y)
-    if (std::memcmp(a.row<Unorm8>(y), b.row<Unorm8>(y), static_cast<std::size_t>(4 * a.width())) != 0) return false;
-  return true;
-}
 int nearest_code(double light) { return static_cast<int>(255 * encode_srgb(light) + 0.5); }
 
 TEST(Supersampling, ALevelPictureStaysAsItIs) {
@@ -88,10 +79,9 @@ TEST(Supersampling, BeyondAnEdgeItsSamplesRepeat) {
 }
 
 TEST(Supersampling, SameBitsForAnyThreads) {
-  Image noise(Format::rgba8, 2 * 37, 2 * 29);
-  for (int y = 0; y < noise.height(); ++y)
-    for (int x = 0; x < 4 * noise.width(); ++x)
-      noise.row<Unorm8>(y)[x].code = static_cast<std::uint8_t>((x * 2654435761u + y * 40503u) >> 13);
+  const Image noise = make_image(Format::rgba8, 2 * 37, 2 * 29, [](int x, int y, int c) {
+    return static_cast<std::uint8_t>((static_cast<unsigned>(4 * x + c) * 2654435761u + static_cast<unsigned>(y) * 40503u) >> 13);
+  });
   const Image expected = tent_mean(noise, 2, parallel::Executor(1));
   for (const int threads : {2, 3, 8}) {
     parallel::Executor several(threads);
@@ -115,13 +105,11 @@ TEST(Supersampling, APictureIsTheMeanOfThatOfThePasses) {
 }
 
 TEST(Supersampling, ATooLargeSizeIsRefused) {
-  try {
-    Simulation(small("edge_splash", "corrected", {"run.size=[40000, 2]", "run.supersample=2"}), executor());
-    FAIL() << "expected an error";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::usage);
-    EXPECT_THAT(e.what(), HasSubstr("run.supersample: expected at most 65536 texels a side of run.size times it, found 80000"));
-  }
+  EXPECT_THAT(error_of([] {
+                Simulation(small("edge_splash", "corrected", {"run.size=[40000, 2]", "run.supersample=2"}), executor());
+              }),
+              testing::AllOf(testing::StartsWith("2 "),
+                             HasSubstr("run.supersample: expected at most 65536 texels a side of run.size times it, found 80000")));
 }
 
 }  // namespace

@@ -1,24 +1,16 @@
 // What is committed: nothing stray at the top, and sources as clang-format leaves them (.clang-format).
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 
+#include "base/shell.h"
+
 namespace {
 
-/// What a command prints, its errors with it, and its exit status.
-std::pair<std::string, int> output_of(const std::string& command) {
-  std::string text;
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return {"cannot be run", -1};
-  std::array<char, 4096> part;
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) text.append(part.data(), n);
-  return {text, ::pclose(pipe)};
-}
+using rainref::output_of;
 
 // An experiment's output, committed by mistake, lies beside the folders.
 TEST(Committed, TheTopLevelHoldsFoldersDocumentsAndPresets) {

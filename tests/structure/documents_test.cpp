@@ -4,24 +4,21 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/temporary_folder.h"
+
 namespace {
+
+using rainref::contents;
 
 namespace fs = std::filesystem;
 const fs::path root = RAINREF_SOURCE_DIR;
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 std::string name_of(const fs::path& file) { return fs::relative(file, root).string(); }
 
 /// Every document of the repository: Markdown at its root and below these folders.
@@ -112,7 +109,7 @@ std::string broken_link(const fs::path& document, const std::string& link) {
   if (!fs::exists(target)) return "no such file";
   if (name_of(target).starts_with("..")) return "outside the repository";
   if (hash == std::string::npos) return "";
-  return anchors_of(text_of(target)).contains(link.substr(hash + 1)) ? "" : "no such heading";
+  return anchors_of(contents(target)).contains(link.substr(hash + 1)) ? "" : "no such heading";
 }
 
 /// The verbs of the command line, from its own source.
@@ -121,7 +118,7 @@ std::set<std::string> verbs() {
   const std::regex verb("add_subcommand\\(\"([a-z]+)\"");
   for (const auto& file : fs::directory_iterator(root / "src/cli")) {
     if (!file.is_regular_file()) continue;
-    const std::string source = text_of(file.path());
+    const std::string source = contents(file.path());
     for (std::sregex_iterator i(source.begin(), source.end(), verb), end; i != end; ++i) found.insert((*i)[1]);
   }
   return found;
@@ -139,7 +136,7 @@ std::vector<std::string> called_verbs(const std::string& text) {
 TEST(Documents, LinksResolve) {
   int checked = 0;
   for (const fs::path& document : documents()) {
-    for (const std::string& link : links_of(text_of(document))) {
+    for (const std::string& link : links_of(contents(document))) {
       EXPECT_EQ(broken_link(document, link), "") << name_of(document) << ": " << link;
       ++checked;
     }
@@ -153,7 +150,7 @@ TEST(Documents, CommandsNameVerbsThatExist) {
   int checked = 0;
   for (const fs::path& document : documents()) {
     if (document.filename() == "CHANGELOG.md") continue;  // tells of what was
-    for (const std::string& verb : called_verbs(text_of(document))) {
+    for (const std::string& verb : called_verbs(contents(document))) {
       EXPECT_TRUE(known.contains(verb)) << name_of(document) << ": rainref " << verb;
       ++checked;
     }
@@ -164,7 +161,7 @@ TEST(Documents, CommandsNameVerbsThatExist) {
 TEST(Documents, PicturesAreShown) {
   std::set<fs::path> shown;
   for (const fs::path& document : documents()) {
-    for (const std::string& link : links_of(text_of(document))) shown.insert((document.parent_path() / link).lexically_normal());
+    for (const std::string& link : links_of(contents(document))) shown.insert((document.parent_path() / link).lexically_normal());
   }
   for (const auto& entry : fs::directory_iterator(root / "docs/images")) {
     EXPECT_TRUE(shown.contains(entry.path().lexically_normal())) << name_of(entry.path());
@@ -181,7 +178,7 @@ TEST(Documents, SourcesNameDocumentsThatExist) {
       if (!entry.is_regular_file() || entry.path() == here ||
           (extension != ".h" && extension != ".cpp" && extension != ".txt" && !extension.empty()))
         continue;
-      const std::string text = text_of(entry.path());
+      const std::string text = contents(entry.path());
       for (std::size_t at = 0; (at = text.find("docs/", at)) != std::string::npos; ++at) {
         const std::size_t end = text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_/", at);
         if (end == std::string::npos || text.compare(end, 3, ".md") != 0) continue;
@@ -210,11 +207,10 @@ std::string missing_place(const std::string& place, const std::string& manifests
 TEST(Documents, TheSourcesNamePlacesThatExist) {
   // The small packs hold every key of both variants as the program knows it.
   std::string manifests, tests;
-  for (const auto& file : fs::recursive_directory_iterator(root / "tests")) {
-    if (file.path().extension() == ".cpp") tests += text_of(file.path());
-    if (file.path().filename() == "manifest.json") manifests += text_of(file.path());
-  }
-  const std::string prose = parts_of(text_of(root / "docs/notes/seeds.md")).prose;
+  for (const auto& pack : fs::directory_iterator(RAINREF_PACKS)) manifests += contents(pack.path() / "manifest.json");
+  for (const auto& file : fs::recursive_directory_iterator(root / "tests"))
+    if (file.path().extension() == ".cpp") tests += contents(file.path());
+  const std::string prose = parts_of(contents(root / "docs/notes/seeds.md")).prose;
   std::istringstream places(spans_of(prose).code);
   int checked = 0;
   for (std::string place; std::getline(places, place);) {
@@ -238,7 +234,7 @@ TEST(Documents, NameNoFolderOfAMachine) {
   int read = 0;
   for (const auto& file : fs::recursive_directory_iterator(root / "docs")) {
     if (file.path().extension() != ".md" && file.path().extension() != ".json") continue;
-    const std::string text = text_of(file.path());
+    const std::string text = contents(file.path());
     std::smatch path;
     EXPECT_FALSE(names_a_folder(text, path)) << name_of(file.path()) << ": " << path[0];
     ++read;
@@ -266,21 +262,6 @@ TEST(Documents, TheChecksRefuse) {
   EXPECT_EQ(links_of("[a](b.md) `[c](d.md)`\n```\n[e](f.md)\n```\n"), std::vector<std::string>{"b.md"});
   EXPECT_EQ(called_verbs("`rainref list`, `rainref` `is`, rainref is\n```\nrainref run x\n```\n"),
             (std::vector<std::string>{"run", "list"}));
-}
-
-// README.md's program is one that an installation's tests compile and run.
-TEST(Documents, TheReadmesProgramIsCompiled) {
-  const std::string readme = text_of(root / "README.md"), program = text_of(root / "examples/cpp/film.cpp");
-  const std::size_t begin = readme.find("```cpp\n");
-  ASSERT_NE(begin, std::string::npos);
-  std::istringstream lines(readme.substr(begin + 7, readme.find("```\n", begin + 7) - begin - 7));
-  int found = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty()) continue;
-    EXPECT_NE(program.find(line + "\n"), std::string::npos) << line;
-    ++found;
-  }
-  EXPECT_GE(found, 5);
 }
 
 }  // namespace

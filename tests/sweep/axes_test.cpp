@@ -1,6 +1,6 @@
+// Axes of a sweep run from end to end, and their keys may be quoted.
 #include "sweep/axes.h"
 
-#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Shards of a sweep take each cell once.
 #include "sweep/shard.h"
 
 #include <map>

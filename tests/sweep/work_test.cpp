@@ -1,7 +1,6 @@
 // What becomes of a shard's cells: made once, refused once, tried again so often; and nothing of it is lost to a kill.
 #include "sweep/plans.h"
 
-#include <atomic>
 #include <map>
 
 #include "base/child_process.h"

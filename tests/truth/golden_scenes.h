@@ -13,7 +13,8 @@
 #include "truth/rainy_glass_view.h"
 #include "truth/screen_drops_view.h"
 #include "truth/windshield_view.h"
-#include "night_street/night_street.h"
+#include "scene/test_card.h"
+#include "rainy_glass/backdrop.h"
 #include "rainy_glass/golden_scenes.h"
 #include "screen_drops/golden_scenes.h"
 #include "windshield/golden_scenes.h"
@@ -30,13 +31,13 @@ struct GoldenScene {
 inline GoldenScene golden_puddle(const std::string& what, const puddle::Settings& s, bool is_street, int samples) {
   static const puddle::Surroundings around = [] {
     puddle::Surroundings made;
-    made.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, parallel::Executor());
+    made.environment = scene::TestCard().panorama(64, 32, {0, 0.05, 0}, parallel::Executor());
     return made;
   }();
   return {"compositor/puddle/" + what, 19, [=](const parallel::Executor& executor, const TracerOptions& tracer) {
             puddle::Puddle puddle(s, around, executor);
             for (int frame = 0; frame < 20; ++frame) puddle.simulate();
-            PuddleScene traced(s, around, {tracer, is_street, samples}, executor);
+            PuddleScene traced(s, around, {tracer, is_street ? scene::TestCard::make() : nullptr, samples}, executor);
             traced.update(puddle, executor);
             return trace_picture(traced.scene(), traced.camera(), s.width, s.height, {{}, samples}, executor);
           }};
@@ -61,12 +62,12 @@ size = [64, 36]
 vertical_fov_deg = 8
 )");
             const windshield::Settings settings = windshield::settings_from(config);
-            windshield::Windshield windshield(config, {}, executor);
+            windshield::Windshield windshield(config, {{}, {}, scene::TestCard::make()}, executor);
             for (int frame = 0; frame < 10; ++frame) {
               windshield.simulate();
               windshield.render();
             }
-            const WindshieldView view(settings, {5e-3, radius}, tracer, executor);
+            const WindshieldView view(settings, {5e-3, radius}, tracer, scene::TestCard::make(), executor);
             return trace_picture(*view.scene(windshield), view.camera(), 97, 61, {{}, samples}, executor);
           }};
 }
@@ -77,8 +78,7 @@ inline GoldenScene golden_window() {
             for (const screen_drops::GoldenScene& scene : screen_drops::golden_scenes()) {
               if (!scene.flow) continue;
               const screen_drops::Settings& s = scene.settings;
-              const screen_drops::Inputs in{
-                  night_street::Street({s.seed}).view(screen_drops::scene_camera(s), s.width, s.height, 1000, executor).colour, {}};
+              const screen_drops::Inputs in = screen_drops::golden_inputs(s, executor);
               screen_drops::ScreenDrops drops(s, in, executor, &*scene.flow);
               for (int frame = 0; frame < 3; ++frame) drops.next_frame();
               const ScreenDropsView view(s, in.colour, 4e-3, tracer, executor);
@@ -95,11 +95,12 @@ inline GoldenScene golden_glass() {
               if (scene.name != "rainy_glass/corrected/rgba16f") continue;
               rainy_glass::Settings s = scene.settings;
               s.yaw_deg = 20;
-              const rainy_glass::Surroundings around = rainy_glass::make_backdrop(s, {0.02, 0.3, 0.03}, executor),
-                                              unbarred = rainy_glass::make_backdrop(s, {0.02, 0, 0.03}, executor);
+              const auto card = scene::TestCard::make();
+              const rainy_glass::Surroundings around = rainy_glass::make_backdrop(s, {0.02, 0.3, 0.03}, *card, executor);
               rainy_glass::RainyGlass glass(s, around, executor);
               for (int frame = 0; frame < 3; ++frame) glass.next_frame();
-              const RainyGlassView view(s, around, &unbarred, 4e-3, tracer);
+              const RainyGlassView view(
+                  s, around, RainyGlassView::Street{card, rainy_glass::make_backdrop(s, {0.02, 0, 0.03}, *card, executor)}, 4e-3, tracer);
               return trace_picture(*view.scene(glass), view.camera(), s.width, s.height, {{}, 4}, executor);
             }
             return Picture{};
@@ -147,6 +148,10 @@ inline std::vector<std::string> golden_lines(const GoldenScene& scene, const par
   line("film", p.film);
   line("mask", p.mask);
   return lines;
+}
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int /*frames*/,
+                                             const golden::Caller& /*caller*/) {
+  return golden_lines(scene, executor);
 }
 
 }  // namespace rainref::truth

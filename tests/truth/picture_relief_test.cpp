@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "image/images.h"
 #include "truth/picture_relief.h"
-#include "truth/uncovered.h"
 
 namespace rainref::truth {
 namespace {
@@ -15,24 +15,13 @@ constexpr double half_width = 0.8, half_height = 0.6;
 
 /// Red: the column, green: the row, both at texel centres; blue as given.
 Image ramps() {
-  Image image(Format::rgba32f, columns, rows);
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) {
-      float* c = image.row<float>(y) + 4 * x;
-      c[0] = static_cast<float>(x) + 0.5f;
-      c[1] = static_cast<float>(y) + 0.5f;
-      c[2] = 0;
-      c[3] = 1;
-    }
-  }
-  return image;
+  return make_image(Format::rgba32f, columns, rows, [](int x, int y, int c) {
+    return c == 0 ? static_cast<float>(x) + 0.5f : c == 1 ? static_cast<float>(y) + 0.5f : c == 2 ? 0.0f : 1.0f;
+  });
 }
 template <class Of>
 Image depths(const Of& of) {
-  Image image(Format::r32f, columns, rows);
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) image.row<float>(y)[x] = static_cast<float>(of(x));
-  return image;
+  return make_image(Format::r32f, columns, rows, [&](int x, int, int) { return static_cast<float>(of(x)); });
 }
 
 TEST(PictureRelief, APlateIsMetWhereItStands) {

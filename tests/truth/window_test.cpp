@@ -4,10 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "truth/rainy_glass_truth.h"
-#include "truth/screen_drops_truth.h"
+#include "image/images.h"
+#include "truth/rainy_glass_view.h"
+#include "truth/screen_drops_view.h"
 #include "compositor/shading_support.h"
 #include "compositor/straight_path.h"
+#include "night_street/night_street.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
@@ -41,16 +43,14 @@ struct Window {
     s.defocus = 0;
   }
   void fill() {
-    in.colour = Image(Format::rgba32f, s.width, s.height);
-    for (int y = 0; y < s.height; ++y) {
-      for (int i = 0; i < 4 * s.width; ++i) in.colour.row<float>(y)[i] = static_cast<float>(0.05 + 0.01 * ((i * 7 + y * 13) % 97));
-    }
+    in.colour = make_image(Format::rgba32f, s.width, s.height,
+                           [](int x, int y, int c) { return static_cast<float>(0.05 + 0.01 * (((4 * x + c) * 7 + y * 13) % 97)); });
   }
   Comparison truth(double thickness) {
     fill();
     screen_drops::ScreenDrops drops(s, in, executor());
     drops.next_frame();
-    return compare(drops, ScreenDropsView(s, in.colour, thickness, {}, executor()), {}, executor());
+    return ScreenDropsView(s, in.colour, thickness, {}, executor()).compare(drops, {}, executor());
   }
 };
 std::size_t pixels(const Comparison& truth, const std::string& name) {
@@ -117,7 +117,8 @@ TEST(TracedWindow, RefusesWhatItCannotTrace) {
 // ---- rainy_glass ----------------------------------------------------------------------------------------------------
 struct Conservatory {
   rainy_glass::Settings s = rainref::test::rainy_glass_settings();
-  rainy_glass::Surroundings around, unbarred;
+  std::shared_ptr<const scene::Scenery> street = night_street::Street::make({s.seed});
+  rainy_glass::Surroundings around;
   std::optional<rainy_glass::RainyGlass> glass;
   Conservatory() {
     s.width = 96;
@@ -132,12 +133,13 @@ struct Conservatory {
     s.camera_target = {0.6, 1.9, -20};
   }
   void render(double bars = 0) {
-    around = rainy_glass::make_backdrop(s, {0.01, bars, 0.03}, executor());
-    unbarred = rainy_glass::make_backdrop(s, {0.01, 0, 0.03}, executor());
+    around = rainy_glass::make_backdrop(s, {0.01, bars, 0.03}, *street, executor());
     glass.emplace(s, around, executor());
     for (int frame = 0; frame < 20; ++frame) glass->next_frame();
   }
-  RainyGlassView view(double thickness) const { return {s, around, &unbarred, thickness, {}}; }
+  RainyGlassView view(double thickness) const {
+    return {s, around, RainyGlassView::Street{street, rainy_glass::make_backdrop(s, {0.01, 0, 0.03}, *street, executor())}, thickness, {}};
+  }
 };
 
 TEST(TracedGlass, DryPaneShowsTheScene) {
@@ -216,7 +218,7 @@ TEST(TracedGlass, GentleSlopesAreAsThePassHasThem) {
   c.s.vertical_fov_deg = 12;
   c.s.drop_tile = 0.1;
   c.render();
-  const Comparison truth = compare(*c.glass, c.view(1e-5), {}, executor());
+  const Comparison truth = c.view(1e-5).compare(*c.glass, {}, executor());
   EXPECT_GT(pixels(truth, "wet_pixels"), 300u);
   const Percentiles p = truth.differences[0].percentiles();
   // (n - 1) tan 3 = 1.0 degree at the rims; off the axis the image plane shortens it by sin^2 of up to 10 degrees, 3 %, and the

@@ -1,4 +1,5 @@
 // A static site served to a headless browser, with what its tests share. node_modules: npm ci beside package.json.
+import assert from "node:assert/strict";
 import fs from "node:fs";
 import http from "node:http";
 import path from "node:path";
@@ -48,4 +49,27 @@ export async function open(browser, site, address, errors, width = 1280) {
   await page.setViewport({width, height: width < 600 ? 844 : 900});
   await page.goto(site.url + address);
   return page;
+}
+
+export const textOf = (page, selector) => page.$eval(selector, e => e.textContent.trim());
+export const click = (page, selector) => page.$eval(selector, e => e.click());
+
+/// Steps of a test in this browser: each says how long it took, and what fails names browser and step.
+export const stepsIn = name => async (what, test) => {
+  const begin = Date.now();
+  try {
+    await test();
+  } catch (error) {
+    error.message = `${name}, ${what}: ${error.message}`;
+    throw error;
+  }
+  console.log(`${name}: ${what} (${Date.now() - begin} ms)`);
+};
+
+/// The page is no wider than its window, and its controls have names.
+export async function expectReadable(page) {
+  assert(await page.evaluate(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth), `wider than ${page.viewport().width}`);
+  const unnamed = await page.$$eval("select, textarea, input:not([hidden]), button", all =>
+    all.filter(e => !e.labels?.length && !e.ariaLabel && !e.getAttribute("aria-label") && !e.textContent.trim()).map(e => e.id || e.outerHTML));
+  assert.deepEqual(unnamed, [], "controls without a name");
 }

@@ -4,11 +4,10 @@ import assert from "node:assert";
 import fs from "node:fs";
 import {checkCensus} from "../../examples/ports/wgsl/census/check.js";
 import {habitRows} from "../../examples/ports/wgsl/census/words.js";
-import {launch, serve} from "./browser.mjs";
+import {launch, serve, textOf} from "./browser.mjs";
 
 const [folder, browserName, , root] = process.argv.slice(2);
 const packs = ["edge_splash-corrected", "rainy_glass-corrected"];
-const textOf = (page, selector) => page.$eval(selector, element => element.textContent);
 const isShown = (page, selector) => page.$eval(selector, element => element.getClientRects().length > 0);
 
 async function open({before = null, given = [], only = packs} = {}) {

@@ -59,7 +59,7 @@ const [modulePath, hashes] = process.argv.slice(2);
   assert(scenes > 0);
 
   // A pack in memory, judged twice: as it is, and with one number of one output changed.
-  const pack = 'tests/packs/puddle-corrected';
+  const pack = 'build/release/packs/puddle-corrected';
   for (const entry of fs.readdirSync(pack, {recursive: true, withFileTypes: true})) {
     const from = path.join(entry.parentPath ?? entry.path, entry.name), to = path.join('/pack', path.relative(pack, from));
     if (entry.isDirectory()) continue;

@@ -38,7 +38,7 @@ for (const effect of ["puddle", "windshield", "edge_splash", "screen_drops", "ra
 }
 
 // The judge: the expected outputs of a small pack as a port, here and natively on one thread.
-const pack = path.join(sources, "tests/packs/puddle-corrected");
+const pack = path.join(sources, "build/release/packs/puddle-corrected");
 for (const name of fs.readdirSync(pack, {recursive: true})) {
   const from = path.join(pack, name), to = path.join("/pack", name);
   if (fs.statSync(from).isDirectory()) continue;

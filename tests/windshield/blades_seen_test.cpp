@@ -1,12 +1,12 @@
 // Blades in the scene's picture: where they are drawn, and that nothing else changes.
-#include "windshield/blades_seen.h"
+#include "windshield/scene/blades_seen.h"
 
 #include <cmath>
-#include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "image/flipped.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "rainref/windshield.h"
 #include "simulation/small_scenes.h"
@@ -27,12 +27,6 @@ SceneView bright(int columns = width, int rows = height) {
   return view;
 }
 double red(const SceneView& view, int x, int y) { return to_float(view.colour.row<Half>(y)[4 * x]); }
-bool same(const Image& a, const Image& b) {
-  for (int y = 0; y < a.height(); ++y)
-    if (std::memcmp(a.row_bytes(y), b.row_bytes(y), static_cast<std::size_t>(a.width()) * info(a.format()).texel_bytes()) != 0)
-      return false;
-  return true;
-}
 /// A glass 1.4 m wide that stands upright 1 m before an eye at (0, 0, 1.2).
 Glass upright() { return make_glass({{{1, 0.7, 0.8}, {1, -0.7, 0.8}, {1, 0.7, 1.6}}}); }
 scene::Camera eye() { return {{0, 0, 1.2}, {10, 0, 1.2}, {0, 0, 1}, 30}; }

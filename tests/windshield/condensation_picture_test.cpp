@@ -6,9 +6,10 @@
 #include <cstring>
 #include <vector>
 
+#include "image/images.h"
 #include "math/half.h"
-#include "windshield/condensation.h"
 #include "windshield/golden_scenes.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {
@@ -24,16 +25,6 @@ Windshield running(const std::string& toml, int frames, const parallel::Executor
     w.render();
   }
   return w;
-}
-bool same(const Image& a, const Image& b) {
-  const BufferView x(a), y(b);
-  std::vector<std::byte> one(x.row_bytes()), other(y.row_bytes());
-  for (int row = 0; row < a.height(); ++row) {
-    x.copy_row(row, one.data());
-    y.copy_row(row, other.data());
-    if (one != other) return false;
-  }
-  return true;
 }
 
 TEST(Condensation, OfNoneThePictureIsWhatItWas) {

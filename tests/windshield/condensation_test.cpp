@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "math/simd_target.h"
-#include "windshield/condensation.h"
+#include "windshield/surface/surface.h"
 #include "windshield/surface_support.h"
 
 namespace rainref::windshield {

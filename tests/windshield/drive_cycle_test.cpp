@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/error_of.h"
 #include "windshield/support.h"
 #include "source_folder.h"
 
@@ -177,13 +178,7 @@ TEST(DriveCycle, KeyFramesAreTheSameTableInline) {
 }
 
 TEST(DriveCycle, AMissingFileIsAnIoError) {
-  try {
-    read_drive_cycle("no/such.csv");
-    FAIL() << "accepted";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::io);
-    EXPECT_THAT(e.what(), HasSubstr("no/such.csv"));
-  }
+  EXPECT_THAT(error_of([] { read_drive_cycle("no/such.csv"); }), testing::AllOf(testing::StartsWith("4 "), HasSubstr("no/such.csv")));
 }
 
 }  // namespace

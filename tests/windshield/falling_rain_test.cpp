@@ -3,12 +3,13 @@
 
 #include <map>
 
+#include "image/images.h"
 #include "math/half.h"
 #include "pass/run.h"
 #include "rain/rain.h"
-#include "windshield/falling_rain.h"
-#include "windshield/falling_rain.pass.h"
 #include "windshield/golden_scenes.h"
+#include "windshield/picture/falling_rain.h"
+#include "windshield/picture/falling_rain.pass.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {
@@ -151,11 +152,8 @@ TEST(FallingRain, TooManyAreRefused) {
 
 /// The pass on level light `before`, everything in the street `depth` metres away.
 Image drawn(const std::vector<Streak>& streaks, double depth, float before = 0.25f, int tile = 16) {
-  Image image(Format::rgba16f, 64, 48), far(Format::r32f, 64, 48);
-  for (int y = 0; y < 48; ++y) {
-    std::fill_n(far.row<float>(y), 64, static_cast<float>(depth));
-    std::fill_n(image.row<Half>(y), 4 * 64, to_half(before));
-  }
+  Image image = make_image(Format::rgba16f, 64, 48, [=](int, int, int) { return to_half(before); });
+  const Image far = make_image(Format::r32f, 64, 48, [=](int, int, int) { return static_cast<float>(depth); });
   pass::HostIo<FallingRainPass> io;
   io.blurred = image;
   io.scene_depth = far;
@@ -195,10 +193,7 @@ TEST(FallingRain, TilesChooseWithoutChangingABit) {
         {{x, y}, {x + 6 * unit() - 3, y - 20 * unit()}, 0.5f + 2 * unit(), 8 * unit(), unit(), 0, {unit(), unit(), 2 * unit()}, 0});
   }
   const Image whole = drawn(many, 6, 0.25f, 64);
-  for (const int tile : {16, 32, 48}) {
-    const Image tiled = drawn(many, 6, 0.25f, tile);
-    for (int y = 0; y < 48; ++y) EXPECT_EQ(std::memcmp(tiled.row<Half>(y), whole.row<Half>(y), 64 * 8), 0) << tile << ' ' << y;
-  }
+  for (const int tile : {16, 32, 48}) EXPECT_TRUE(same(drawn(many, 6, 0.25f, tile), whole)) << tile;
   EXPECT_GT(added(whole), 10);
 }
 

@@ -1,19 +1,17 @@
 // The scenes behind tests/golden/hashes.txt: every pass, variant and rounding, at frames 0, 1, 2 and 59.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "capture/hashing.h"
-#include "golden/caller.h"
+#include "golden/lines.h"
 #include "rainref/executor.h"
 #include "rainref/windshield.h"
 #include "scene/effect_table.h"
 #include "scene/toml.h"
-#include "windshield/scene_keys.h"
+#include "windshield/parameters.h"
 
 namespace rainref::windshield {
 
@@ -102,23 +100,12 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+/// golden/lines.h.
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
                                              const golden::Caller& caller = golden::call_plainly) {
-  std::optional<Windshield> windshield;
   // Not in the caller's state: a program cannot call this, but through Simulation, which pins the state.
   const scene::Config config = config_of(scene.variant, scene.toml);
-  caller([&] { windshield.emplace(config, small_surroundings(), executor); });
-  std::vector<std::string> lines;
-  for (int frame = 0; frame < frames; ++frame) {
-    capture::HashRecorder recorder;
-    const bool golden = frame <= 2 || frame == 59;
-    caller([&] { windshield->simulate(golden ? &recorder : nullptr); });
-    caller([&] { windshield->render(golden ? &recorder : nullptr); });
-    if (!golden) continue;
-    for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
-  }
-  return lines;
+  return golden::lines_of<Windshield>(scene.name, frames, caller, config, small_surroundings(), executor);
 }
 
 }  // namespace rainref::windshield

@@ -1,12 +1,11 @@
 // Pillar and dashboard before the glass: where they stand, and that they hide what is behind and nothing else.
-#include "windshield/interior.h"
+#include "windshield/picture/picture.h"
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
 
+#include "image/images.h"
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "windshield/golden_scenes.h"
@@ -117,9 +116,7 @@ TEST(Interior, SameBitsForAnyThreads) {
   for (const int threads : {2, 3, 8}) {
     parallel::Executor several(threads);
     several.shuffle_tiles(5);
-    const Image image = draw_interior({}, eye(), upright, several);
-    for (int y = 0; y < height; ++y)
-      ASSERT_EQ(std::memcmp(image.row<Half>(y), expected.row<Half>(y), 4 * width * sizeof(Half)), 0) << threads;
+    ASSERT_TRUE(same(draw_interior({}, eye(), upright, several), expected)) << threads;
   }
 }
 
@@ -143,10 +140,8 @@ struct Texel {
   }
 };
 Image any_picture(int columns, int seed) {
-  Image image(Format::rgba16f, columns, 9);
-  for (int y = 0; y < 9; ++y)
-    for (int x = 0; x < 4 * columns; ++x) image.row<Half>(y)[x] = to_half(static_cast<float>((x * 37 + y * 101 + seed) % 97) / 96.0f);
-  return image;
+  return make_image(Format::rgba16f, columns, 9,
+                    [=](int x, int y, int c) { return to_half(static_cast<float>(((4 * x + c) * 37 + y * 101 + seed) % 97) / 96.0f); });
 }
 TEST(Interior, EveryTargetThreadCountAndWidthGivesThePlainBits) {
   InteriorSettings s;
@@ -210,7 +205,7 @@ TEST(Interior, HidesWhatIsBehindAndNothingElse) {
   }
   EXPECT_GT(dark, 1000);
   EXPECT_GT(clear, 5000);
-  for (int y = 0; y < 53; ++y) ASSERT_EQ(std::memcmp(open.height().row<Half>(y), inside.height().row<Half>(y), 89 * sizeof(Half)), 0);
+  EXPECT_TRUE(same(open.height(), inside.height()));
 }
 
 }  // namespace

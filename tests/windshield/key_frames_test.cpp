@@ -1,15 +1,12 @@
 // Rain, wipers and wind over time.
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
 #include "drops/uniforms.h"
 #include "rain/rain.h"
 #include "windshield/golden_scenes.h"
-#include "windshield/key_frames.h"
+#include "windshield/motion/weather.h"
+#include "windshield/motion/wipers.h"
 #include "windshield/support.h"
-#include "windshield/weather.h"
-#include "windshield/wiper_motion.h"
 
 namespace rainref::windshield {
 namespace {

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "drops/host.h"
-#include "drops/scalar.h"
+#include "drops/motion/scalar.h"
 #include "math/half.h"
 #include "pass/run.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/scalar.h"
-#include "windshield/surface.h"
+#include "windshield/surface/surface.h"
 #include "windshield/sweep_geometry.h"
 
 namespace rainref::windshield {
@@ -153,8 +153,8 @@ TEST(WindshieldKnownDefects, Defect07_TheSweepIsAChord) {
   s.cycles_per_minute = 30;
   const std::vector<Wiper> records = wipers_between(s, default_glass().plane(), 0, 1, true);
   const N x(0.7f), y(0.64f);  // under the arc, beyond the chord
-  EXPECT_TRUE(motion_scalar::in_sweep(records[0], x, y));
-  EXPECT_FALSE(motion_scalar::in_quad(uniforms_of(records, false), records[0], x, y));
+  EXPECT_TRUE(scalar::in_sweep(records[0], x, y));
+  EXPECT_FALSE(scalar::in_quad(uniforms_of(records, false), records[0], x, y));
 }
 /// The mask so many frames after a texel was wiped.
 double mask_after(bool is_corrected, double tau, double fps, int frames) {

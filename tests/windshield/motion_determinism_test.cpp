@@ -3,19 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstring>
 
+#include "image/images.h"
 #include "math/simd_target.h"
-#include "windshield/motion_scalar.h"
+#include "windshield/motion/kernels.h"
+#include "windshield/scalar.h"
 #include "windshield/support.h"
-#include "windshield/wipe_drops.h"
 
 namespace rainref::windshield {
 namespace {
 
 template <class N>
-motion_scalar::DropState<N> drop_of(const DropArrays& d, std::size_t i) {
-  motion_scalar::DropState<N> drop;
+scalar::DropState<N> drop_of(const DropArrays& d, std::size_t i) {
+  scalar::DropState<N> drop;
   drop.u = N(d.u[i]);
   drop.v = N(d.v[i]);
   drop.velocity_u = N(d.velocity_u[i]);
@@ -25,10 +25,9 @@ motion_scalar::DropState<N> drop_of(const DropArrays& d, std::size_t i) {
   return drop;
 }
 template <class N>
-motion_scalar::WipedDrop<N> wiped(const WipeDropsUniforms& u, bool corrected, const std::vector<Wiper>& w, const DropArrays& d,
-                                  std::size_t i) {
-  return corrected ? motion_scalar::wipe_drop_corrected<N>(u, w.data(), drop_of<N>(d, i))
-                   : motion_scalar::WipedDrop<N>(motion_scalar::wipe_drop_as_published<N>(u, w.data(), drop_of<N>(d, i)));
+scalar::WipedDrop<N> wiped(const WipeDropsUniforms& u, bool corrected, const std::vector<Wiper>& w, const DropArrays& d, std::size_t i) {
+  return corrected ? scalar::wipe_drop_corrected<N>(u, w.data(), drop_of<N>(d, i))
+                   : scalar::WipedDrop<N>(scalar::wipe_drop_as_published<N>(u, w.data(), drop_of<N>(d, i)));
 }
 void same_bits(float a, float b) { ASSERT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b + 0.0f)) << a << " " << b; }
 
@@ -44,11 +43,7 @@ Step step(bool corrected, int columns, int rows, double t = 0.3, double dt = 0.5
   return out;
 }
 Image film_of(int columns, int rows) {
-  Image film(Format::r32f, columns, rows);
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) film.row<float>(y)[x] = static_cast<float>((31 * x + 17 * y) % 1000);
-  }
-  return film;
+  return make_image(Format::r32f, columns, rows, [](int x, int y, int) { return static_cast<float>((31 * x + 17 * y) % 1000); });
 }
 
 void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows, const parallel::Executor& executor) {
@@ -61,7 +56,7 @@ void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows,
 
   // The same, one at a time; then the film by record and bin.
   using F = scalar::Scalar<float>;
-  std::vector<motion_scalar::WipedDrop<F>> expected;
+  std::vector<scalar::WipedDrop<F>> expected;
   for (std::size_t i = 0; i < count; ++i) expected.push_back(wiped<F>(s.uniforms, corrected, s.wipers, before, i));
   std::uint64_t expected_removed = 0;
   if (corrected) {
@@ -69,7 +64,7 @@ void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows,
     const Image was = film_of(columns, rows);
     for (int y = 0; y < rows; ++y) {
       for (int x = 0; x < columns; ++x) {
-        const auto swept = motion_scalar::swept_texel<F>(s.uniforms, s.wipers.data(), x, y);
+        const auto swept = scalar::swept_texel<F>(s.uniforms, s.wipers.data(), x, y);
         const float held = was.row<float>(y)[x];
         same_bits(film.row<float>(y)[x], swept.wiper.v >= 0 ? 0.0f : held);
         if (swept.wiper.v >= 0)
@@ -129,8 +124,7 @@ TEST(MotionDeterminism, TheFrameHasPlainBits) {
       for (double t = 0; t < 9; t += 0.7) {
         const WindshieldFrameUniforms u = windshield_frame_uniforms(default_glass(), car.at(t), {1, 2, -0.5}, 9.8, corrected);
         using F = scalar::Scalar<float>;
-        const auto expected =
-            corrected ? motion_scalar::windshield_frame_corrected<F>(u) : motion_scalar::windshield_frame_as_published<F>(u);
+        const auto expected = corrected ? scalar::windshield_frame_corrected<F>(u) : scalar::windshield_frame_as_published<F>(u);
         const drops::GlassFrame out = windshield_frame(u, corrected);
         for (int k = 0; k < 2; ++k) {
           same_bits(out.gravity[k], expected.gravity[k].v);

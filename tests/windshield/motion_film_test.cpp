@@ -1,6 +1,7 @@
 // Pass wipe_drops, corrected: the film that the blades sweep goes to drops, to the unit.
 #include <gtest/gtest.h>
 
+#include "image/images.h"
 #include "windshield/sweep_geometry.h"
 
 namespace rainref::windshield {
@@ -57,8 +58,7 @@ TEST(MotionFilm, FilmIsClearedWhereItIsSwept) {
       for (const double t : {0.0, 0.31, 0.66, 1.0}) {
         const std::vector<Wiper> records =
             wipers_between(default_wipers(default_glass(), arrangement), default_glass().plane(), t, t + 1 / fps, corrected);
-        Image film(Format::r32f, 131, 77);
-        for (int y = 0; y < film.height(); ++y) std::fill_n(film.row<float>(y), film.width(), 3.0f);
+        Image film = make_image(Format::r32f, 131, 77, [](int, int, int) { return 3.0f; });
         DropArrays drops(1);
         drops.life[0] = 0;
         const std::uint64_t removed = wipe(drops, records, film);
@@ -66,7 +66,7 @@ TEST(MotionFilm, FilmIsClearedWhereItIsSwept) {
         std::uint64_t swept = 0;
         for (int y = 0; y < film.height(); ++y) {
           for (int x = 0; x < film.width(); ++x) {
-            const bool is_swept = motion_scalar::swept_texel<N>(u, records.data(), x, y).wiper.v >= 0;
+            const bool is_swept = scalar::swept_texel<N>(u, records.data(), x, y).wiper.v >= 0;
             ASSERT_EQ(film.row<float>(y)[x], is_swept ? 0 : 3) << x << "," << y;
             swept += is_swept;
           }
@@ -93,7 +93,7 @@ TEST(MotionFilm, TheFirstRecordTakesATexel) {
       }
       if (!in_both) continue;
       ++shared;
-      ASSERT_EQ(motion_scalar::swept_texel<N>(u, records.data(), x, y).wiper.v, 0) << x << "," << y;
+      ASSERT_EQ(scalar::swept_texel<N>(u, records.data(), x, y).wiper.v, 0) << x << "," << y;
     }
   }
   EXPECT_GT(shared, 100);
@@ -112,8 +112,7 @@ TEST(MotionFilm, TheLowestIdTakesTheFilm) {
     drops.v[i] = static_cast<float>(place[1]);
     drops.mass[i] = 100;
   }
-  Image film(Format::r32f, 700, 400);
-  for (int y = 0; y < film.height(); ++y) std::fill_n(film.row<float>(y), film.width(), 1.0f);
+  Image film = make_image(Format::r32f, 700, 400, [](int, int, int) { return 1.0f; });
   const std::uint64_t before = mass_units_in(film);
   const std::uint64_t removed = wipe(drops, records, film);
   EXPECT_EQ(drops.mass[0], 100);

@@ -2,7 +2,7 @@
 // free body seen from a turning car.
 #include <gtest/gtest.h>
 
-#include "windshield/motion_scalar.h"
+#include "windshield/scalar.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {
@@ -39,7 +39,7 @@ TEST(MotionFrame, ProjectsExactlyOnAShearedGlass) {
   for (int round = 0; round < 100; ++round) {
     const Real3 f{number(random), number(random), number(random)};
     const WindshieldFrameUniforms u = windshield_frame_uniforms(glass, parked(), f, 0, true);
-    const auto out = motion_scalar::windshield_frame_corrected<scalar::Scalar<double>>(u);
+    const auto out = scalar::windshield_frame_corrected<scalar::Scalar<double>>(u);
     // J a = f - (f . n) n
     const double normal_part = dot(f, glass.normal);
     for (int k = 0; k < 3; ++k) {
@@ -210,7 +210,7 @@ TEST(MotionFrame, FloatsAreNearTheDoubleReading) {
     const WindshieldFrameUniforms u = windshield_frame_uniforms(default_glass(), car, {3, -4, 1}, g, corrected);
     const GlassFrame out = windshield_frame(u, corrected);
     using D = scalar::Scalar<double>;
-    const auto real = corrected ? motion_scalar::windshield_frame_corrected<D>(u) : motion_scalar::windshield_frame_as_published<D>(u);
+    const auto real = corrected ? scalar::windshield_frame_corrected<D>(u) : scalar::windshield_frame_as_published<D>(u);
     for (int k = 0; k < 2; ++k) {
       EXPECT_NEAR(out.gravity[k], real.gravity[k].v, 1e-5);
       EXPECT_NEAR(out.wind[k], real.wind[k].v, 4e-5);

@@ -1,9 +1,11 @@
 // The scene keys of glass, vehicle and wipers, as a scene file gives them; and the declarations of the two passes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "pass/info.h"
 #include "scene/toml.h"
-#include "windshield/motion_info.h"
+#include "windshield/info.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {
@@ -74,8 +76,11 @@ TEST(MotionParameters, ThePassesAreDeclared) {
   const capture::PassInfo frame = pass::info_of<WindshieldFramePass>(), wipe = pass::info_of<WipeDropsPass>();
   EXPECT_EQ(frame.block("corrected").size, 128u);
   EXPECT_EQ(wipe.block("as-published").size, 64u);
-  EXPECT_EQ(wiper_records()[0].size, 80u);
-  EXPECT_EQ(wiper_buffers()[0].record, wiper_records()[0].name);
+  const std::vector<scene::UniformBlock>& records = effect_info().records;
+  const std::string& record = effect_info().buffer("wipers", "corrected").record;
+  const auto wiper = std::find_if(records.begin(), records.end(), [&](const scene::UniformBlock& r) { return r.name == record; });
+  ASSERT_NE(wiper, records.end());
+  EXPECT_EQ(wiper->size, 80u);
 }
 
 }  // namespace

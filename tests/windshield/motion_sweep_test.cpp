@@ -18,7 +18,7 @@ Area count(Inside inside, double perimeter) {
   int hits = 0;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
-      const auto p = motion_scalar::to_plane(u.frame, N(static_cast<float>((x + 0.5) / columns)), N(static_cast<float>((y + 0.5) / rows)));
+      const auto p = scalar::to_plane(u.frame, N(static_cast<float>((x + 0.5) / columns)), N(static_cast<float>((y + 0.5) / rows)));
       hits += inside(p.x, p.y);
     }
   }
@@ -40,14 +40,13 @@ TEST(MotionSweep, SweptAreasAreThoseOfGeometry) {
         std::remainder(std::atan2(record.axis[1], record.axis[0]) - std::atan2(record.previous_axis[1], record.previous_axis[0]), 2 * pi));
     const double perimeter = 2 * length + 2 * (middle + w) * turn + 2 * pi * w;
 
-    const Area sweep = count([&](N x, N y) { return motion_scalar::in_sweep(record, x, y); }, perimeter);
+    const Area sweep = count([&](N x, N y) { return scalar::in_sweep(record, x, y); }, perimeter);
     EXPECT_NEAR(sweep.value, length * middle * turn + 2 * w * middle * turn + 2 * w * length + pi * w * w, sweep.error);
     const WipeDropsUniforms u = uniforms_of(records, false);
-    const Area quad = count([&](N x, N y) { return motion_scalar::in_quad(u, record, x, y); }, perimeter);
+    const Area quad = count([&](N x, N y) { return scalar::in_quad(u, record, x, y); }, perimeter);
     EXPECT_NEAR(quad.value, length * middle * std::sin(turn), quad.error);
-    const Area capsule =
-        count([&](N x, N y) { return motion_scalar::under_blade(record, record.axis, x - N(record.pivot[0]), y - N(record.pivot[1])); },
-              perimeter);
+    const Area capsule = count(
+        [&](N x, N y) { return scalar::under_blade(record, record.axis, x - N(record.pivot[0]), y - N(record.pivot[1])); }, perimeter);
     EXPECT_NEAR(capsule.value, 2 * w * length + pi * w * w, capsule.error);
   }
 }
@@ -64,8 +63,8 @@ TEST(MotionSweep, TheQuadLosesWhatTheChordCuts) {
   s.cycles_per_minute = 30;
   const std::vector<Wiper> records = wipers_between(s, default_glass().plane(), 0, 1, corrected);
   const N x(0.7f), y(0.65f - 0.4e-3f);
-  EXPECT_TRUE(motion_scalar::in_sweep(records[0], x, y));
-  EXPECT_FALSE(motion_scalar::in_quad(uniforms_of(records, false), records[0], x, y));
+  EXPECT_TRUE(scalar::in_sweep(records[0], x, y));
+  EXPECT_FALSE(scalar::in_quad(uniforms_of(records, false), records[0], x, y));
 }
 
 // A move too small for the axes' floats: its sector is no wider than the blade, and does not reach through the pivot.
@@ -76,8 +75,8 @@ TEST(MotionSweep, ATinyMoveSweepsOneSideOfThePivot) {
   w.outer_radius = 0.6f;
   w.half_width = 0.01f;
   w.direction = 1;
-  EXPECT_TRUE(motion_scalar::in_sweep(w, N(0.4f), N(0.0f)));
-  EXPECT_FALSE(motion_scalar::in_sweep(w, N(-0.4f), N(0.0f)));
+  EXPECT_TRUE(scalar::in_sweep(w, N(0.4f), N(0.0f)));
+  EXPECT_FALSE(scalar::in_sweep(w, N(-0.4f), N(0.0f)));
 }
 
 // However fast the blade and slow the frames: each point of the whole stroke is swept by one of its steps.
@@ -96,7 +95,7 @@ TEST(MotionSweep, FastWipersLeaveNoGap) {
         const double angle = b.start_angle + unit(random) * b.sweep,
                      radius = b.inner_radius + unit(random) * (b.outer_radius - b.inner_radius);
         const N x(static_cast<float>(b.pivot[0] + radius * std::cos(angle))), y(static_cast<float>(b.pivot[1] + radius * std::sin(angle)));
-        EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Wiper& w) { return motion_scalar::in_sweep(w, x, y); }))
+        EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Wiper& w) { return scalar::in_sweep(w, x, y); }))
             << cycles_per_minute << " " << fps;
       }
     }

@@ -1,6 +1,7 @@
 // Pass wipe_drops, corrected: drops ride ahead of the blade, none is left behind it (physics: W11).
 #include <gtest/gtest.h>
 
+#include "image/images.h"
 #include "windshield/sweep_geometry.h"
 
 namespace rainref::windshield {
@@ -144,8 +145,7 @@ TEST(MotionWipe, ABladeAtRestTouchesNothing) {
   const std::vector<Wiper> records = wipers_at(s, default_glass().plane(), 0.3);
   DropArrays drops = random_drops(5000, 9);
   const DropArrays before = drops;
-  Image film(Format::r32f, 32, 32);
-  for (int y = 0; y < 32; ++y) std::fill_n(film.row<float>(y), 32, 5.0f);
+  Image film = make_image(Format::r32f, 32, 32, [](int, int, int) { return 5.0f; });
   EXPECT_EQ(wipe(drops, records, film), 0u);
   EXPECT_TRUE(drops == before);
   EXPECT_EQ(film.row<float>(16)[16], 5);

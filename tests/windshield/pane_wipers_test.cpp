@@ -5,10 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "windshield/golden_scenes.h"
-#include "windshield/panes.h"
+#include "windshield/parameters.h"
 #include "windshield/sweep_geometry.h"
 
 namespace rainref::windshield {

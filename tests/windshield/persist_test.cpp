@@ -5,11 +5,12 @@
 
 #include "base/temporary_folder.h"
 #include "math/half.h"
+#include "night_street/night_street.h"
 #include "pass/run.h"
 #include "source_folder.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/support.h"
-#include "windshield/surface.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {
@@ -103,7 +104,7 @@ std::vector<std::uint8_t> trails_scene(std::vector<std::string> more) {
   const parallel::Executor executor(0);
   const std::string file = rainref::test::source_folder() + "/scenes/windshield/as_published_trails.toml";
   more.insert(more.end(), {"run.size=[240, 135]", "scene.size=[240, 135]", "windshield.height_size=[512, 292]"});
-  Windshield run({contents(file), more, file}, {}, executor);
+  Windshield run({contents(file), more, file}, {{}, {}, night_street::Street::make({})}, executor);
   for (int n = 0; n < 360; ++n) run.next_frame();
   std::vector<std::uint8_t> codes;
   for (int y = 0; y < 135; ++y) codes.insert(codes.end(), run.picture().row<std::uint8_t>(y), run.picture().row<std::uint8_t>(y) + 4 * 240);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "windshield/picture.h"
+#include "windshield/picture/picture.h"
 #include "windshield/scalar.h"
 
 namespace rainref::windshield {

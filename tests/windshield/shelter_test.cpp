@@ -1,5 +1,5 @@
 // Where the car drives under bridges and through tunnels: when a pane is under them, and that no rain falls there.
-#include "windshield/shelter.h"
+#include "windshield/motion/shelter.h"
 
 #include <gtest/gtest.h>
 

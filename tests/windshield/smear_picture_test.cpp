@@ -4,13 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "image/images.h"
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "pass/same_as_definition.h"
-#include "windshield/evaluations.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/info.h"
-#include "windshield/smear.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 namespace {
@@ -62,16 +62,6 @@ TEST(Smear, LookupsAreAsFarApartAsTheirLevelsTexels) {
   }
 }
 
-bool same(const Image& a, const Image& b) {
-  const BufferView x(a), y(b);
-  std::vector<std::byte> one(x.row_bytes()), other(y.row_bytes());
-  for (int row = 0; row < a.height(); ++row) {
-    x.copy_row(row, one.data());
-    y.copy_row(row, other.data());
-    if (one != other) return false;
-  }
-  return true;
-}
 Windshield after(const std::string& more, int frames, const parallel::Executor& executor) {
   Windshield w(config_of("corrected", wet_drive + ("[rain]\nrate = 120\nsmallest_drop = 0.8\n[smear]\n" + more)), small_surroundings(),
                executor);

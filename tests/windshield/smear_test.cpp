@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "windshield/smear.h"
+#include "windshield/surface/surface.h"
 #include "windshield/surface_support.h"
 
 namespace rainref::windshield {

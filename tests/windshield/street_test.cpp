@@ -1,5 +1,5 @@
 // The street that passes: views between two keyframes against the street itself.
-#include "windshield/street.h"
+#include "windshield/scene/street.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/half.h"
+#include "night_street/night_street.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {
@@ -23,9 +24,9 @@ scene::Camera ahead() {
   return c;
 }
 /// What is seen after `distance`.
-SceneView seen(const StreetOptions& options, double distance) {
+SceneView seen(const StreetOptions& options, double distance, bool clear_lane = true) {
   const parallel::Executor executor(2);
-  StreetDrive drive(ahead(), width, height, options, executor);
+  StreetDrive drive(night_street::Street::make({2, clear_lane}), ahead(), width, height, options, executor);
   SceneView view;
   EXPECT_TRUE(drive.look(distance, true, view));
   return view;
@@ -44,7 +45,7 @@ double difference(const SceneView& a, const SceneView& b) {
 
 // At a keyframe the view is the street; between, it comes nearer the closer keyframes are.
 TEST(StreetDrive, MoreKeyframesComeNearerToTheStreet) {
-  const StreetOptions once{20, 2, true, 1};
+  const StreetOptions once{20, 1};
   StreetOptions often = once;
   often.keyframes = 6;
   double off_once = 0, off_often = 0;
@@ -102,10 +103,10 @@ TEST(StreetDrive, ALevelRoadKeepsItsTextureFromRowToRow) {
 // The street begins again after 396 m, with any number of keyframes.
 TEST(StreetDrive, BeginsAgainAtItsLength) {
   for (const int keyframes : {1, 5}) {
-    const StreetOptions options{20, 2, false, keyframes};
-    const SceneView first = seen(options, 2 * StreetDrive::street_length);
-    EXPECT_EQ(difference(first, seen(options, 0)), 0) << keyframes;
-    EXPECT_GT(difference(first, seen(options, 100)), 0.001) << keyframes;
+    const StreetOptions options{20, keyframes};
+    const SceneView first = seen(options, 2 * StreetDrive::street_length, false);
+    EXPECT_EQ(difference(first, seen(options, 0, false)), 0) << keyframes;
+    EXPECT_GT(difference(first, seen(options, 100, false)), 0.001) << keyframes;
   }
 }
 

@@ -12,8 +12,8 @@
 #include <gmock/gmock.h>
 
 #include "rainref/error.h"
-#include "windshield/kernels_motion.h"
-#include "windshield/motion_parameters.h"
+#include "windshield/motion/kernels.h"
+#include "windshield/motion/parameters.h"
 
 namespace rainref::windshield {
 

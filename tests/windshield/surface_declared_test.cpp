@@ -5,26 +5,31 @@
 #include "scene/toml.h"
 #include "pass/info.h"
 #include "windshield/info.h"
-#include "windshield/surface.h"
+#include "windshield/parameters.h"
 
 namespace rainref::windshield {
 namespace {
 
-SurfaceSettings read(const std::string& variant, const std::vector<std::string>& values) {
-  const std::vector<scene::Parameter> keys = surface_parameters("windshield");
-  const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, keys}}};
-  SurfaceSettings s;
-  read_surface(scene::parse("effect = 'windshield'\nvariant = '" + variant + "'\n", "test", values, table), "windshield", s);
-  return s;
+Settings read(const std::string& variant, const std::vector<std::string>& values) {
+  const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, parameters()}}};
+  return settings_from(scene::parse("effect = 'windshield'\nvariant = '" + variant + "'\n", "test", values, table));
 }
 
 TEST(SurfaceDeclared, ScenesSetWhatTheVariantUses) {
-  const SurfaceSettings published = read("as-published", {"windshield.wipe_strength=2", "windshield.mask_tau=10"});
+  const SurfaceSettings published = read("as-published", {"windshield.wipe_strength=2", "windshield.mask_tau=10"}).surface;
   EXPECT_FALSE(published.corrected);
   EXPECT_EQ(published.wipe_strength, 2);
   EXPECT_EQ(published.mask_tau, 10);
-  EXPECT_TRUE(read("corrected", {}).corrected);
+  EXPECT_TRUE(read("corrected", {}).surface.corrected);
   EXPECT_THROW(read("corrected", {"windshield.wipe_strength=2"}), Error);
+
+  const blur_pyramid::BlurSettings blur =
+      read("corrected", {"blur.blur_levels=3", "blur.fog_density=0.5", "blur.fog_colour=[1, 2, 3]", "windshield.rounding=rtz"}).blur;
+  EXPECT_TRUE(blur.corrected);
+  EXPECT_EQ(blur.levels, 3);
+  EXPECT_EQ(blur.fog_density, 0.5);
+  EXPECT_EQ(blur.fog_colour[2], 3);
+  EXPECT_EQ(blur.rounding, Rounding::rtz);
 }
 
 TEST(SurfaceDeclared, PassesAndTheirBuffers) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <functional>
 
 #include "math/simd_target.h"
 #include "windshield/surface_support.h"

@@ -1,9 +1,9 @@
 // Normals of known water (physics: W14).
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <functional>
 
+#include "image/images.h"
 #include "windshield/surface_support.h"
 
 namespace rainref::windshield {
@@ -64,11 +64,7 @@ TEST(SurfaceNormals, SphereCapHasTheErrorOfCentralDifferences) {
 // ---- the mask ----------------------------------------------------------------------------------------------------------
 Image any_height(int width, int height, unsigned seed) {
   std::mt19937 words(seed);
-  Image image(Format::r16f, width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) image.row<Half>(y)[x] = to_half(static_cast<float>(words() * 0x1p-31));
-  }
-  return image;
+  return make_image(Format::r16f, width, height, [&](int, int, int) { return to_half(static_cast<float>(words() * 0x1p-31)); });
 }
 Image normals_of(const SurfaceSettings& s, const Image& height, const Image& mask) {
   Image normal(Format::rgba16f, s.width, s.height);

@@ -5,11 +5,12 @@
 #include <random>
 #include <vector>
 
+#include "image/images.h"
 #include "math/half.h"
 #include "pass/run.h"
 #include "rainref/executor.h"
-#include "windshield/surface.h"
-#include "windshield/surface_scalar.h"
+#include "windshield/scalar.h"
+#include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
 
@@ -21,9 +22,7 @@ inline const parallel::Executor& two_threads() {
 }
 inline double at(const Image& image, int x, int y) { return to_float(image.row<Half>(y)[x]); }
 inline Image filled(int width, int height, double value) {
-  Image image(Format::r16f, width, height);
-  for (int y = 0; y < height; ++y) std::fill_n(image.row<Half>(y), width, to_half(static_cast<float>(value)));
-  return image;
+  return make_image(Format::r16f, width, height, [=](int, int, int) { return to_half(static_cast<float>(value)); });
 }
 
 inline void run_normals(const parallel::Executor& executor, const SurfaceSettings& s, const Image& height, const Image& mask,

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "windshield/motion_scalar.h"
+#include "windshield/motion/kernels.h"
+#include "windshield/scalar.h"
 #include "windshield/support.h"
-#include "windshield/wipe_drops.h"
 
 namespace rainref::windshield {
 

@@ -1,7 +1,7 @@
 // Wipers: the law of motion (physics: W11), records of a step, arrangements and what they clear.
 #include <gtest/gtest.h>
 
-#include "windshield/motion_scalar.h"
+#include "windshield/scalar.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {
@@ -175,8 +175,8 @@ double share_cleared(const Quad& area, const Glass& glass, const WiperSettings& 
       const double gu = (x + 0.5) / 400, gv = (y + 0.5) / 400;
       if (!area.holds(gu, gv)) continue;
       ++inside;
-      const auto p = motion_scalar::to_plane(u.frame, N(static_cast<float>(gu)), N(static_cast<float>(gv)));
-      cleared += std::any_of(stroke.begin(), stroke.end(), [&](const Wiper& w) { return motion_scalar::in_sweep(w, p.x, p.y); });
+      const auto p = scalar::to_plane(u.frame, N(static_cast<float>(gu)), N(static_cast<float>(gv)));
+      cleared += std::any_of(stroke.begin(), stroke.end(), [&](const Wiper& w) { return scalar::in_sweep(w, p.x, p.y); });
     }
   }
   EXPECT_GT(inside, 10000);

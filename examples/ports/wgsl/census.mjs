@@ -1,4 +1,4 @@
-// node census.mjs [--module rainref_module.js] [--packs tests/packs] > FILE: the census of this machine's GPU by Dawn (npm package webgpu). Without
+// node census.mjs [--module rainref_module.js] [--packs build/release/packs] > FILE: the census of this machine's GPU by Dawn (npm package webgpu). Without
 // options the module and the folder packs lie beside this folder. VK_ICD_FILENAMES chooses a Vulkan driver. Exit code 3: there is none.
 import fs from "node:fs";
 import {createRequire} from "node:module";

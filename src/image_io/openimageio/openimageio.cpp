@@ -97,12 +97,10 @@ OIIO::ImageSpec spec_of(const StoredPicture& picture) {
     spec.channelnames.push_back(channel.name);
     spec.channelformats.emplace_back(channel.type);
   }
-  // Formats of one type alone do not expect a list.
+  // A list is for channels of several types.
   if (std::ranges::all_of(spec.channelformats, [&](OIIO::TypeDesc type) { return type == first; })) spec.channelformats.clear();
   if (!picture.compression.empty()) spec.attribute("compression", picture.compression);
-  if (!picture.colour_space.empty()) spec.attribute("oiio:ColorSpace", picture.colour_space);
-  spec.attribute("oiio:UnassociatedAlpha", 1);  // else colour would be divided by alpha
-  spec.attribute("png:compressionLevel", 6);
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // colour is stored as it is
   // An empty date: without one, OpenImageIO stores the time of day in an EXR, and no two files would be equal.
   spec.attribute("DateTime", "");
   for (const Note& note : picture.notes) spec.attribute(note.key, note.value);
@@ -110,11 +108,10 @@ OIIO::ImageSpec spec_of(const StoredPicture& picture) {
 }
 
 /// In memory: OpenImageIO would open the final name, and its errors do not tell why a disk refused.
-std::optional<std::vector<std::byte>> encode(const char* format, const std::string& name, const StoredPicture& picture,
-                                             const std::byte* texels) {
+std::optional<std::vector<std::byte>> encode_exr(const std::string& name, const StoredPicture& picture, const std::byte* texels) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);  // outlives its writer
-  const auto output = OIIO::ImageOutput::create(format);
+  const auto output = OIIO::ImageOutput::create("openexr");
   if (!output || !output->set_ioproxy(&memory)) return std::nullopt;
   const OIIO::ImageSpec spec = spec_of(picture);
   // The texels are in the file's own types: for one type to be named, for several to be left unknown.
@@ -137,7 +134,7 @@ extern "C" __attribute__((visibility("default"))) const Codec* rainref_openimage
   OIIO::attribute("missingcolor", "");
   OIIO::attribute("openexr:core", 0);
   OIIO::attribute("try_all_readers", 0);
-  static constexpr Codec functions{open, encode};
+  static constexpr Codec functions{open, encode_exr};
   return &functions;
 }
 

@@ -54,11 +54,12 @@ class Sampling(Struct):
 
 
 class JudgeOptions(Struct):
-    _fields_ = _members("profile:text port:text half:text threads:i32 strict:i32")
+    _fields_ = _members("profile:text port:text half:text threads:i32 strict:i32 exhaustive:i32")
 
 
 class FolderOptions(Struct):
-    _fields_ = _members("profile:text passes:texts pass_count:size partial:i32 threads:i32 progress:pointer user:pointer strict:i32")
+    _fields_ = _members("profile:text passes:texts pass_count:size partial:i32 threads:i32 progress:pointer user:pointer strict:i32 "
+                        "exhaustive:i32")
 
 
 class VerdictInfo(Struct):
@@ -67,7 +68,7 @@ class VerdictInfo(Struct):
 
 class PassVerdictInfo(Struct):
     _fields_ = _members("pass_name:text formula:text status:text reason:text where:text cases:i64 elements:i64 outside:i64 differing:i64 "
-                        "vacuous:i64 causes:size worst:size")
+                        "vacuous:i64 causes:size worst:size sampled:i64")
 
 
 class CauseInfo(Struct):

@@ -101,9 +101,10 @@ class PassVerdict:
     elements: int
     outside: int
     differing: int
-    vacuous: int
+    vacuous: int  #: of the sampled
     causes: tuple[Cause, ...]  #: the best first
     worst: tuple[Failure, ...]  #: the worst first
+    sampled: int  #: whose bounds were asked: all, or a sample of a large picture
 
 
 class Verdict:
@@ -127,7 +128,7 @@ class Verdict:
             p.differing, p.vacuous,
             tuple(Cause(decoded(k.name), decoded(k.sentence), k.explained, k.of, k.inside, bool(k.is_likely)) for k in causes),
             tuple(Failure(decoded(f.case_id), decoded(f.output), decoded(f.field), f.x, f.y, f.channel, f.got, f.low, f.high, f.expected,
-                          decoded(f.text)) for f in worst))
+                          decoded(f.text)) for f in worst), p.sampled)
 
     @property
     def ok(self) -> bool:
@@ -166,11 +167,12 @@ def _run(ports: Iterable[Port], cases: Cases) -> None:
 
 
 def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port], frames: Iterable[int] = (0, 1), profile: str = "vulkan", *,
-          half: str | None = None, threads: int = 0, strict: bool = False) -> Verdict:
+          half: str | None = None, threads: int = 0, strict: bool = False, exhaustive: bool = False) -> Verdict:
     """Runs ports on the cases of a simulation or of a pack's folder, and judges what they give.
 
     A simulation runs on to the last of `frames`; none of them may lie behind it. `half` says how the ports round stores to binary16 ("rne",
-    "rtz"); None: it is found out where the profile leaves it open. With `strict` each WARN is a FAIL. Raises Error for what cannot be judged.
+    "rtz"); None: it is found out where the profile leaves it open. With `strict` each WARN is a FAIL, with `exhaustive` every envelope is computed,
+    where widths and shares are otherwise a sample's. Raises Error for what cannot be judged.
     """
     ports = [ports] if callable(ports) else list(ports)
     for p in ports:
@@ -198,18 +200,19 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
             raise Error(f"ports: expected ports of {cases[0].effect}, found one of {other.effect}.{other.name}")
     _run(ports, cases)
     options = s.JudgeOptions.new(profile=encoded(profile), half=encoded(half) if half is not None else None, threads=threads, strict=strict,
-                                 port=", ".join(getattr(p.function, "__name__", p.name) for p in ports).encode())
+                                 exhaustive=exhaustive, port=", ".join(getattr(p.function, "__name__", p.name) for p in ports).encode())
     return Verdict(Handle("free_judgement", "judge", cases.handle, c.byref(options)))
 
 
 def judge_folder(pack: str | os.PathLike[str], port: str | os.PathLike[str], profile: str = "vulkan", *, passes: Iterable[str] = (),
-                 partial: bool = False, threads: int = 0, strict: bool = False) -> Verdict:
+                 partial: bool = False, threads: int = 0, strict: bool = False, exhaustive: bool = False) -> Verdict:
     """Judges the files that a port wrote for the cases of a pack, as `rainref validate PACK --port PORT` does.
 
-    `passes` are judged alone; none named: every one. With `partial` a pass without any file is NOT JUDGED, with `strict` each WARN is a FAIL.
-    Files that are missing or cannot be used stand in the verdict's `json()["files"]`. `html` reads both folders again. Raises Error for what
-    cannot be judged.
+    `passes` are judged alone; none named: every one. With `partial` a pass without any file is NOT JUDGED, with `strict` each WARN is a FAIL,
+    with `exhaustive` every envelope is computed. Files that are missing or cannot be used stand in the verdict's `json()["files"]`. `html` reads
+    both folders again. Raises Error for what cannot be judged.
     """
     many, count = texts(passes)
-    options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads, strict=strict)
+    options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads, strict=strict,
+                                  exhaustive=exhaustive)
     return Verdict(Handle("free_judgement", "judge_folder", encoded(pack), encoded(port), c.byref(options)))

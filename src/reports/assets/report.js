@@ -1,159 +1,123 @@
-"use strict";
-// Pictures: zoom, move, flicker, and the way from a worst element to its place. Without scripts the page still shows all.
-for (const viewer of document.querySelectorAll(".viewer")) {
-  const views = [...viewer.querySelectorAll(".view")];
-  if (views.length === 0) continue;
-  let current = 0, zoom = 1, x = 0, y = 0, timer = 0;  // x, y: the upper left corner, as a share of the picture
+// The report page, made of a judgement (docs/reports.md lists its keys) and of the buffers that the program could read (buffers.h).
+import {graph} from "./report_graph.js";
+import {outputElements} from "./report_viewer.js";
+import {element, isBroken, joined, linkTo, pill, share, summary, table} from "./report_words.js";
 
-  const button = (text, action, hint) => {
-    const b = document.createElement("button");
-    b.type = "button";
-    b.textContent = text;
-    if (hint) b.title = hint;
-    b.addEventListener("click", action);
-    return b;
-  };
-  const apply = () => {
-    x = Math.min(Math.max(x, 0), 1 - 1 / zoom);
-    y = Math.min(Math.max(y, 0), 1 - 1 / zoom);
-    viewer.style.setProperty("--zoom", zoom);
-    viewer.style.setProperty("--px", `${-100 * x * zoom}%`);
-    viewer.style.setProperty("--py", `${-100 * y * zoom}%`);
-  };
-  // Keeps the point (cx, cy) of the window in its place.
-  const zoomBy = (factor, cx = 0.5, cy = 0.5) => {
-    const next = Math.min(Math.max(zoom * factor, 1), 64);
-    x += cx / zoom - cx / next;
-    y += cy / zoom - cy / next;
-    zoom = next;
-    apply();
-  };
-  const reset = () => { zoom = 1; x = y = 0; apply(); };
-  const swap = on => { viewer.classList.toggle("swapped", on); };
-  const flicker = () => {
-    if (timer) { clearInterval(timer); timer = 0; swap(false); }
-    else { swap(true); timer = setInterval(() => swap(), 500); }
-    flickerButton.setAttribute("aria-pressed", String(timer !== 0));
-  };
-  const solo = pane => {
-    if (viewer.dataset.solo === String(pane)) delete viewer.dataset.solo;
-    else viewer.dataset.solo = pane;
-  };
-  const show = index => {
-    current = index;
-    views.forEach((v, k) => { v.hidden = k !== index; });
-    tabs.forEach((t, k) => t.setAttribute("aria-pressed", String(k === index)));
-  };
+const shownBadRows = 200, shownGoodRows = 24;  // of the table of cases
 
-  // The texel at a share of the picture; row 0 is at the bottom.
-  const area = view => {
-    const d = view.dataset;
-    const columns = Math.ceil(d.width / d.thinned), rows = Math.ceil(d.height / d.thinned);
-    return {x0: +d.x0, y0: +d.y0, columns, rows, thinned: +d.thinned};
-  };
-  const texelAt = (view, u, v) => {
-    const a = area(view);
-    return [a.x0 + Math.floor(u * a.columns) * a.thinned, a.y0 + (a.rows - 1 - Math.floor(v * a.rows)) * a.thinned];
-  };
-  const texts = new Map();
-  for (const place of viewer.querySelectorAll(".place")) {
-    const cells = [...place.closest("tr").cells].map(c => c.textContent);
-    const key = `${place.dataset.x},${place.dataset.y}`;
-    texts.set(key, `${texts.has(key) ? texts.get(key) + "; " : ""}${cells[0]} got ${cells[1]}, accepted ${cells[2]}`);
-  }
-  const mark = (view, tx, ty) => {
-    const a = area(view), column = Math.floor((tx - a.x0) / a.thinned), row = a.rows - 1 - Math.floor((ty - a.y0) / a.thinned);
-    for (const layer of view.querySelectorAll(".layer")) {
-      layer.querySelector(".mark")?.remove();
-      const m = document.createElement("div");
-      m.className = "mark";
-      Object.assign(m.style, {left: `${100 * column / a.columns}%`, top: `${100 * row / a.rows}%`, width: `${100 / a.columns}%`, height: `${100 / a.rows}%`});
-      layer.append(m);
-    }
-    return [(column + 0.5) / a.columns, (row + 0.5) / a.rows];
-  };
-  const holds = (view, tx, ty) => {
-    const d = view.dataset;
-    return tx >= +d.x0 && ty >= +d.y0 && tx < +d.x0 + +d.width && ty < +d.y0 + +d.height;
-  };
-  // To the view of the element's channel, at full size where there is one.
-  const goTo = place => {
-    const tx = +place.dataset.x, ty = +place.dataset.y, channel = place.textContent.split(".").pop();
-    const fits = views.map((v, k) => k).filter(k => holds(views[k], tx, ty));
-    const score = k => {
-      const label = views[k].dataset.label.split(",")[0];
-      return (label === channel || label === "colour" || (label === "alpha" && channel === "w") ? 2 : 0) + (+views[k].dataset.thinned === 1 ? 1 : 0) + (label === "alpha" && channel === "w" ? 1 : 0);
-    };
-    show(fits.reduce((best, k) => score(k) > score(best) ? k : best, fits[0]));
-    const [u, v] = mark(views[current], tx, ty), a = area(views[current]);
-    zoom = Math.max(1, Math.min(64, Math.max(a.columns, a.rows) / 24));
-    x = u - 0.5 / zoom;
-    y = v - 0.5 / zoom;
-    apply();
-    readout.textContent = texts.get(`${tx},${ty}`);
-    viewer.scrollIntoView({block: "nearest"});
-  };
-  for (const place of viewer.querySelectorAll(".place")) place.addEventListener("click", () => goTo(place));
+/// What stands in the banner.
+export const banner = report => [element("p", {class: "verdict"}, report.status),
+  element("div", {}, element("p", {class: "summary"}, summary(report)), element("p", {class: "counts"}, report.counts))];
 
-  const tools = document.createElement("div");
-  tools.className = "tools";
-  const tabs = views.map((v, k) => button(v.dataset.label, () => show(k), "Key V: next view"));
-  const flickerButton = button("Flicker", flicker, "Key F: reference and port in turn in the first picture");
-  flickerButton.className = "flicker";
-  const readout = document.createElement("output");
-  readout.className = "readout";
-  const gap = () => Object.assign(document.createElement("span"), {className: "gap"});
-  tools.append(...(tabs.length > 1 ? [...tabs, gap()] : []), flickerButton, button("Swap", () => swap(), "Key S"), gap(), button("+", () => zoomBy(2), "Key +"), button("−", () => zoomBy(0.5), "Key -"),
-    button("Reset", reset, "Key 0"), readout);
-  viewer.prepend(tools);
+/// Everything between the banner and the help. What went wrong first stands first.
+export function sections(report, buffers) {
+  const {passes} = report, isFirst = p => p.pass === report.first_bad_pass;
+  const own = passes.map((p, k) => passSection(p, report, buffers, buffers.passes[k]));
+  return [facts(report), report.command && element("p", {class: "command"}, element("span", {class: "dim"}, "Reproduce:"), " ", element("code", {}, report.command)),
+    report.stale.map(text => element("p", {class: "stale"}, element("b", {}, "Baseline:"), ` ${text}`)),
+    listed("files", "Missing, or cannot be used", report.files.map(f => f.error)),
+    own.filter((_, k) => isFirst(passes[k])),
+    listed(null, "Notes", report.notes),
+    passes.length > 0 && [element("section", {id: "dataflow"}, element("h2", {}, "Dataflow"), element("div", {class: "scroll"}, graph(report))),
+      element("section", {id: "overview"}, element("h2", {}, "How much each verdict is worth"), overview(passes))],
+    own.filter((_, k) => !isFirst(passes[k]))].flat(2).filter(part => part);
+}
 
-  for (const view of views) {
-    // The port lies over the reference, hidden, so that a swap moves nothing.
-    const other = view.querySelector(".port img").cloneNode();
-    other.className = "other";
-    view.querySelector(".reference .layer").append(other);
-    view.querySelectorAll(".pane").forEach((pane, k) => {
-      const frame = pane.querySelector(".window");
-      const share = e => {
-        const r = frame.getBoundingClientRect();
-        return [(e.clientX - r.left) / r.width, (e.clientY - r.top) / r.height];
-      };
-      let grip = null;
-      frame.addEventListener("pointerdown", e => { grip = [...share(e), x, y]; frame.setPointerCapture(e.pointerId); viewer.focus({preventScroll: true}); e.preventDefault(); });
-      frame.addEventListener("pointerup", () => { grip = null; });
-      frame.addEventListener("pointercancel", () => { grip = null; });
-      frame.addEventListener("pointermove", e => {
-        const [u, v] = share(e);
-        if (grip) { x = grip[2] - (u - grip[0]) / zoom; y = grip[3] - (v - grip[1]) / zoom; apply(); }
-        const [tx, ty] = texelAt(view, Math.min(Math.max(x + u / zoom, 0), 0.999999), Math.min(Math.max(y + v / zoom, 0), 0.999999));
-        const known = texts.get(`${tx},${ty}`);
-        readout.textContent = known ?? `(${tx}, ${ty})`;
-      });
-      frame.addEventListener("pointerleave", () => { if (!grip) readout.textContent = ""; });
-      frame.addEventListener("dblclick", () => solo(k));
-      // The page scrolls by the wheel until the pictures have the focus.
-      frame.addEventListener("wheel", e => {
-        if (!viewer.contains(document.activeElement) && !e.ctrlKey) return;
-        e.preventDefault();
-        zoomBy(e.deltaY < 0 ? 1.25 : 0.8, ...share(e));
-      }, {passive: false});
-    });
-  }
-  viewer.addEventListener("keydown", e => {
-    if (e.ctrlKey || e.altKey || e.metaKey) return;
-    const step = 0.1 / zoom;
-    const actions = {
-      f: flicker, s: () => swap(), "+": () => zoomBy(2), "=": () => zoomBy(2), "-": () => zoomBy(0.5), "0": reset, v: () => show((current + 1) % views.length),
-      1: () => solo(0), 2: () => solo(1), 3: () => solo(2), 4: () => solo(3),
-    };
-    if (zoom > 1) Object.assign(actions, {ArrowLeft: () => { x -= step; apply(); }, ArrowRight: () => { x += step; apply(); }, ArrowUp: () => { y -= step; apply(); }, ArrowDown: () => { y += step; apply(); }});
-    const action = actions[e.key] ?? actions[e.key.toLowerCase()];
-    if (!action) return;
-    e.preventDefault();
-    action();
+const listed = (id, title, texts) => texts.length > 0 && element("section", {id}, element("h2", {}, title), element("ul", {}, texts.map(text => element("li", {}, text))));
+
+function facts({effect, variant, scene, profile, device, pack, port, rainref}) {
+  const all = {effect: variant ? `${effect}, ${variant}` : effect, scene, profile, API: device.api, device: device.name, driver: device.driver, pack, port,
+               "judged by": `rainref ${rainref.version}, golden generation ${rainref.golden_generation}`};
+  return element("dl", {class: "facts"}, Object.entries(all).map(([key, text]) => text && element("div", {}, element("dt", {}, key), element("dd", {}, text))));
+}
+
+/// The columns that a pass and an output have: f has their numbers.
+const figureCells = (f, ambiguous) => [share(f.differing, f.elements), share(f.bounded, f.sampled), f.median_text, f.p99_text, String(ambiguous),
+                                       share(f.vacuous, f.sampled), share(f.loose, f.sampled)];
+const figureHead = ["differ", "bounded", "median width", "99 %", "ambiguous", "vacuous", "loose"];
+
+const overview = passes => table("figures", ["verdict", "pass", "invocations outside", ...figureHead], passes.map(({pass, status, figures: f}) =>
+  [pill(status), linkTo(pass), ...f.elements === 0 ? ["nothing judged", ...figureHead.map(() => "-")] : [`${f.failing} of ${f.invocations}`, ...figureCells(f, f.ambiguous)]]), 2);
+
+// ---- a pass ----
+
+function passSection(p, report, buffers, shown) {
+  const f = p.figures, dim = text => text && element("p", {class: "dim"}, text), {alternatives, text} = p.coverage;
+  return element("section", {class: "pass", id: `pass-${p.pass}`, "data-status": p.status},
+    element("h2", {}, pill(p.status), ` ${p.pass} `, element("code", {class: "dim"}, p.formula)),
+    p.sentence && element("p", {}, p.sentence),
+    p.pass === report.first_bad_pass && element("p", {class: "first"}, "The first bad pass.",
+      p.inputs_are_good ? " Its inputs are good, so no pass before it is to blame." : " Its inputs are not good either."),
+    p.reason && !isBroken(p) && element("p", {class: "reason"}, p.reason),
+    broken(p), known(p), takes(p, report.passes), causes(p),
+    dim(p.sample_text && `${p.sample_text[0].toUpperCase()}${p.sample_text.slice(1)}.`),
+    dim(p.half_text && `${p.half_text[0].toUpperCase()}${p.half_text.slice(1)}.`),
+    dim(alternatives > 0 && `The pack ${text}.`),
+    dim(f.other_branch > 0 && `${f.other_branch} of ${f.ambiguous} ambiguous invocations took another branch than the reference.`),
+    dim(f.gave_up > 0 && `${f.gave_up} invocations had too many open decisions to bound.`),
+    cases(p), quantities(p), outputs(p, buffers, shown));
+}
+
+/// Cases that fail, or could not be judged, for a reason that no output shows.
+function broken(p) {
+  const found = p.cases.filter(c => c.broken || (c.outputs.length === 0 && (c.status === "UNTESTED" || c.status === "NOT JUDGED")));
+  return found.length > 0 && element("ul", {class: "broken"}, found.slice(0, shownBadRows).map(c => element("li", {}, pill(c.status), ` ${c.id}: ${c.reason}`)),
+    found.length > shownBadRows && element("li", {}, `${found.length - shownBadRows} more; --json lists all.`));
+}
+
+function known(p) {
+  const reasons = p.cases.flatMap(c => c.outputs).filter(o => o.known !== null).map(o => ` ${o.name}: ${o.known}`);
+  return [...new Set(reasons)].map(reason => element("p", {class: "known-reason"}, element("b", {}, "Known"), reason));
+}
+
+/// "wave of wave_step (the run before), drops of raindrops": where its inputs come from.
+function takes(p, passes) {
+  const parts = p.takes.filter(t => t.from !== "host").map(({input, from, previous}) =>
+    [`${input} of `, passes.some(other => other.pass === from) ? linkTo(from) : from, previous && " (the run before)"]);
+  const fromHost = p.takes.filter(t => t.from === "host").map(t => t.input);
+  if (fromHost.length > 0) parts.push(`${fromHost.join(", ")} of the host`);
+  return parts.length > 0 && element("p", {class: "dim"}, "Takes ", joined(parts), ".");
+}
+
+function causes(p) {
+  if (p.figures.outside === 0 && p.causes.length === 0) return [];
+  const where = p.where && element("p", {class: "cause"}, element("b", {}, "Where:"), ` ${p.where}.`);
+  if (p.causes.length === 0)
+    return [where, p.cause_is_unknown && element("p", {class: "cause"}, element("b", {}, "Cause unknown:"), " no single mistake that was tried gives these bits.")];
+  return [where, element("h3", {}, p.causes[0].is_likely ? "Likely cause" : "What the cause may be"), element("ol", {class: "causes"}, p.causes.map(c =>
+    element("li", {}, c.is_likely ? "likely cause " : "may be ", element("b", {}, c.name), `: ${c.sentence} `,
+      element("span", {class: "dim"}, `gives ${c.explained} of ${c.of} ${p.status === "WARN" ? "warned" : "failing"} ${c.counted} bit for bit, comes near ${c.inside}`),
+      element("meter", {min: 0, max: c.of, value: c.explained}, share(c.explained, c.of)))))];
+}
+
+function cases(p) {
+  const all = p.cases.flatMap(c => c.outputs.map(o => ({c, o}))), good = all.filter(({c}) => c.status === "PASS").slice(0, shownGoodRows);
+  const bad = all.filter(({c}) => c.status !== "PASS").slice(0, shownBadRows), left = new Set([...good, ...bad]), rows = all.filter(row => left.has(row));
+  if (rows.length === 0) return [];
+  const statusOf = ({c, o}) => o.failing === 0 && c.status === "FAIL" ? "PASS" : o.failing > 0 && o.known !== null ? "KNOWN" : c.status;
+  return [table("figures", ["verdict", "output", "shape", "outside", ...figureHead, "atypical", "free"], rows.map(row => {
+    const {c, o} = row;
+    return [pill(statusOf(row)), `${c.id}/out.${o.name}`, o.shape, `${o.failing} of ${o.elements}`, ...figureCells(o, c.ambiguous), String(o.atypical), String(o.free)];
+  }), 3), rows.length < all.length && element("p", {class: "remark"}, `${all.length - rows.length} more outputs are not shown; --json lists all.`)];
+}
+
+/// Each channel and field in its own unit, over all cases.
+function quantities(p) {
+  const number = value => String(Number(value.toPrecision(3)));
+  const rows = p.quantities.map(q => {
+    const judged = q.elements - q.free, ofList = q.counted === "fields" || q.counted === "records";
+    return [q.output, q.name, q.unit, ofList ? "field" : "channel", `${q.failing} of ${q.elements}`, q.failing === 0 ? "" : q.farthest === null ? "no number" : number(q.farthest),
+      judged === 0 ? "-" : q.median_text, judged === 0 ? "-" : q.p99_text, q.extent > 0 ? number(q.extent) : "-", share(q.vacuous, q.sampled), share(q.loose, q.sampled)];
   });
-  // What fails worst is seen first.
-  show(Math.max(0, views.findIndex(v => "open" in v.dataset)));
-  const worst = viewer.querySelector(".place[data-open]");
-  if (worst && holds(views[current], +worst.dataset.x, +worst.dataset.y)) mark(views[current], +worst.dataset.x, +worst.dataset.y);
+  return rows.length > 0 && element("details", {open: p.quantities.some(q => q.counted === "fields") && ""}, element("summary", {}, "Each channel and field in its own unit"),
+    table("figures", ["output", "name", "unit", "", "outside", "farthest off", "median width", "99 %", "declared range", "vacuous", "loose"], rows, 4));
+}
+
+function outputs(p, {pictured_failures: mostFailing, picture_budget: budget, verdict_colours: colours}, shown) {
+  const failing = p.cases.filter(c => c.status === "FAIL" || c.status === "KNOWN").length, leftOut = shown.filter(s => s.is_left_out).length;
+  return [shown.map(s => {
+    const c = p.cases.find(one => one.id === s.case);
+    return outputElements(c, c.outputs.find(o => o.name === s.output), s, colours);
+  }), failing > mostFailing && element("p", {class: "remark"}, `Pictures of ${mostFailing} of ${failing} failing cases: the first and those with most failures.`),
+  leftOut > 0 && element("p", {class: "remark"}, `No pictures of ${leftOut} more outputs: a page holds ${budget / 2 ** 20} MiB of them.`)];
 }

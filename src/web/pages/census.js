@@ -6,15 +6,10 @@ import {packFolder, packList} from "./packs.js";
 import {checkCensus} from "./ports/census/check.js";
 import {censusText, takeCensus, totals} from "./ports/census/take.js";
 import {deviceName, errorRows, habitRows} from "./ports/census/words.js";
+import {element, pill} from "./report_words.js";
 
 const part = id => document.getElementById(id);
-function element(name, content = "", attributes = {}) {
-  const made = document.createElement(name);
-  made.append(...[content].flat());
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  return made;
-}
-const pill = status => element("span", status, {class: "pill", "data-status": status});
+const heading = name => element("th", {scope: "row"}, name);
 
 async function portFile(path) {
   const answer = await fetch(`ports/${path}`);
@@ -33,19 +28,19 @@ async function packsToRun() {
 function showCard(census) {
   const {device, by, rainref, ports} = census, sums = totals(census);
   part("name").textContent = deviceName(census) + (device.fallback ? " (software)" : "");
-  const rows = (table, list) => table.replaceChildren(...list.map(([name, value]) => element("tr", [element("th", name, {scope: "row"}), element("td", value)])));
+  const rows = (table, list) => table.replaceChildren(...list.map(([name, value]) => element("tr", {}, heading(name), element("td", {}, value))));
   rows(part("device"), [
     ...["vendor", "architecture", "device", "description"].map(key => [key[0].toUpperCase() + key.slice(1), device[key] || "the browser does not say"]),
     ["Features that matter", device.features.join(", ") || "none"], ["User agent", by.user_agent], ["rainref", `${rainref.version}, golden generation ${rainref.golden_generation}`],
   ]);
-  part("totals").replaceChildren(...Object.entries(sums).map(([status, count]) => element("span", [`${count} `, pill(status)])));
+  part("totals").replaceChildren(...Object.entries(sums).map(([status, count]) => element("span", {}, `${count} `, pill(status))));
   const others = ports.flatMap(({pack, others}) => others.map(other => ({pack, ...other})));
   part("others").replaceChildren(...others.map(({pack, pass, status, reason}) =>
-    element("li", [pill(status), element("strong", ` ${pass}`), ` of ${pack}: ${reason || "no reason is given"}`])));
+    element("li", {}, pill(status), element("strong", {}, ` ${pass}`), ` of ${pack}: ${reason || "no reason is given"}`)));
   part("all_pass").hidden = others.length > 0;
   rows(part("habits"), habitRows(census));
   part("errors").replaceChildren(...errorRows(census).map(([name, error, at]) =>
-    element("tr", [element("th", name, {scope: "row"}), element("td", error), element("td", at)])));
+    element("tr", {}, heading(name), element("td", {}, error), element("td", {}, at))));
   part("json").value = censusText(census);
   part("card").hidden = false;
 }
@@ -96,6 +91,6 @@ part("copy").addEventListener("click", async () => {
 });
 part("download").addEventListener("click", () => {
   const url = URL.createObjectURL(new Blob([part("json").value], {type: "application/json"}));
-  element("a", "", {href: url, download: "census.json"}).click();
+  element("a", {href: url, download: "census.json"}).click();
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 });

@@ -1,4 +1,5 @@
 // The text of a shader with line numbers, and what is wrong with it beside them.
+import {element} from "./report_words.js";
 import {errorsOf, filesOf} from "./shader_text.js";
 
 export class Editor {
@@ -31,16 +32,12 @@ export class Editor {
     const errors = errorsOf(message, filesOf(this.value));
     this.#bad = new Set(errors.map(e => e.at));
     this.#drawGutter();
-    if (errors.length === 0) return this.#errors.replaceChildren(element("p", "error mono", message));
-    const list = document.createElement("ul");
-    for (const {file, line, column, message: sentence, at} of errors) {
-      const place = element("button", "", `${file}:${line}:${column}`), item = document.createElement("li");
-      place.type = "button";
+    if (errors.length === 0) return this.#errors.replaceChildren(element("p", {class: "error mono"}, message));
+    this.#errors.replaceChildren(element("ul", {}, errors.map(({file, line, column, message: sentence, at}) => {
+      const place = element("button", {type: "button"}, `${file}:${line}:${column}`);
       place.addEventListener("click", () => this.goTo(at, column));
-      item.append(place, " ", sentence);
-      list.append(item);
-    }
-    this.#errors.replaceChildren(list);
+      return element("li", {}, place, " ", sentence);
+    })));
     this.goTo(errors[0].at, errors[0].column, false);
   }
   clearErrors() {
@@ -67,7 +64,7 @@ export class Editor {
           plain += `${line}\n`;
           continue;
         }
-        this.#gutter.append(plain, element("span", "bad", String(line)));
+        this.#gutter.append(plain, element("span", {class: "bad"}, String(line)));
         plain = "";
       }
       this.#gutter.append(plain + "\n");  // as much room below as the text has
@@ -75,11 +72,4 @@ export class Editor {
     }
     this.#gutter.scrollTop = this.#text.scrollTop;
   }
-}
-
-function element(name, className, text) {
-  const made = document.createElement(name);
-  made.className = className;
-  made.textContent = text;
-  return made;
 }

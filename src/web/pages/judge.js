@@ -6,6 +6,7 @@ import {Editor} from "./editor.js";
 import {runPasses} from "./gpu_run.js";
 import {hashOf, viewOf} from "./link.js";
 import {exampleOf, hasProgram, packFolder, packList} from "./packs.js";
+import {element} from "./report_words.js";
 import {filesOf, textOf} from "./shader_text.js";
 import {Outcome} from "./outcome.js";
 
@@ -79,11 +80,7 @@ async function showBindings() {
     const what = !buffer ? "not in this case" : isRecords(buffer) ? `records ${buffer.record}` : `${buffer.format} ${buffer.width}x${buffer.height}`;
     rows.push([binding, name, `${isOutput ? "output" : "input"}, ${what}${!isOutput && buffer && buffer.min_filter && buffer.min_filter !== "none" ? `, sampler at ${binding + 16}` : ""}`]);
   }
-  $("bindings").querySelector("tbody").replaceChildren(...rows.map(cells => {
-    const row = document.createElement("tr");
-    for (const text of cells) row.append(Object.assign(document.createElement("td"), {textContent: text}));
-    return row;
-  }));
+  $("bindings").querySelector("tbody").replaceChildren(...rows.map(cells => element("tr", {}, cells.map(text => element("td", {}, String(text))))));
 }
 const folder = async () => pack().folder ?? packFolder(pack());
 
@@ -153,13 +150,13 @@ async function judged(portFolder, options) {
   working("Loading the judge");
   await engine.start();
   working("Judging");
-  const ownPack = await folder(), path = pack().folder ? ownPack.name : `tests/packs/${pack().name}`;
+  const ownPack = await folder(), path = pack().folder ? ownPack.name : `packs/${pack().name}`;
   const result = await engine.run("judgeFolder", {
     pack: {path, files: [...ownPack.files]},
     port: {path: portFolder.name === path ? `port/${portFolder.name}` : portFolder.name, files: [...portFolder.files]},
     profile: $("profile").value, ...options,
   }, {onProgress: (done, of) => done < of ? working("Judging", done, of) : working("Looking for causes, and drawing")});
-  outcome.show(result, `${pack().name}-${$("pass").value === everyPass || !options.passes ? "all" : $("pass").value}-${result.profile ?? $("profile").value}`);
+  outcome.show(result, `${pack().name}-${$("pass").value === everyPass || !options.passes ? "all" : $("pass").value}-${$("profile").value}`);
   $("result").scrollIntoView({block: "start"});
 }
 

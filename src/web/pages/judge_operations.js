@@ -2,7 +2,7 @@
 import {structs} from "./c_library.js";
 
 structs.rr_folder_options = [["profile", "text"], ["passes", "pointer"], ["pass_count", "size"], ["partial", "i32"], ["threads", "i32"],
-                             ["progress", "pointer"], ["user", "pointer"], ["strict", "i32"]];
+                             ["progress", "pointer"], ["user", "pointer"], ["strict", "i32"], ["exhaustive", "i32"]];
 
 /// The names of the profiles.
 export function profiles(library) {
@@ -23,7 +23,7 @@ function mounted({FS, WORKERFS}, {path, files}) {
   };
 }
 
-/// Judges a port's folder for a pack: {status, first_bad_pass, text, json, html, junit}. progress(done, of) after each run.
+/// Judges a port's folder for a pack: {text, json, html, junit}. progress(done, of) after each run.
 export function judgeFolder(library, {pack, port, profile, passes = [], partial = false}, progress) {
   const {module} = library, undo = [];
   try {
@@ -35,9 +35,7 @@ export function judgeFolder(library, {pack, port, profile, passes = [], partial 
       {profile, passes: count ? names : 0, pass_count: count, partial: partial ? 1 : 0, progress: callback},
       options => library.out("rr_judge_folder", pack.path, port.path, options)));
     undo.push(() => library.value("rr_free_judgement", judgement));
-    const {status, first_bad_pass} = library.filled("rr_verdict", "rr_get_verdict", judgement), reports = {};
-    for (const kind of ["text", "json", "html", "junit"]) reports[kind] = library.text(library.out(`rr_report_${kind}`, judgement));
-    return {status, first_bad_pass, ...reports};
+    return Object.fromEntries(["text", "json", "html", "junit"].map(kind => [kind, library.text(library.out(`rr_report_${kind}`, judgement))]));
   } finally {
     for (const step of undo.reverse()) step();
   }

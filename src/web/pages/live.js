@@ -4,10 +4,11 @@ import {Comparison} from "./live_compare.js";
 import {LiveRun} from "./live_run.js";
 import {Parameters} from "./parameters.js";
 import {shownGallery} from "./live_gallery.js";
+import {element} from "./report_words.js";
 import {tomlOf} from "./scene_values.js";
 
 const part = id => document.getElementById(id);
-const option = (text, value = text) => Object.assign(document.createElement("option"), {textContent: text, value});
+const option = (text, value = text) => element("option", {value}, text);
 const fileSizes = ["1280x720", "960x540", "640x360", "480x270", "320x180", "160x90"];
 
 const run = new LiveRun(), parameters = new Parameters(part("parameters"), changeParameter);
@@ -49,11 +50,7 @@ function showFrame(shown) {
   part("no-hashes").hidden = hasLines;
   part("hashes").hidden = !hasLines;
   part("no-hashes").textContent = hasLines ? "" : "This frame's buffers went to the port and were not hashed. The next step has its lines again.";
-  const rows = (shown.lines ?? []).map(line => {
-    const row = document.createElement("tr"), [, ...cells] = line.split(" ");
-    row.append(...cells.map(text => Object.assign(document.createElement("td"), {textContent: text})));
-    return row;
-  });
+  const rows = (shown.lines ?? []).map(line => element("tr", {}, line.split(" ").slice(1).map(text => element("td", {}, text))));
   part("hashes").tBodies[0].replaceChildren(...rows);
   showCommand();
 }
@@ -142,7 +139,7 @@ async function open(scene, options) {
   const known = shipped.find(s => s.path === scene.path);
   part("scene").value = known?.path ?? "";
   part("about").textContent = known?.sentence ?? `${scene.file}: a scene of yours.`;
-  part("warnings").replaceChildren(...run.info.warnings.map(text => Object.assign(document.createElement("li"), {textContent: text})));
+  part("warnings").replaceChildren(...run.info.warnings.map(text => element("li", {}, text)));
   part("warnings").hidden = run.info.warnings.length === 0;
   for (const id of ["scene", "variant", "save", "play", "step", "reset"]) part(id).disabled = false;
   comparison.ready();
@@ -256,9 +253,8 @@ part("files").onchange = () => openFiles(part("files").files).then(() => { part(
 part("open-text").onclick = () => open({...run.scene, path: null, text: part("text").value});
 part("find").oninput = () => parameters.find(part("find").value);
 part("save").onclick = () => {
-  const link = document.createElement("a"), address = URL.createObjectURL(new Blob([tomlOf(run.values, run.description)], {type: "application/toml"}));
-  Object.assign(link, {href: address, download: `${run.info.effect}.toml`});
-  link.click();
+  const address = URL.createObjectURL(new Blob([tomlOf(run.values, run.description)], {type: "application/toml"}));
+  element("a", {href: address, download: `${run.info.effect}.toml`}).click();
   URL.revokeObjectURL(address);
 };
 part("copy").onclick = async () => {
@@ -280,7 +276,7 @@ addEventListener("drop", event => {
 function showSceneList() {
   const groups = new Map();
   for (const {path, effect, error} of shipped) {
-    if (!groups.has(effect)) groups.set(effect, Object.assign(document.createElement("optgroup"), {label: effect.replaceAll("_", " ")}));
+    if (!groups.has(effect)) groups.set(effect, element("optgroup", {label: effect.replaceAll("_", " ")}));
     const entry = option(error ? `${path} (not here: ${error})` : path, path);
     entry.disabled = Boolean(error);
     groups.get(effect).append(entry);

@@ -1,6 +1,7 @@
 // A port of a pass beside the reference: the example program on this device's GPU with the inputs of the frame that the reference computes next.
 import {requestDevice, runCase} from "./ports/port.js";
 import {shaderOf} from "./ports/run_pack.js";
+import {element} from "./report_words.js";
 import {channelsOf, differenceOf, differingOf, pixelsOf} from "./texels.js";
 
 const part = id => document.getElementById(id);
@@ -90,7 +91,7 @@ export class Comparison {
       + `${differing.toLocaleString("en")} of ${count(texels, "texel or record", "texels or records")} ${differing === 1 ? "differs" : "differ"} in bits, `
       + `${count(verdict.outside, "channel is", "channels are")} outside what the profile allows.${verdict.reason ? ` ${verdict.reason}` : ""}`;
     const images = this.#outcome.entry.oneCase.outputs.filter(buffer => buffer.format !== "records");
-    part("output").replaceChildren(...images.map(({name}) => Object.assign(document.createElement("option"), {textContent: name})));
+    part("output").replaceChildren(...images.map(({name}) => element("option", {}, name)));
     part("output-label").hidden = images.length < 2;
     document.querySelector(".three").hidden = images.length === 0;
     part("comparison").hidden = false;

@@ -10,9 +10,11 @@ Object.assign(structs, {
   rr_layout_info: [["name", "text"], ["bytes", "size"], ["members", "size"]],
   rr_member: [["name", "text"], ["unit", "text"], ["sentence", "text"], ["type", "i32"], ["components", "i32"], ["offset", "size"], ["low", "f64"],
               ["high", "f64"]],
-  rr_judge_options: [["profile", "text"], ["port", "text"], ["half", "text"], ["threads", "i32"], ["strict", "i32"]],
+  rr_judge_options: [["profile", "text"], ["port", "text"], ["half", "text"], ["threads", "i32"], ["strict", "i32"],
+                     ["exhaustive", "i32"]],
   rr_pass_verdict: [["pass", "text"], ["formula", "text"], ["status", "text"], ["reason", "text"], ["where", "text"], ["cases", "i64"],
-                    ["elements", "i64"], ["outside", "i64"], ["differing", "i64"], ["vacuous", "i64"], ["causes", "size"], ["worst", "size"]],
+                    ["elements", "i64"], ["outside", "i64"], ["differing", "i64"], ["vacuous", "i64"], ["causes", "size"], ["worst", "size"],
+                    ["sampled", "i64"]],
 });
 
 let simulation = 0;

@@ -1,4 +1,6 @@
 // What came of judging: the verdict in a line, the report as the library writes it, and files of it.
+import {element, pill, summary} from "./report_words.js";
+
 export class Outcome {
   #verdict;
   #box;
@@ -10,17 +12,11 @@ export class Outcome {
     [this.#verdict, this.#box, this.#frame] = [verdict, box, frame];
   }
 
-  /// result: {status, text, json, html, junit}. `name` begins the names of files.
+  /// result: {text, json, html, junit}. `name` begins the names of files.
   show(result, name) {
     this.clear();
-    const {status, reason, passes, first_bad_pass: first} = JSON.parse(result.json), bad = passes.find(p => p.pass === first);
-    const line = element("div", "line", ""), pill = element("span", "pill", status), cause = bad?.causes[0];
-    pill.dataset.status = status;
-    line.append(pill);
-    const words = bad ? [`${bad.pass} is the first bad pass.`, cause ? `${cause.is_likely ? "Likely cause" : "The cause may be"}: ${cause.name}.` : ""]
-                      : [reason ? `${reason}.` : passes.length === 1 ? `${passes[0].pass}.` : `${passes.length} passes.`];
-    line.append(element("span", "", words.filter(word => word).join(" ")));
-    this.#verdict.replaceChildren(line);
+    const report = JSON.parse(result.json), words = element("span", {}, summary(report)).textContent;  // its links lead into the report
+    this.#verdict.replaceChildren(element("div", {class: "line"}, pill(report.status), element("span", {}, words)));
     for (const [kind, ending, type] of [["html", "html", "text/html"], ["json", "json", "application/json"], ["junit", "xml", "application/xml"], ["text", "txt", "text/plain"]]) {
       const url = URL.createObjectURL(new Blob([result[kind]], {type: `${type};charset=utf-8`})), link = document.getElementById(`save-${kind}`);
       this.#urls.push(url);
@@ -33,12 +29,12 @@ export class Outcome {
   /// A sentence that is no verdict.
   note(text) {
     this.clear();
-    this.#verdict.replaceChildren(element("p", "dim", text));
+    this.#verdict.replaceChildren(element("p", {class: "dim"}, text));
   }
   /// What could not be judged, and why.
   fail(message) {
     this.clear();
-    this.#verdict.replaceChildren(element("pre", "error", message));
+    this.#verdict.replaceChildren(element("pre", {class: "error"}, message));
   }
   clear() {
     for (const url of this.#urls.splice(0)) URL.revokeObjectURL(url);
@@ -46,11 +42,4 @@ export class Outcome {
     this.#verdict.replaceChildren();
     this.#box.hidden = true;
   }
-}
-
-function element(name, className, text) {
-  const made = document.createElement(name);
-  made.className = className;
-  made.textContent = text;
-  return made;
 }

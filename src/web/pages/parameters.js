@@ -1,12 +1,6 @@
 // Controls for the parameters of an effect, made from what rr_describe says of them, in groups by section.
+import {element} from "./report_words.js";
 import {shownValue, tomlValue} from "./scene_values.js";
-
-function element(name, content = [], attributes = {}) {
-  const made = document.createElement(name);
-  made.append(...[content].flat());
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  return made;
-}
 
 // These have controls of their own.
 const elsewhere = new Set(["effect", "variant", "run.size", "run.frames"]);
@@ -51,7 +45,7 @@ export class Parameters {
     const place = section => order.includes(section) ? order.indexOf(section) - order.length : 1 + last.indexOf(section);
     const sorted = [...groups].sort(([a], [b]) => place(a) - place(b));
     this.#root.replaceChildren(...sorted.map(([section, rows], k) => {
-      const details = element("details", [element("summary", section.replaceAll("_", " ")), ...rows]);
+      const details = element("details", {}, element("summary", {}, section.replaceAll("_", " ")), rows);
       details.open = k === 0 && rows.length < 24 || section === "rain";
       details.dataset.section = section;
       return details;
@@ -79,7 +73,7 @@ export class Parameters {
   #row(parameter, variant) {
     const {name, type, unit, minimum, maximum, sentence} = parameter;
     const standard = parameter.variant_defaults?.[variant] ?? parameter.default, id = `parameter-${name}`;
-    const error = element("p", [], {class: "error", role: "alert"}), inputs = element("div", [], {class: "inputs"});
+    const error = element("p", {class: "error", role: "alert"}), inputs = element("div", {class: "inputs"});
     error.hidden = true;
     const range = minimum === null ? "" : ` From ${minimum} to ${maximum}.`, isVector = Array.isArray(standard);
     const tip = `${sentence}${range}${standard === null ? "" : ` Default: ${isVector ? standard.join(", ") : standard}.`}`;
@@ -90,7 +84,7 @@ export class Parameters {
       } catch (failure) {
         error.replaceChildren(failure.message);
         if (failure.restart) {
-          const again = element("button", "Restart with this value", {type: "button"});
+          const again = element("button", {type: "button"}, "Restart with this value");
           again.onclick = () => { failure.restart().catch(({message}) => error.replaceChildren(message)); };
           error.append(" ", again);
         }
@@ -99,11 +93,9 @@ export class Parameters {
     };
     const show = this.#inputs(parameter, standard, id, inputs, change);
     const shownUnit = unit === "" || unit === "1" ? "" : unit;
-    const row = element("div", [
-      element("div", [element("label", name.slice(name.indexOf(".") + 1).replaceAll("_", " "), {for: id, class: "name"}), element("span", shownUnit, {class: "unit"})],
-              {class: "top-line"}),
-      inputs, error, element("p", sentence, {class: "sentence"}),
-    ], {class: "parameter", title: tip, "data-key": name});
+    const row = element("div", {class: "parameter", title: tip, "data-key": name},
+      element("div", {class: "top-line"}, element("label", {for: id, class: "name"}, name.slice(name.indexOf(".") + 1).replaceAll("_", " ")), element("span", {class: "unit"}, shownUnit)),
+      inputs, error, element("p", {class: "sentence"}, sentence));
     const showAll = toml => {
       show(toml);
       error.hidden = true;
@@ -118,7 +110,7 @@ export class Parameters {
     const {type, minimum, maximum, choices} = parameter;
     if (choices || type === "boolean") {  // an integer may have choices, too
       const isFlag = type === "boolean";
-      const input = isFlag ? element("input", [], {type: "checkbox", id}) : element("select", choices.map(choice => element("option", choice)), {id});
+      const input = isFlag ? element("input", {type: "checkbox", id}) : element("select", {id}, choices.map(choice => element("option", {}, choice)));
       input.onchange = () => change(isFlag ? String(input.checked) : tomlValue(type, input.value));
       inputs.append(input);
       return toml => {
@@ -126,7 +118,7 @@ export class Parameters {
         else input.value = shownValue(type, toml);
       };
     }
-    const field = element("input", [], {type: "text", id, autocomplete: "off", spellcheck: "false"});
+    const field = element("input", {type: "text", id, autocomplete: "off", spellcheck: "false"});
     const hasSlider = (type === "real" || type === "integer") && minimum !== null && maximum < 1e15 && standard !== null;
     field.classList.toggle("whole", !hasSlider);
     if (type === "real" || type === "integer") field.inputMode = minimum >= 0 ? "decimal" : "text";
@@ -134,7 +126,7 @@ export class Parameters {
     inputs.append(field);
     if (!hasSlider) return toml => { field.value = shownValue(type, toml); };
     const scale = scaleOf(parameter, standard);
-    const slider = element("input", [], {type: "range", min: 0, max: sliderSteps, step: 1, "aria-label": parameter.name});
+    const slider = element("input", {type: "range", min: 0, max: sliderSteps, step: 1, "aria-label": parameter.name});
     inputs.prepend(slider);
     slider.oninput = () => {
       field.value = scale.toValue(Number(slider.value));

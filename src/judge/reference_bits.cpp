@@ -1,0 +1,78 @@
+#include "judge/reference_bits.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "judge/reference_outputs.h"
+#include "math/scalar.h"
+
+namespace rainref::judge {
+
+using capture::Array;
+
+namespace {
+
+/// Whether a stored value lies below the largest of its format: beyond that a profile says what a store may do.
+bool is_below_largest(FormatInfo::Kind kind, const std::byte* at) {
+  if (kind != FormatInfo::float16 && kind != FormatInfo::float32) return true;
+  const std::int64_t code = enclosed::ordered_code(kind, at), largest = kind == FormatInfo::float16 ? 0x7bff : 0x7f7fffff;
+  return -largest < code && code < largest;
+}
+
+}  // namespace
+
+ReferenceBits::ReferenceBits(const capture::PassCase& c, const capture::PassModel& model, const std::vector<Array>& port,
+                             const std::vector<Slot>& slots, const std::vector<HalfMode>& modes)
+    : case_(c), model_(model), port_(port), slots_(slots), modes_(modes) {}
+
+bool ReferenceBits::is_own(HalfMode mode) const {
+  return std::all_of(slots_.begin(), slots_.end(), [&](const Slot& s) { return rounding_of(s, mode) == s.store_rounding; });
+}
+bool ReferenceBits::has_reference(HalfMode mode) const { return is_own(mode) || !(model_.rounds_inside() || model_.needs_port()); }
+
+void ReferenceBits::prepare(const Sample& sample, const parallel::Executor& executor, bool every) {
+  const std::size_t roundings = std::min<std::size_t>(2, modes_.size());
+  if (roundings == 2) {
+    std::array<std::int64_t, 2> counts{};
+    std::vector<scalar::Scalar<float>> values(slots_.size());
+    constexpr std::int64_t step = 16;
+    sample.each(step, [&](int x, int y) {
+      model_.evaluate(x, y, values.data());
+      for (std::size_t m = 0; m < 2; ++m) {
+        bool is_equal = has_reference(modes_[m]);
+        for (std::size_t v = 0; v < slots_.size() && is_equal; ++v) {
+          const Slot& s = slots_[v];
+          std::array<std::byte, 4> stored{};
+          store_value(s, values[v].v, rounding_of(s, modes_[m]), stored.data());
+          is_equal = std::memcmp(stored.data(), s.at(port_[static_cast<std::size_t>(s.output)], x, y),
+                                 static_cast<std::size_t>(s.channel_bytes)) == 0;
+        }
+        counts[m] += is_equal;
+      }
+    });
+    leading_ = counts[1] > counts[0] ? 1 : 0;
+    if (!has_reference(modes_[leading_])) leading_ = 1 - leading_;
+  }
+  for (std::size_t m = 0; m < roundings; ++m)
+    if ((every || m == leading_) && has_reference(modes_[m]) && !is_own(modes_[m]))
+      other_[m] = reference_outputs(case_, model_, executor, modes_[m]);
+}
+
+template <class ArrayOf>
+bool ReferenceBits::equals(const ArrayOf& reference, int x, int y) const {
+  return std::all_of(slots_.begin(), slots_.end(), [&](const Slot& s) {
+    const auto o = static_cast<std::size_t>(s.output);
+    const std::byte *want = s.at(reference(o), x, y), *have = s.at(port_[o], x, y);
+    return std::memcmp(want, have, static_cast<std::size_t>(s.channel_bytes)) == 0 && is_below_largest(s.kind, have);
+  });
+}
+bool ReferenceBits::has(std::size_t mode, int x, int y) const {
+  const auto is_own_stored = [&] { return equals([&](std::size_t o) -> const Array& { return case_.outputs[o].array; }, x, y); };
+  const auto is_other_stored = [&](std::size_t m) {
+    return !other_[m].empty() && equals([&](std::size_t o) -> const Array& { return other_[m][o]; }, x, y);
+  };
+  if (modes_[mode] == HalfMode::either) return is_own_stored() || is_other_stored(0) || is_other_stored(1);
+  return is_own(modes_[mode]) ? is_own_stored() : is_other_stored(mode);
+}
+
+}  // namespace rainref::judge

@@ -1,0 +1,61 @@
+// A place that pictures can be made of: what stands for the surroundings of a scene that names no pictures.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "scene/camera.h"
+
+namespace rainref::scene {
+
+/// An emissive sphere: street lamp, headlight, tail light or traffic signal. For glints.
+struct Lamp {
+  Vector3 position;               ///< centre, metres
+  std::array<float, 3> radiance;  ///< linear RGB, relative
+  double radius;                  ///< metres
+};
+
+/// A place to look at. Right-handed, y up, metres: a road (y = 0) along z around x = 0. Radiance is linear, relative: 1 displays as white
+/// at exposure 0. Immutable; the members may be called from several threads at once, and give the same bits whatever the threads.
+class Scenery {
+ public:
+  /// What one ray sees.
+  struct Sight {
+    Vector3 radiance;  ///< linear
+    double distance;   ///< metres to the surface that it met; infinite for the sky
+  };
+  struct View {
+    Image colour;  ///< rgba32f, linear radiance, alpha 1
+    Image depth;   ///< r32f, metres along the view axis at the texel centre; `far` for sky and whatever lies beyond
+  };
+  /// Rays of a texel where its neighbours differ.
+  enum class Parts : std::uint8_t { nine, three };
+
+  virtual ~Scenery() = default;
+  /// Tells it from other sceneries, for what is kept of it.
+  virtual std::string_view name() const = 0;
+  /// Every emissive sphere, in a fixed order.
+  virtual const std::vector<Lamp>& lamps() const = 0;
+  /// What is seen from `origin` along `direction`, which is unit: one ray, not a texel. Under a FloatingPointGuard.
+  virtual Sight look(const Vector3& origin, const Vector3& direction) const = 0;
+  /// Latitude/longitude panorama seen from `eye`, rgba32f linear radiance, alpha 1. Row 0 = v 0 = straight down (-y) ... last row =
+  /// straight up (+y); u = 0.5 + atan2(z, x) / (2 pi).
+  virtual Image panorama(int width, int height, const Vector3& eye, const parallel::Executor& executor) const = 0;
+  /// What a camera sees; row 0 = bottom (v = 0). Throws Error(usage) when `far` is not positive and finite.
+  virtual View view(const Camera& camera, int width, int height, double far, const parallel::Executor& executor,
+                    Parts parts = Parts::nine) const = 0;
+};
+
+struct SceneryOptions {
+  std::uint64_t seed = 1;
+  bool clear_lane = false;  ///< no car stands in the lane x > 0, for one that drives along it
+};
+/// Makes one, or finds it among those that the process remembers.
+using MakeScenery = std::shared_ptr<const Scenery> (*)(const SceneryOptions& options);
+
+}  // namespace rainref::scene
