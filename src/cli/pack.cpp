@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,6 +17,7 @@
 #include "capture/pack_read.h"
 #include "capture/pack_write.h"
 #include "cli/commands.h"
+#include "cli/pack_frames.h"
 #include "cli/progress.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
@@ -60,54 +64,6 @@ void require_lossless(const effect::Inputs& inputs) {
 /// arrive every second or so.
 constexpr int frames_beyond = 120;
 
-/// The frames to take of each pass: those asked for in which it runs; where there is none, the first in which it does.
-class Frames : public Recorder {
- public:
-  /// Runs the scene beforehand, until each pass has run in a frame asked for; to the last of these, and on to the end of the run while
-  /// some of the passes have not run.
-  Frames(simulation::Opened scene, const std::vector<int>& asked, const std::vector<std::string>& passes) : asked_(asked) {
-    const int longest = std::max(asked.back() + 1, static_cast<int>(scene.config().integer("run.frames")));
-    const auto has_run = [&](const std::string& pass) { return first_.contains(pass); };
-    for (int frame = 0; frame < longest; ++frame) {
-      if (std::all_of(passes.begin(), passes.end(), [&](const std::string& pass) { return runs_when_asked_.contains(pass); })) break;
-      if (frame > asked.back() && std::all_of(passes.begin(), passes.end(), has_run)) break;
-      scene.next_frame(this);
-    }
-    for (const std::string& pass : passes) {
-      if (!has_run(pass))
-        say("left out: {} does not run in the first {}\n", pass, counted(longest, "frame"));
-      else if (!runs_when_asked_.contains(pass))
-        say("added: frame {}, the first in which {} runs\n", first_.at(pass), pass);
-    }
-  }
-  bool reads(int, std::string_view) const override { return false; }
-  void pass(const PassCall& call) override {
-    first_.try_emplace(std::string(call.pass), call.frame);
-    if (is_asked(call.frame)) runs_when_asked_.emplace(call.pass);
-  }
-
-  bool has(std::string_view pass) const { return first_.find(pass) != first_.end(); }
-  void add(const std::string& pass, int frame) { added_[pass] = frame; }
-  bool are_wanted(int frame, std::string_view pass) const {
-    if (const auto added = added_.find(pass); added != added_.end() && added->second == frame) return true;
-    return runs_when_asked_.find(pass) != runs_when_asked_.end() ? is_asked(frame) : has(pass) && first_.find(pass)->second == frame;
-  }
-  /// Of all passes.
-  int last(const std::vector<std::string>& passes) const {
-    int last = 0;
-    for (const std::string& pass : passes) last = std::max(last, runs_when_asked_.contains(pass) ? asked_.back() : first_.at(pass));
-    for (const auto& [pass, frame] : added_) last = std::max(last, frame);
-    return last;
-  }
-
- private:
-  bool is_asked(int frame) const { return std::binary_search(asked_.begin(), asked_.end(), frame); }
-
-  const std::vector<int>& asked_;
-  std::map<std::string, int, std::less<>> first_, added_;
-  std::set<std::string, std::less<>> runs_when_asked_;
-};
-
 /// Binds a case, and whether a port that does nothing passes it too.
 void try_null_ports(const std::string& effect, const capture::PassCase& c, const parallel::Executor& executor, judge::NullPorts& ports) {
   const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, judge::binder(effect, c.pass), c);
@@ -125,9 +81,11 @@ std::map<std::string, judge::NullPorts> idle_passes(const std::filesystem::path&
 /// A pack of the frames, and what it holds.
 class Packing {
  public:
+  /// `fresh`: the scene, of which no frame was made.
   Packing(const scene::Config& config, const PackOptions& options, const parallel::Executor& executor, std::vector<std::string> passes,
-          Frames& frames)
-      : config_(config),
+          Frames& frames, simulation::Opened fresh)
+      : fresh_(std::move(fresh)),
+        config_(config),
         options_(options),
         executor_(executor),
         info_(*registry::find(config.effect())->info),
@@ -152,11 +110,17 @@ class Packing {
       exercised[c.pass].add(judge::coverage_of(c, model.get(), executor_, judge::least_sample));
     });
     const int count = frames_.last(passes_) + 1;
-    simulation::Opened opened(config_, executor_);
+    simulation::Opened opened = fresh_ ? *std::exchange(fresh_, std::nullopt) : simulation::Opened(config_, executor_);
+    opened.show(false);
     Progress progress(config_.effect(), count);
     for (int frame = 0; frame < count; ++frame) {
-      opened.next_frame(&recorder);
+      go_on(opened, recorder, std::any_of(passes_.begin(), passes_.end(), [&](const std::string& pass) { return wanted(frame, pass); }));
       progress.advance();
+    }
+    if (std::any_of(passes_.begin(), passes_.end(), [&](const std::string& pass) { return !exercised.contains(pass); })) {
+      // The small pictures were taken to tell the frames, and this scene has others.
+      frames_.follow(simulation::Opened(config_, executor_), passes_);
+      return write();
     }
     not_exercised_.clear();
     for (const std::string& pass : passes_) {
@@ -193,7 +157,11 @@ class Packing {
       if (with_this_frame.passing().empty()) found.emplace(c.pass, c.frame);
     });
     simulation::Opened opened(config_, executor_);
-    for (int frame = 0; frame < end && found.size() < idle.size(); ++frame) opened.next_frame(&recorder);
+    opened.show(false);
+    for (int frame = 0; frame < end && found.size() < idle.size(); ++frame)
+      go_on(opened, recorder, std::any_of(idle.begin(), idle.end(), [&](const auto& pass) {
+              return frames_.is_rendered(pass.first) && !found.contains(pass.first);
+            }));
     for (const auto& [pass, frame] : found) {
       say("added: frame {}, the first in which {} does more than a port that does nothing\n", frame, pass);
       frames_.add(pass, frame);
@@ -203,6 +171,7 @@ class Packing {
   }
 
  private:
+  std::optional<simulation::Opened> fresh_;  // till the first write()
   const scene::Config& config_;
   const PackOptions& options_;
   const parallel::Executor& executor_;
@@ -225,10 +194,17 @@ int pack(const PackOptions& options) {
   require_memory(memory);
   simulation::Opened first = open_scene(config, executor);
   require_lossless(first.inputs());
-  Frames frames(std::move(first), options.frames, passes);
+  Frames frames(options.frames);
+  try {
+    frames.follow(simulation::Opened(at_small_size(config), executor), passes);
+  } catch (const Error&) {
+    // Pictures of the scene may be of one size alone.
+    frames.follow(simulation::Opened(config, executor), passes);
+  }
+  frames.tell(passes);
   std::erase_if(passes, [&](const std::string& pass) { return !frames.has(pass); });
   if (passes.empty()) throw Error(ExitCode::usage, "--passes: expected one that runs in this scene, found none");
-  Packing packing(config, options, executor, passes, frames);
+  Packing packing(config, options, executor, passes, frames, std::move(first));
   capture::PackWriter::Total total = packing.write();
   std::map<std::string, judge::NullPorts> idle = idle_passes(options.output, executor);
   if (!idle.empty() && options.may_add_frames) {

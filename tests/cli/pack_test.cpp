@@ -7,6 +7,7 @@
 #include "cli/support.h"
 #include "image_io/tiny_files.h"
 #include "math/simd_target.h"
+#include "shipped_packs.h"
 
 namespace rainref::cli {
 namespace {
@@ -86,6 +87,16 @@ TEST_F(PackVerb, FramesAndPassesAreChosen) {
   EXPECT_THAT(ids("p"), ElementsAre("puddle.wave_step/0001.0", "puddle.wave_step/0001.1", "puddle.wave_step/0001.2",
                                     "puddle.wave_step/0001.3", "puddle.shade/0001.0", "puddle.wave_step/0003.0", "puddle.wave_step/0003.1",
                                     "puddle.wave_step/0003.2", "puddle.wave_step/0003.3", "puddle.shade/0003.0"));
+}
+
+// Pictures of frames that are not taken are not made; what they leave behind, streaks on their way and a fading mask, is.
+TEST_F(PackVerb, AFrameIsTheSameWhicheverOthersAreTaken) {
+  const std::string scene = rainref::test::pack_scene("windshield-trails").string();
+  ASSERT_EQ(rainref({"pack", scene, "-o", "few", "--at", "6"}).code, 0);
+  ASSERT_EQ(rainref({"pack", scene, "-o", "all", "--at", "0,1,2,3,4,5,6"}).code, 0);
+  const std::vector<std::string> few = hash_lines(read("few"));
+  EXPECT_GT(few.size(), 8u);
+  EXPECT_THAT(few, testing::IsSubsetOf(hash_lines(read("all"))));
 }
 
 // A scene without wipers runs wipe_drops, which moves no drop: a port that copies its input would pass, so nothing is said of it, unless
