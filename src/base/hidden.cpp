@@ -116,14 +116,14 @@ Hidden::~Hidden() {
 
 void Hidden::remove() noexcept {
   std::error_code ignored;
-  if (!path_.empty()) fs::remove_all(path_, ignored);
-  path_.clear();
+  if (!is_gone_) fs::remove_all(path_, ignored);
+  is_gone_ = true;
 }
 
 void Hidden::become(const fs::path& target) {
   const Uninterrupted scope;
   if (std::rename(path_.c_str(), target.c_str()) != 0) throw_system_error(errno);
-  path_.clear();
+  is_gone_ = true;
 }
 
 void Hidden::replace(const fs::path& target) {
@@ -134,10 +134,10 @@ void Hidden::replace(const fs::path& target) {
   if (std::rename(target.c_str(), old.c_str()) != 0) throw_system_error(errno);
   if (std::rename(path_.c_str(), target.c_str()) != 0) {
     const int error = errno;
-    if (std::rename(old.c_str(), target.c_str()) != 0) holder.path_.clear();  // stays, with the old folder in it
+    if (std::rename(old.c_str(), target.c_str()) != 0) holder.is_gone_ = true;  // stays, with the old folder in it
     throw_system_error(error);
   }
-  path_.clear();
+  is_gone_ = true;
 }
 
 bool is_hidden_name(std::string_view name) { return has_hidden_form(name, making); }

@@ -44,7 +44,8 @@ class Hidden {
   bool make(Kind kind);
   void remove() noexcept;
 
-  std::filesystem::path path_;
+  std::filesystem::path path_;  // as made, to the end: an interruption comes while the owner reads it
+  bool is_gone_ = false;        // removed, or under another name; inside an Uninterrupted scope alone
   int descriptor_ = -1;
   std::optional<Undo> undo_;
 };

@@ -1,6 +1,8 @@
 // What is written under a hidden name goes with its object or gets its name; what a killed process left is removed.
 #include "base/hidden.h"
 
+#include <thread>
+
 #include <gmock/gmock.h>
 
 #include "base/child_process.h"
@@ -82,6 +84,19 @@ TEST(Hidden, GoesOnAnInterruption) {
   EXPECT_EQ(at.names().size(), 3u);
   EXPECT_EQ(child.end(SIGINT), -SIGINT);
   EXPECT_THAT(at.names(), IsEmpty());
+}
+
+// The owner may be writing at that moment: with no path its files would come into the current folder.
+TEST(Hidden, KeepsItsPathWhenAnInterruptionRemovesIt) {
+  const TemporaryFolder at;
+  ChildProcess child([&] {
+    const Hidden folder(at.path(), Hidden::Kind::folder);
+    const fs::path before = folder.path();
+    std::thread(undo_all).join();
+    ::_exit(folder.path() == before && !fs::exists(before) ? 0 : 1);  // the end of the object would wait for ever
+    return 2;
+  });
+  EXPECT_EQ(child.wait(), 0);
 }
 
 // A killed process cannot clean up. What a living one writes is never taken for left over.
