@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -118,8 +116,9 @@ class Packing {
       progress.advance();
     }
     if (std::any_of(passes_.begin(), passes_.end(), [&](const std::string& pass) { return !exercised.contains(pass); })) {
-      // The small pictures were taken to tell the frames, and this scene has others.
+      // The small pictures were to tell the frames, but at this size passes run in others, or not at all.
       frames_.follow(simulation::Opened(config_, executor_), passes_);
+      std::erase_if(passes_, [&](const std::string& pass) { return !frames_.has(pass); });
       return write();
     }
     not_exercised_.clear();
