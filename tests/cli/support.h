@@ -43,8 +43,9 @@ struct Outcome {
   long peak_kib = 0;  ///< most memory held
 };
 
-/// A copy of a process with threads waits for ever under GCC's address sanitizer, where one of them was in its allocator.
-#ifdef __SANITIZE_ADDRESS__
+/// A copy of a process with threads waits for ever under GCC's address sanitizer, where one of them was in its allocator; under its thread
+/// sanitizer it may start no thread.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool forks_hang = true;
 #else
 constexpr bool forks_hang = false;
