@@ -2,10 +2,8 @@
 
 #include <span>
 
-#include "blur_pyramid/scalar.h"
 #include "math/half_array.h"
 #include "pass/info.h"
-#include "pass/model.h"
 #include "rainref/error.h"
 
 namespace rainref::blur_pyramid {
@@ -109,9 +107,6 @@ std::vector<capture::BufferInfo> blur_buffers() {
        .alpha = "unused"},
       {.name = "scene_depth", .format = "r32f", .sentence = "Distance of the scene along the view axis.", .unit = "m", .range = {0, 1000}},
       pass::buffers_of<HalvePass>().front()};
-}
-std::unique_ptr<capture::PassModel> bind_blur(const capture::PassCase& c) {
-  return c.level == 0 ? pass::bind<FogPass, scalar::FogPassText>(c) : pass::bind<HalvePass, scalar::HalvePassText>(c);
 }
 
 }  // namespace rainref::blur_pyramid

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "capture/pass_info.h"
-#include "capture/pass_model.h"
 #include "effect/inputs.h"
 #include "effect/instance.h"
 #include "effect/run_memory.h"
@@ -20,8 +19,7 @@ struct Effect {
   std::string name;
   std::vector<std::string> variants;
   std::span<const scene::Parameter> parameters;              ///< its own; what every scene may say comes on top
-  const capture::EffectInfo* info;                           ///< passes, buffers, layouts
-  const std::vector<capture::PassEvaluations>* evaluations;  ///< what the judge evaluates
+  const capture::EffectInfo* info;                 ///< passes, buffers, layouts
   /// What a scene takes: the effect, the pictures made for it.
   RunMemory (*memory)(const scene::Config& config);
   /// Reads the scene's input files, which are added to `inputs`, and builds the effect. Throws Error naming key, expected and found.

@@ -37,9 +37,9 @@ bool shows(const Probe& p, std::int32_t node, const Formula& formula) {
   return false;
 }
 
-class Adder {
+class EditAdder {
  public:
-  Adder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
+  EditAdder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
       : out_(out), known_(std::make_shared<const std::vector<float>>(known)), most_(most) {}
   bool is_full() const { return made_ >= most_; }
   /// For what is asked after all else: a tenth more.
@@ -119,7 +119,7 @@ bool is_of_function(Kind kind) {
 
 /// Adds what edits_at(node) gives of each place, from the results to what they are made of.
 template <class EditsAt>
-void each_place(Adder& add, const Probe& p, const EditsAt& edits_at) {
+void each_place(EditAdder& add, const Probe& p, const EditsAt& edits_at) {
   for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
     const Node& n = node_of(p, at);
     if (is_leaf(n.op)) continue;
@@ -140,7 +140,7 @@ void each_place(Adder& add, const Probe& p, const EditsAt& edits_at) {
 
 void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most,
                      bool copies, const std::vector<Probe>& all) {
-  Adder add(out, known, most);
+  EditAdder add(out, known, most);
   for (const Probe& p : probes) {
     const std::vector<Nodes> vectors = vector_groups_of(p);
     for (const Nodes& v : vectors) {

@@ -54,9 +54,9 @@ void drop_first_level(Array& a) {
   a.height = a.height > 1 ? a.height / 2 : 1;
 }
 
-class Adder {
+class InputAdder {
  public:
-  Adder(std::vector<Fault>& out, const PassCase& c) : out_(out), c_(c) {}
+  InputAdder(std::vector<Fault>& out, const PassCase& c) : out_(out), c_(c) {}
 
   void add(Kind kind, std::vector<std::string> of, std::function<void(PassCase&)> alter) const {
     out_.emplace_back(What{kind, std::move(of)}).alter_case = std::move(alter);
@@ -176,7 +176,7 @@ class Adder {
 }  // namespace
 
 void add_scaled_inputs(std::vector<Fault>& out, const Probed& p) {
-  const Adder add(out, p.c);
+  const InputAdder add(out, p.c);
   for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
     if (p.c.inputs[i].array.is_records) continue;
     const auto scaled = [&](Kind kind, double by) {
@@ -191,7 +191,7 @@ void add_scaled_inputs(std::vector<Fault>& out, const Probed& p) {
 }
 
 void add_input_mixups(std::vector<Fault>& out, const Probed& p, bool images) {
-  const Adder add(out, p.c);
+  const InputAdder add(out, p.c);
   const std::string other = p.c.corrected() ? "as-published" : "corrected";
   add.add(Kind::other_formula, {other, p.c.variant}, [other](PassCase& c) { c.variant = other; });
   const std::vector<CaseInput>& all = p.c.inputs;

@@ -81,7 +81,7 @@ Ids present(const List& list, const ListEdit& e) {
 
 }  // namespace
 
-void add_events(Adder& a) {
+void add_events(ListAdder& a) {
   a.add(Kind::list_without_record, [](const List& list, const PassCase&, ListEdit& e) {
     const Ids at = present(list, e);
     const std::set<std::uint32_t> lost(at.begin(), at.end());

@@ -43,7 +43,7 @@ std::size_t List::place(const Records& records, std::uint32_t of) const {
                                   records.begin());
 }
 
-Fault& Adder::add(Kind kind, Alter alter, std::vector<std::string> more) {
+Fault& ListAdder::add(Kind kind, Alter alter, std::vector<std::string> more) {
   more.insert(more.begin(), list_.name);
   Fault& d = out_.emplace_back(What{kind, std::move(more)}, false);
   d.list_output = static_cast<int>(list_.output);

@@ -52,7 +52,7 @@ void permute_as_port(const List& list, ListEdit& e) {
   }
 }
 
-void add_orders(Adder& a) {
+void add_orders(ListAdder& a) {
   a.add(Kind::list_in_another_order, [](const List&, const PassCase&, ListEdit& e) {
      std::reverse(e.records.begin(), e.records.end());
      return e.records.size() > 1;
@@ -105,7 +105,7 @@ void add_orders(Adder& a) {
 }
 
 // ---- fields --------------------------------------------------------------------------------------------------------
-void add_fields(Adder& a, bool has_input) {
+void add_fields(ListAdder& a, bool has_input) {
   // change(record, all right records, its number): of each record.
   const auto each = [&](Kind kind, std::vector<std::string> more, auto change) -> Fault& {
     const auto alter = [change](const List&, const PassCase&, ListEdit& e) {
@@ -170,7 +170,7 @@ void add_fields(Adder& a, bool has_input) {
 }
 
 // ---- time ----------------------------------------------------------------------------------------------------------
-void add_times(std::vector<Fault>& out, Adder& a, const PassCase& c, bool has_input, const PassCase* before) {
+void add_times(std::vector<Fault>& out, ListAdder& a, const PassCase& c, bool has_input, const PassCase* before) {
   const std::string name = a.list().name;
   if (has_input) {
     a.add(Kind::list_one_step_late, [](const List& list, const PassCase& taken, ListEdit& e) {
@@ -196,7 +196,7 @@ void add_times(std::vector<Fault>& out, Adder& a, const PassCase& c, bool has_in
 
 void add_list_faults(std::vector<Fault>& out, const PassCase& c, const PassCase* before) {
   for (const std::size_t o : keyed_outputs(c)) {
-    Adder a(out, List(c, o));
+    ListAdder a(out, List(c, o));
     const capture::CaseInput* in = c.input(c.outputs[o].name);
     const bool has_input = in && in->array.is_records && in->array.record.size == c.outputs[o].array.record.size;
     // Of mistakes that give the same bits the first one is named: all of a list before some of it.

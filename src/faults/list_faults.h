@@ -79,9 +79,9 @@ struct List {
 };
 
 /// Adds mistakes in one list.
-class Adder {
+class ListAdder {
  public:
-  Adder(std::vector<Fault>& out, List list) : out_(out), list_(std::move(list)) {}
+  ListAdder(std::vector<Fault>& out, List list) : out_(out), list_(std::move(list)) {}
   using Alter = std::function<bool(const List&, const capture::PassCase&, ListEdit&)>;
 
   /// `more`: what its words speak of beside the list.
@@ -94,6 +94,6 @@ class Adder {
 };
 
 /// A record too few, too many, in the wrong state.
-void add_events(Adder& adder);
+void add_events(ListAdder& adder);
 
 }  // namespace rainref::faults

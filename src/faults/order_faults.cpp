@@ -27,9 +27,9 @@ struct Site {
   std::int32_t occurrence;         ///< -1: each of these shapes
 };
 
-class Adder {
+class OrderAdder {
  public:
-  Adder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
+  OrderAdder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
       : out_(out), known_(std::make_shared<const std::vector<float>>(known)), most_(most) {}
   void operator()(const Probe& p, const Site& site, Rewrite r, What what) {
     Rewrites all{};
@@ -56,7 +56,7 @@ class Adder {
 };
 
 /// A part of an operand where the whole is meant. Of one that has no other use a term that is left out says the same.
-void add_parts(Adder& add, const Probe& p, const Site& site, std::int8_t k, const std::vector<int>& uses) {
+void add_parts(OrderAdder& add, const Probe& p, const Site& site, std::int8_t k, const std::vector<int>& uses) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const std::int32_t whole = node_of(p, at).of[static_cast<std::size_t>(k)];
   const Op op = node_of(p, whole).op;
@@ -80,7 +80,7 @@ void add_parts(Adder& add, const Probe& p, const Site& site, std::int8_t k, cons
   }
 }
 
-void add_factors(Adder& add, const Probe& p, const Site& site) {
+void add_factors(OrderAdder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const Node& n = node_of(p, at);
   const std::string all = words_for(p, at);
@@ -105,7 +105,7 @@ void add_factors(Adder& add, const Probe& p, const Site& site) {
 }
 
 /// Where what rounds or bends a number stands among sums matters.
-void add_functions(Adder& add, const Probe& p, const Site& site) {
+void add_functions(OrderAdder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const Node& n = node_of(p, at);
   const auto op_of = [&](std::int32_t i) { return i < 0 ? Op::constant : node_of(p, i).op; };
@@ -129,7 +129,7 @@ void add_functions(Adder& add, const Probe& p, const Site& site) {
 bool bends(Op op) { return *bend_name(op) || op == Op::minimum || op == Op::maximum || op == Op::sine || op == Op::cosine; }
 bool scales(Op op) { return op == Op::product || op == Op::quotient; }
 /// An operation and that of its operand in the other order, where that is another number: a factor before a function or after it.
-void add_commuted(Adder& add, const Probe& p, const Site& site) {
+void add_commuted(OrderAdder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const Node& n = node_of(p, at);
   const std::string all = words_for(p, at);
@@ -172,7 +172,7 @@ void add_commuted(Adder& add, const Probe& p, const Site& site) {
 }  // namespace
 
 void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most) {
-  Adder add(out, known, most);
+  OrderAdder add(out, known, most);
   for (const Probe& p : probes) {
     const std::vector<int> uses = uses_of(p.trace);
     std::vector<Site> sites;

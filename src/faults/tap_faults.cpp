@@ -22,9 +22,9 @@ using capture::Array;
 using capture::CaseInput;
 
 /// Adds what is read in place of the taps of an input, or of several that are read alike.
-class Adder {
+class TapAdder {
  public:
-  Adder(std::vector<Fault>& out, std::string name) : out_(out), name_(std::move(name)) {}
+  TapAdder(std::vector<Fault>& out, std::string name) : out_(out), name_(std::move(name)) {}
   void take(const CaseInput& input, const Taps& taps) {
     of_.push_back({std::make_shared<const CaseInput>(input),
                    std::make_shared<const std::vector<float>>(capture::decoded(input.array)),
@@ -37,15 +37,15 @@ class Adder {
                   std::optional<Address> address = {}) const {
     std::vector<Read> reads = of_;
     std::size_t count = 0;
-    bool changes = address.has_value();
+    bool is_changed = address.has_value();
     for (Read& read_of : reads)
       for (Tap& t : read_of.taps) {
         const Tap now = change(t);
-        changes |= now != t;
+        is_changed |= now != t;
         t = now;
         count = std::max(count, t.load + 1);
       }
-    if (!changes) return;
+    if (!is_changed) return;
     more.insert(more.begin(), name_);
     Fault& d = out_.emplace_back(What{kind, std::move(more)});
     d.head = of_.front().input->name;
@@ -81,7 +81,7 @@ class Adder {
 
 std::string plain(int dx, int dy) { return fmt::format("({}, {})", dx, dy); }
 
-void add_neighbours(const Adder& add, const Taps& taps) {
+void add_neighbours(const TapAdder& add, const Taps& taps) {
   const auto all = [&](Kind kind, auto move) {
     add(kind, {}, [move](Tap t) {
       const auto [dx, dy] = move(t.dx, t.dy);
@@ -178,7 +178,7 @@ void add_neighbours(const Adder& add, const Taps& taps) {
   }
 }
 
-void add_channels(const Adder& add, int channels) {
+void add_channels(const TapAdder& add, int channels) {
   for (int from = 0; from < channels; ++from)
     for (int to = 0; to < channels; ++to)
       if (from != to)
@@ -196,7 +196,7 @@ void add_tap_faults(std::vector<Fault>& out, const Probed& p) {
     const Taps taps = taps_of(p, i);
     const int channels = info(input.array.format).channels;
     if (taps.all.empty()) continue;
-    Adder add(out, input.name);
+    TapAdder add(out, input.name);
     add.take(input, taps);
     add_neighbours(add, taps);
     add_channels(add, channels);
@@ -210,7 +210,7 @@ void add_tap_faults(std::vector<Fault>& out, const Probed& p) {
   if (neighbours.size() < 2) return;
   std::string names;
   for (const auto& [input, taps] : neighbours) names += (names.empty() ? "" : " and ") + input->name;
-  Adder all(out, names);
+  TapAdder all(out, names);
   for (const auto& [input, taps] : neighbours) all.take(*input, taps);
   add_neighbours(all, neighbours.front().second);
 }

@@ -34,9 +34,9 @@ std::vector<Member> those_of(const std::vector<Member>& all, const Wanted& wante
   return out;
 }
 
-class Adder {
+class UniformAdder {
  public:
-  Adder(std::vector<Fault>& out, const PassCase& c) : out_(out), c_(c) {}
+  UniformAdder(std::vector<Fault>& out, const PassCase& c) : out_(out), c_(c) {}
 
   void exchanges(const std::vector<Member>& members) const {
     for (std::size_t i = 0; i < members.size(); ++i)
@@ -60,12 +60,12 @@ class Adder {
       std::iota(order.begin(), order.end(), 0);
       while (std::next_permutation(order.begin(), order.end())) {
         std::string swizzle;
-        bool changes = false;
+        bool is_changed = false;
         for (std::size_t k = 0; k < order.size(); ++k) {
           swizzle += component_name(order[k]);
-          changes |= word_at(c_, m, order[k]) != word_at(c_, m, static_cast<int>(k));
+          is_changed |= word_at(c_, m, order[k]) != word_at(c_, m, static_cast<int>(k));
         }
-        if (!changes) continue;
+        if (!is_changed) continue;
         add(Kind::uniform_permuted, {m.name, swizzle}, [m, order](PassCase& altered) {
           const PassCase right = altered;
           for (std::size_t k = 0; k < order.size(); ++k) put_word(altered, m, static_cast<int>(k), word_at(right, m, order[k]));
@@ -145,8 +145,9 @@ class Adder {
     for (const Member& m : of) names += (names.empty() ? "" : " and ") + m.name;
     for (int to = 0; to < of[0].components; ++to)
       for (int from = 0; from < of[0].components; ++from) {
-        const bool changes = std::all_of(of.begin(), of.end(), [&](const Member& m) { return word_at(c_, m, from) != word_at(c_, m, to); });
-        if (from == to || !changes) continue;
+        const bool is_changed =
+            std::all_of(of.begin(), of.end(), [&](const Member& m) { return word_at(c_, m, from) != word_at(c_, m, to); });
+        if (from == to || !is_changed) continue;
         add(Kind::uniforms_by_component, {names, component_name(from), component_name(to)}, [of, from, to](PassCase& altered) {
           for (const Member& m : of) put_word(altered, m, to, word_at(altered, m, from));
         });
@@ -167,7 +168,7 @@ void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set
   const std::vector<Member> members =
       those_of(p.pass.block.members, [&](const Member& m) { return m.scalar == Scalar::float32 && used.contains(m.name); });
   const std::vector<Member> vectors = those_of(members, [](const Member& m) { return m.components > 1; });
-  const Adder add(out, p.c);
+  const UniformAdder add(out, p.c);
   add.permutations(vectors);
   add.transposes(those_of(members, [](const Member& m) { return m.components == 3; }));
   add.joint_components(vectors);
@@ -175,12 +176,13 @@ void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set
 }
 
 void add_whole_mixups(std::vector<Fault>& out, const Probed& p) {
-  Adder(out, p.c).exchanges(those_of(p.pass.block.members, [](const Member& m) { return m.scalar != Scalar::float32 && !is_padding(m); }));
+  UniformAdder(out, p.c).exchanges(
+      those_of(p.pass.block.members, [](const Member& m) { return m.scalar != Scalar::float32 && !is_padding(m); }));
 }
 
 void add_uniform_values(std::vector<Fault>& out, const Probed& p) {
   const auto as = [&](Kind kind, float (*change)(float)) {
-    Adder(out, p.c).changed(p.pass.block, change, [kind](const std::string& name, float other, float now) {
+    UniformAdder(out, p.c).changed(p.pass.block, change, [kind](const std::string& name, float other, float now) {
       return What{kind, {name, fmt::format("{}", other), fmt::format("{}", now)}};
     });
   };
@@ -192,7 +194,7 @@ void add_uniform_values(std::vector<Fault>& out, const Probed& p) {
 
 void add_uniforms_of_values(std::vector<Fault>& out, const Probed& p, const std::vector<float>& values) {
   for (const float value : values)
-    Adder(out, p.c).changed(
+    UniformAdder(out, p.c).changed(
         p.pass.block, [value](float) { return value; }, value_of);
 }
 

@@ -5,13 +5,14 @@
 #include <fmt/format.h>
 
 #include "judge/slots.h"
-#include "registry/registry.h"
 #include "rainref/error.h"
+#include "registry/evaluations.h"
+#include "registry/registry.h"
 
 namespace rainref::judge {
 
 const capture::PassEvaluations* evaluations_of(const std::string& effect, const std::string& pass) {
-  for (const capture::PassEvaluations& r : *registry::effect_of_pack(effect).evaluations)
+  for (const capture::PassEvaluations& r : registry::evaluations(registry::effect_of_pack(effect).name))
     if (r.pass == pass) return &r;
   return nullptr;
 }

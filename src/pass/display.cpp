@@ -2,9 +2,7 @@
 #include "pass/display.h"
 
 #include "math/real64.h"
-#include "pass/display_scalar.h"
 #include "pass/info.h"
-#include "pass/model.h"
 
 #define RAINREF_KERNELS "pass/display.cpp"
 #include "math/foreach_target.h"
@@ -56,7 +54,6 @@ capture::BufferInfo display_buffer() {
           .colour_space = "sRGB",
           .alpha = "1"};
 }
-std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c) { return bind<DisplayPass, scalar::DisplayPassText>(c); }
 
 }  // namespace rainref::pass
 #endif

@@ -17,7 +17,7 @@ const std::vector<capture::PassEvaluations>& evaluations();
 /// raindrops as published: record i is drop i.
 std::unique_ptr<capture::PassModel> bind_raindrops(const capture::PassCase& c);
 
-/// surface_hit is judged by the gap between its hit and the water: see surface_hit_model.cpp.
+/// surface_hit is judged by the gap between its hit and the water: see evaluations_surface_hit.cpp.
 std::unique_ptr<capture::PassModel> bind_surface_hit(const capture::PassCase& c);
 
 }  // namespace rainref::puddle

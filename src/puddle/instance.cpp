@@ -110,7 +110,7 @@ std::optional<effect::Display> Instance::display() const {
 }
 
 effect::Effect entry() {
-  return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
+  return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene};
 }
 
 }  // namespace rainref::puddle

@@ -1,5 +1,6 @@
 #include "screen_drops/info.h"
 
+#include "drops/info.h"
 #include "pass/display.h"
 #include "pass/model.h"
 #include "screen_drops/flow.h"
@@ -17,6 +18,14 @@ std::unique_ptr<PassModel> bind_drops(const PassCase& c) {
 }
 
 }  // namespace
+
+std::vector<capture::PassEvaluations> flow_evaluations() {
+  return {drops::spawn_evaluations(),
+          {"integrate", drops::bind_integrate},
+          {"necks", drops::bind_necks},
+          {"merge", drops::bind_merge},
+          {"splat", drops::bind_splat}};
+}
 
 const std::vector<capture::PassEvaluations>& evaluations() {
   static const std::vector<capture::PassEvaluations> all = [] {

@@ -61,12 +61,4 @@ std::vector<capture::BufferInfo> flow_buffers() {
 
 std::vector<UniformBlock> flow_records() { return drops::records(); }
 
-std::vector<capture::PassEvaluations> flow_evaluations() {
-  return {drops::spawn_evaluations(),
-          {"integrate", drops::bind_integrate},
-          {"necks", drops::bind_necks},
-          {"merge", drops::bind_merge},
-          {"splat", drops::bind_splat}};
-}
-
 }  // namespace rainref::screen_drops

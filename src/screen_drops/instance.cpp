@@ -114,7 +114,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
+  return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene};
 }
 
 }  // namespace rainref::screen_drops

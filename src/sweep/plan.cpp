@@ -25,13 +25,13 @@ constexpr std::int64_t most_frames = 1'000'000;
 [[noreturn]] void refuse(const SourceLocation& at, const std::string& key, const std::string& message) {
   throw Error(ExitCode::usage, at, fmt::format("{}: {}", key, message));
 }
-[[noreturn]] void expected(const RawEntry& e, const std::string& what) {
+[[noreturn]] void refuse_unexpected(const RawEntry& e, const std::string& what) {
   refuse(e.value.at, e.key, fmt::format("expected {}, found {}", what, e.value.text()));
 }
 
 std::string text_of(const RawEntry& e, const char* what) {
   const auto* text = std::get_if<std::string>(&e.value.data);
-  if (!text || text->empty()) expected(e, what);
+  if (!text || text->empty()) refuse_unexpected(e, what);
   return *text;
 }
 std::int64_t whole_of(const RawValue& v, const RawEntry& e, std::int64_t low, std::int64_t high) {
@@ -53,7 +53,7 @@ std::vector<Placed> texts_of(const RawEntry& e, const char* what) {
   } else {
     take(e.value);
   }
-  if (out.empty()) expected(e, what);
+  if (out.empty()) refuse_unexpected(e, what);
   return out;
 }
 std::vector<std::string> words_of(const RawEntry& e, const char* what) {
@@ -73,7 +73,7 @@ void take_frames(const RawEntry& e, Plan& plan) {
     const auto first = dots == std::string::npos ? std::nullopt : number(0, dots),
                last = first ? number(dots + 2, text->npos) : std::nullopt;
     if (!last || *first < 0 || *last < *first || *last >= most_frames)
-      expected(e, fmt::format("a number of frames from 1 to {}, or \"FIRST..LAST\"", most_frames));
+      refuse_unexpected(e, fmt::format("a number of frames from 1 to {}, or \"FIRST..LAST\"", most_frames));
     plan.first = *first;
     frames = *last + 1;
   } else {
@@ -94,7 +94,8 @@ void take_size(const RawEntry& e, Plan& plan) {
     n = whole_from<std::int64_t>(std::string_view(*text).substr(from, to - from)).value_or(0);
     return n >= 1 && n <= 65536;
   };
-  if (x == std::string::npos || !number(0, x, size[0]) || !number(x + 1, text->size(), size[1])) expected(e, "WxH such as \"640x360\"");
+  if (x == std::string::npos || !number(0, x, size[0]) || !number(x + 1, text->size(), size[1]))
+    refuse_unexpected(e, "WxH such as \"640x360\"");
   RawValue value;
   value.data = std::vector<RawValue>{{size[0], e.value.at}, {size[1], e.value.at}};
   value.at = e.value.at;
@@ -139,7 +140,7 @@ const std::map<std::string, Key>& keys() {
        {pack,
         [](const RawEntry& e, Plan& plan) {
           const auto* list = std::get_if<std::vector<RawValue>>(&e.value.data);
-          if (!list || list->empty()) expected(e, "a list of frames");
+          if (!list || list->empty()) refuse_unexpected(e, "a list of frames");
           for (const RawValue& v : *list) plan.pack.at.push_back(whole_of(v, e, 0, most_frames));
         }}},
       {"passes", {pack, [](const RawEntry& e, Plan& plan) { plan.pack.passes = words_of(e, "a list of passes"); }}},
@@ -232,7 +233,7 @@ Plan read_plan(const std::filesystem::path& file) {
   std::vector<RawEntry> axes;
   for (const RawEntry& e : entries) {
     if (e.key == "set" || e.key == "axes") {
-      if (!std::holds_alternative<RawValue::Table>(e.value.data)) expected(e, "a table");
+      if (!std::holds_alternative<RawValue::Table>(e.value.data)) refuse_unexpected(e, "a table");
     } else if (e.key.starts_with("set.")) {
       const std::string key = unquoted(e.key.substr(4));
       plan.set.push_back({key, e.value, e.at});

@@ -38,9 +38,9 @@ Image shrunk(const Image& picture, int largest) {
 
 }  // namespace
 
-Image contact_sheet(const Cells& cells, const Table& table, const Store& store, int most_cells, int largest) {
+Image contact_sheet(const Cells& cells, const Table& table, const Store& store, int most, int largest) {
   std::vector<Image> pictures;
-  for (std::size_t i = 0; i < table.rows.size() && static_cast<int>(pictures.size()) < most_cells; ++i) {
+  for (std::size_t i = 0; i < table.rows.size() && static_cast<int>(pictures.size()) < most; ++i) {
     const std::filesystem::path file = last_picture(cells.all()[i], table.rows[i], store);
     if (file.empty()) continue;
     const image_io::Picture picture = image_io::read(file);

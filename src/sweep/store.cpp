@@ -31,15 +31,15 @@ std::vector<fs::path> beginning_with(const fs::path& folder, const std::string& 
 }
 
 /// Of a cell that is, or was, being made. Where the file system has no locks nobody knows.
-enum class Maker : std::uint8_t { dead, alive, unknown };
-Maker maker_of(const fs::path& path) {
+enum class MakerState : std::uint8_t { dead, alive, unknown };
+MakerState maker_of(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-  if (descriptor < 0) return Maker::unknown;  // it is done
+  if (descriptor < 0) return MakerState::unknown;  // it is done
   const FileLock lock = lock_file(descriptor);
   const bool is_there = is_still(descriptor, path);
   ::close(descriptor);
-  if (!is_there || lock == FileLock::impossible) return Maker::unknown;
-  return lock == FileLock::mine ? Maker::dead : Maker::alive;
+  if (!is_there || lock == FileLock::impossible) return MakerState::unknown;
+  return lock == FileLock::mine ? MakerState::dead : MakerState::alive;
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void Store::forget(const std::string& id) const {
   std::error_code ignored;
   fs::remove(root_ / "failed" / (id + ".json"), ignored);
   for (const fs::path& path : beginning_with(root_ / "tries", id))
-    if (maker_of(path) == Maker::dead) fs::remove(path, ignored);
+    if (maker_of(path) == MakerState::dead) fs::remove(path, ignored);
 }
 
 void Store::remove_cell(const std::string& id) const {
@@ -92,9 +92,9 @@ void Store::remove_cell(const std::string& id) const {
 Store::Tries Store::tries(const std::string& id) const {
   Tries count;
   for (const fs::path& path : beginning_with(root_ / "tries", id)) {
-    const Maker maker = maker_of(path);
-    count.dead += maker == Maker::dead;
-    count.alive += maker == Maker::alive;
+    const MakerState maker = maker_of(path);
+    count.dead += maker == MakerState::dead;
+    count.alive += maker == MakerState::alive;
   }
   return count;
 }

@@ -97,7 +97,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
 }
 
 effect::Effect entry() {
-  return {"windshield", {"as-published", "corrected"}, parameters(), &effect_info(), &evaluations(), memory_of, open_scene};
+  return {"windshield", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene};
 }
 
 }  // namespace rainref::windshield

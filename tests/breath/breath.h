@@ -123,16 +123,18 @@ inline const capture::EffectInfo& info() {
   return all;
 }
 
+/// What the judge evaluates.
+inline std::vector<capture::PassEvaluations> evaluations() {
+  return {{"condense", pass::bind<CondensePass, scalar::CondensePassText>}, {"veil", pass::bind<VeilPass, scalar::VeilPassText>}};
+}
+
 /// What a registry holds.
 inline effect::Effect entry() {
   static const std::vector<scene::Parameter> parameters = scene::parameters_of(members());
-  static const std::vector<capture::PassEvaluations> evaluations{{"condense", pass::bind<CondensePass, scalar::CondensePassText>},
-                                                                 {"veil", pass::bind<VeilPass, scalar::VeilPassText>}};
   return {"breath",
           {"as-published", "corrected"},
           parameters,
           &info(),
-          &evaluations,
           [](const scene::Config& config) {
             const Settings s = scene::settings_from(members(), config);
             effect::RunMemory m{"run.size", {}, s.width, s.height, 4, 4};

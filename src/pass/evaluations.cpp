@@ -1,0 +1,9 @@
+#include "pass/display.h"
+#include "pass/display_scalar.h"
+#include "pass/model.h"
+
+namespace rainref::pass {
+
+std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c) { return bind<DisplayPass, scalar::DisplayPassText>(c); }
+
+}  // namespace rainref::pass
