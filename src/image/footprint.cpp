@@ -93,8 +93,9 @@ double storage_step(TexelPrecision precision, double magnitude) {
 }  // namespace
 
 int Span::index(std::int64_t i) const {
+  if (i >= 0 && i < size) return static_cast<int>(i);
   if (address == Address::repeat) return static_cast<int>(((i % size) + size) % size);
-  if (address == Address::border && (i < 0 || i >= size)) return -1;
+  if (address == Address::border) return -1;
   return static_cast<int>(std::clamp<std::int64_t>(i, 0, size - 1));
 }
 
@@ -115,7 +116,7 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
 Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel, JointRounding& joint) {
   if (x.vacuous || y.vacuous) return Enclosure::vacuous();
   // Coordinates so large that their integers do not matter any more.
-  if (std::max({-x.lo, x.hi, -y.lo, y.hi}) > 0x1p40) return Enclosure::vacuous();
+  if (std::max(std::max(-x.lo, x.hi), std::max(-y.lo, y.hi)) > 0x1p40) return Enclosure::vacuous();
   const std::int64_t x0 = cell_of(x.lo), x1 = cell_of(x.hi), y0 = cell_of(y.lo), y1 = cell_of(y.hi);
   double low = infinity, high = -infinity, least = infinity, greatest = -infinity, slack = 0;
   const bool sampler = profile().subtexel_bits > 0;
@@ -128,26 +129,26 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel, J
     for (std::int64_t j = y0; j <= y1; ++j) {
       // A texel of weight 0 adds nothing by either formula.
       const int row = y.index(j), next_row = y.hi > j ? y.index(j + 1) : row;
-      const double fy[2] = {std::max(y.lo - j, 0.0), std::min(y.hi - j, 1.0)};
+      const double below = std::max(y.lo - j, 0.0), above = std::min(y.hi - j, 1.0);
       for (std::int64_t i = x0; i <= x1; ++i) {
         const int column = x.index(i), next_column = x.hi > i ? x.index(i + 1) : column;
         const double a = texel_of(t, column, row, channel), b = texel_of(t, next_column, row, channel);
         const double c = texel_of(t, column, next_row, channel), d = texel_of(t, next_column, next_row, channel);
-        least = std::min({least, a, b, c, d});
-        greatest = std::max({greatest, a, b, c, d});
+        least = std::min(least, std::min(std::min(a, b), std::min(c, d)));
+        greatest = std::max(greatest, std::max(std::max(a, b), std::max(c, d)));
         if (sampler) {
           slack = std::max(slack, weight_slack(a, b, c, d));
           joint.slack = std::max(joint.slack, joint_slack(a, b, c, d));
         }
         // Linear in each weight: the extrema are at the corners.
-        for (const double f : {std::max(x.lo - i, 0.0), std::min(x.hi - i, 1.0)}) {
+        const auto at = [&](double f) {
           const double bottom = a * (1 - f) + b * f, top = c * (1 - f) + d * f;
-          for (const double g : fy) {
-            const double value = bottom * (1 - g) + top * g;
-            low = std::min(low, value);
-            high = std::max(high, value);
-          }
-        }
+          const double first = bottom * (1 - below) + top * below, last = bottom * (1 - above) + top * above;
+          low = std::min(low, std::min(first, last));
+          high = std::max(high, std::max(first, last));
+        };
+        at(std::max(x.lo - i, 0.0));
+        at(std::min(x.hi - i, 1.0));
       }
     }
   }

@@ -103,6 +103,7 @@ class CaseJudge {
     Stored stored;
     std::vector<CodeRange> ranges, nearest, other_ranges;
     std::vector<char> vacuous;        ///< of each value
+    std::vector<char> is_held;        ///< of each rounding: by parts of envelopes
     bool is_open = false;             ///< some alternative leaves a value without a bound
     bool is_sampled = true;           ///< it counts in widths and shares
     SecondTier second, other_second;  ///< by the profile, and by what known devices do
@@ -134,10 +135,15 @@ class CaseJudge {
   void invocation(int x, int y, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
     s.is_sampled = sample_.has(x, y);
     if (!s.is_sampled && has_reference_bits(x, y)) {
-      for (std::size_t m = 0; m < modes_.size(); ++m) without_envelope(x, y, m, parts[m], whole[m]);
+      for (std::size_t m = 0; m < modes_.size(); ++m)
+        without_envelope(x, y, parts[m], whole[m], m == bits_.leading() || bits_.has(m, x, y));
       return;
     }
     s.stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
+    if (!s.is_sampled && lies_in_parts(x, y, s)) {
+      for (std::size_t m = 0; m < modes_.size(); ++m) without_envelope(x, y, parts[m], whole[m], s.is_held[m]);
+      return;
+    }
     const bool is_exact = options_.profile->reference, each_rounds = model_.rounds_inside() && !is_exact;
     if (is_exact)
       s.alternatives.only(s.stored.expected_values);
@@ -156,11 +162,35 @@ class CaseJudge {
       if (!bits_.has(m, x, y)) return false;
     return true;
   }
+  /// Whether what is stored lies in a part of the envelopes that is found sooner, of the profile's and of what known devices do: by the
+  /// rounding that most have, or by each that is tried. s.is_held says by which.
+  bool lies_in_parts(int x, int y, Scratch& s) const {
+    if (options_.profile->reference || model_.rounds_inside() || s.stored.any_impossible) return false;
+    s.is_held.assign(modes_.size(), 1);
+    const auto is_enough = [&] {
+      return options_.every_rounding ? std::find(s.is_held.begin(), s.is_held.end(), 0) == s.is_held.end()
+                                     : s.is_held[bits_.leading()] != 0;
+    };
+    for (const enclosed::Profile* profile : {options_.profile, options_.typical}) {
+      if (!profile) continue;
+      s.alternatives.run_parts(model_, x, y, s.stored.got_values.data(), *profile);
+      for (std::size_t m = 0; m < modes_.size(); ++m) {
+        bool is_inside = false;
+        for (int a = 0; a < s.alternatives.count && s.is_held[m] && !is_inside; ++a) {
+          code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(a)], *profile, modes_[m], s.ranges);
+          is_inside = inside(*profile, s.ranges, s.stored);
+        }
+        s.is_held[m] &= is_inside;
+      }
+      if (!is_enough()) return false;
+    }
+    return true;
+  }
   /// Counts one that no envelope is asked of.
-  void without_envelope(int x, int y, std::size_t mode, Part& part, CaseJudgement& whole) const {
+  void without_envelope(int x, int y, Part& part, CaseJudgement& whole, bool is_decided) const {
     CaseJudgement& counts = part.counts;
     ++counts.invocations;
-    counts.undecided += mode != bits_.leading() && !bits_.has(mode, x, y);
+    counts.undecided += !is_decided;
     for (std::size_t v = 0; v < slots_.size(); ++v) {
       const Slot& slot = slots_[v];
       const auto o = static_cast<std::size_t>(slot.output);

@@ -23,23 +23,18 @@ double least(double low, double high, const Accuracy& a, double x_magnitude) {
   return power <= high ? std::min(at_low, power - error_at(power, a, x_magnitude)) : at_low;
 }
 
-struct Range {
-  double low, high;
-};
-Range products(const Enclosure& a, const Enclosure& b) {
-  const double al = a.lo, ah = a.hi;
-  const auto [low, high] = std::minmax({al * b.lo, al * b.hi, ah * b.lo, ah * b.hi});
-  return {low, high};
-}
-Enclosure product(Range r) {
-  const Profile& p = profile();
+// The least and the greatest of four, in registers.
+double least_of(double a, double b, double c, double d) { return std::min(std::min(a, b), std::min(c, d)); }
+double greatest_of(double a, double b, double c, double d) { return std::max(std::max(a, b), std::max(c, d)); }
+
+Enclosure product(const Profile& p, double low, double high) {
   const bool nearest = p.basic == BasicRounding::nearest;
-  Enclosure out = nearest ? Enclosure::checked(static_cast<float>(r.low), static_cast<float>(r.high))
-                          : Enclosure::checked(float_below(r.low), float_above(r.high));
+  Enclosure out = nearest ? Enclosure::checked(static_cast<float>(low), static_cast<float>(high))
+                          : Enclosure::checked(float_below(low), float_above(high));
   if (p.contraction && !out.is_vacuous()) {
     out.is_product = true;
-    out.product_lo = r.low;
-    out.product_hi = r.high;
+    out.product_lo = low;
+    out.product_hi = high;
   }
   return out;
 }
@@ -48,7 +43,8 @@ Enclosure product(Range r) {
 float nearest_sum(double a, double b) {
   const double s = a + b, t = s - a, error = (a - (s - t)) + (b - t);
   auto bits = std::bit_cast<std::uint64_t>(s);
-  if (error != 0 && !(bits & 1)) bits = (error > 0) == (s > 0) ? bits + 1 : bits - 1;
+  const std::uint64_t step = static_cast<std::uint64_t>(error != 0) & ~bits & 1, is_outward = (error > 0) == (s > 0);
+  bits += step * (2 * is_outward - 1);  // without a branch: either is as likely
   return static_cast<float>(std::bit_cast<double>(bits));
 }
 
@@ -79,8 +75,10 @@ Enclosure Enclosure::load_unorm(float x) {
 
 Enclosure operator*(const Enclosure& a, const Enclosure& b) {
   if (a.is_vacuous() || b.is_vacuous()) return Enclosure::vacuous();
-  if (profile().reference && a.is_point() && b.is_point()) return Enclosure::checked(a.lo * b.lo, a.lo * b.lo);
-  return product(products(a, b));
+  const Profile& p = profile();
+  if (p.reference && a.is_point() && b.is_point()) return Enclosure::checked(a.lo * b.lo, a.lo * b.lo);
+  const double al = a.lo, ah = a.hi, bl = b.lo, bh = b.hi, ll = al * bl, lh = al * bh, hl = ah * bl, hh = ah * bh;
+  return product(p, least_of(ll, lh, hl, hh), greatest_of(ll, lh, hl, hh));
 }
 
 Enclosure contracted_sum(const Enclosure& a, const Enclosure& b) {
@@ -101,7 +99,7 @@ Enclosure contracted_sum(const Enclosure& a, const Enclosure& b) {
 Enclosure square(const Enclosure& a) {
   const Enclosure m = abs(a);
   if (m.is_vacuous()) return m;
-  return product({static_cast<double>(m.lo) * m.lo, static_cast<double>(m.hi) * m.hi});
+  return product(profile(), static_cast<double>(m.lo) * m.lo, static_cast<double>(m.hi) * m.hi);
 }
 
 Enclosure operator/(const Enclosure& a, const Enclosure& b) {
@@ -109,15 +107,14 @@ Enclosure operator/(const Enclosure& a, const Enclosure& b) {
   if (p.reference && a.is_point() && b.is_point()) return Enclosure::checked(a.lo / b.lo, a.lo / b.lo);
   if (a.is_vacuous() || b.is_vacuous() || (b.lo <= 0 && 0 <= b.hi)) return Enclosure::vacuous();
   if (p.reference || p.division.is_zero()) {
-    const auto [low, high] = std::minmax({a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi});
-    return Enclosure::checked(low, high);
+    const float q[4] = {a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi};
+    return Enclosure::checked(std::min(std::min(q[0], q[1]), std::min(q[2], q[3])), std::max(std::max(q[0], q[1]), std::max(q[2], q[3])));
   }
   // Accuracy is promised for divisors in [2^-126, 2^126] only (Vulkan, WGSL, Metal).
   const double nearest = std::min(std::abs(b.lo), std::abs(b.hi)), furthest = std::max(std::abs(b.lo), std::abs(b.hi));
   if (nearest < 0x1p-126 || furthest > 0x1p126) return Enclosure::vacuous();
-  const double al = a.lo, ah = a.hi;
-  const auto [low, high] = std::minmax({al / b.lo, al / b.hi, ah / b.lo, ah / b.hi});
-  return widened(low, high, p.division, 0);
+  const double al = a.lo, ah = a.hi, ll = al / b.lo, lh = al / b.hi, hl = ah / b.lo, hh = ah / b.hi;
+  return widened(least_of(ll, lh, hl, hh), greatest_of(ll, lh, hl, hh), p.division, 0);
 }
 
 Enclosure inverse_sqrt(const Enclosure& a) {
@@ -176,15 +173,14 @@ Enclosure mix(const Enclosure& from, const Enclosure& to, const Enclosure& t) {
   // The exact function is linear in each argument: its extrema lie at corners. Then the roundings of either formula,
   // (1 - t), two products and a sum, or (b - a), a product and a sum, each relative to what it rounds.
   double low = 0x1p1000, high = -0x1p1000;
-  for (const double s : {static_cast<double>(t.lo), static_cast<double>(t.hi)}) {
-    for (const double x : {static_cast<double>(a.lo), static_cast<double>(a.hi)}) {
-      for (const double y : {static_cast<double>(b.lo), static_cast<double>(b.hi)}) {
-        const double value = x * (1 - s) + y * s;
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
-    }
-  }
+  const auto at = [&](double s) {
+    // A rounded sum grows with each of its terms: the corners of a and b need not be tried together.
+    const double from_a[2] = {a.lo * (1 - s), a.hi * (1 - s)}, from_b[2] = {b.lo * s, b.hi * s};
+    low = std::min(low, std::min(from_a[0], from_a[1]) + std::min(from_b[0], from_b[1]));
+    high = std::max(high, std::max(from_a[0], from_a[1]) + std::max(from_b[0], from_b[1]));
+  };
+  at(t.lo);
+  at(t.hi);
   const double unit = profile().basic == BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
   const double gap = std::max(std::abs(static_cast<double>(b.hi) - a.lo), std::abs(static_cast<double>(b.lo) - a.hi));
   const double rest = std::max(std::abs(1.0 - t.lo), std::abs(1.0 - t.hi));

@@ -11,6 +11,7 @@
 // on every decision on the way.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "capture/bound_texture.h"
 #include "math/whole.h"
@@ -242,34 +243,59 @@ class CorrectedDescent {
 
   scalar::SurfaceHit<Enclosure> hit(const Texture& bounds, int px, int py, const float* port) const {
     const scalar::Descent<Enclosure> ray = scalar::descent<Enclosure>(u_, px, py);
-    const Enclosure zero(0.0f);
-    if (!ray.down) {
-      scalar::SurfaceHit<Enclosure> out;
-      out.position = ray.origin;
-      out.iterations = out.flag = zero;
-      out.normal = Vector(zero, Enclosure(1.0f), zero);
-      return out;
-    }
+    if (!ray.down) return scalar::surface_missed(ray);
     const scalar::Stretch<Enclosure> over = scalar::stretch(u_, ray, bounds_of(bounds, ray));
-    scalar::DescentState<Enclosure> state{ray.t_plane, zero, zero, zero};
-    if (over.enters) {
-      const std::vector<Landing> landings = landings_of(ray, over);
-      if (landings.empty() || landings.size() > static_cast<std::size_t>(enclosed::PathEnumeration::max_runs)) {
-        enclosed::give_up();
-        return scalar::SurfaceHit<Enclosure>();
-      }
-      const Landing& chosen =
-          landings[landings.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
-      if (!chosen.leaves) return hit_near(ray, over, port, chosen);
-      state.t = chosen.t;
-      state.above = min(chosen.above, stopping());
+    if (!over.enters) return on_plane(ray, over, ray.t_plane, px, py);
+    const std::vector<Landing> landings = landings_of(ray, over);
+    if (landings.empty() || landings.size() > static_cast<std::size_t>(enclosed::PathEnumeration::max_runs)) {
+      enclosed::give_up();
+      return Hit();
     }
-    scalar::SurfaceHit<Enclosure> out = scalar::landed(u_, wave_, ray, over, state);
+    const Landing& chosen =
+        landings[landings.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
+    if (chosen.leaves) return on_plane(ray, over, chosen.t, px, py);
+    return hit_near(ray, over, port, chosen, beside_reference(bounds, px, py));
+  }
+  /// The ends of a march that ends as the reference's does, or within some roundings of it: a part of what hit() gives.
+  std::optional<scalar::SurfaceHit<Enclosure>> hit_beside_reference(const Texture& bounds, int px, int py, const float* port) const {
+    const scalar::Descent<Enclosure> ray = scalar::descent<Enclosure>(u_, px, py);
+    if (!ray.down) return scalar::surface_missed(ray);
+    const scalar::Stretch<Enclosure> over = scalar::stretch(u_, ray, bounds_of(bounds, ray));
+    if (!over.enters) return on_plane(ray, over, ray.t_plane, px, py);
+    const std::optional<Enclosure> t = beside_reference(bounds, px, py);
+    if (!t) return on_plane(ray, over, leaving(ray, over), px, py);
+    bool is_settled = true;
+    const std::optional<Hit> end = end_near(ray, over, port, *t, is_settled);
+    return is_settled ? end : std::nullopt;
+  }
+
+ private:
+  using Hit = scalar::SurfaceHit<Enclosure>;
+
+  /// Around the place where the reference's march stops on the water; nothing where it meets the plane. Its steps add up to t, each
+  /// rounded.
+  std::optional<Enclosure> beside_reference(const Texture& bounds, int px, int py) const {
+    using Single = scalar::Scalar<float>;
+    const scalar::Descent<Single> ray = scalar::descent<Single>(u_, px, py);
+    const scalar::Stretch<Single> over = scalar::stretch(u_, ray, scalar::water_bounds(u_, bounds, ray));
+    if (!over.enters) return std::nullopt;
+    const double t = scalar::marched(u_, wave_, ray, over).t.v;
+    if (!(t < over.t_out.v)) return std::nullopt;
+    constexpr double roundings = 16 * 0x1p-23;
+    return around(t * (1 - roundings), t * (1 + roundings));
+  }
+  /// Where a ray is that has passed the water.
+  static Enclosure leaving(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over) {
+    return Enclosure(over.t_out.hi, std::max(over.t_out.hi, ray.t_plane.hi) + 1);
+  }
+  /// The hit of a ray that meets the plane: no march, or one that has come to t.
+  Hit on_plane(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over, Enclosure t, int px, int py) const {
+    const Enclosure zero(0.0f);
+    Hit out = scalar::landed(u_, wave_, ray, over, {t, zero, zero, zero});
     out.position = common_part(out.position, plane_point(px, py, ray));
     return out;
   }
 
- private:
   /// Where the ray meets y = 0: o + (o_y / f) d with f = -d_y. So o_y / f d_y is -o_y but for the roundings of a
   /// division and two products, and d_x / f = v_x / -v_y for v the ray before it was normalized, but for those of two
   /// components.
@@ -344,7 +370,7 @@ class CorrectedDescent {
         }
       }
     }
-    if (!crossed) found.push_back({Enclosure(over.t_out.hi, std::max(over.t_out.hi, ray.t_plane.hi) + 1), Enclosure(0.0f), true});
+    if (!crossed) found.push_back({leaving(ray, over), Enclosure(0.0f), true});
     for (Landing& l : found)
       if (!l.leaves) refine(ray, l);
     return found;
@@ -368,8 +394,8 @@ class CorrectedDescent {
   }
   /// The hit of a march that stopped in this stretch: of those pieces whose last step may end where the port's did,
   /// each by itself, because t and the gap depend on each other. All of the stretch where no piece does.
-  scalar::SurfaceHit<Enclosure> hit_near(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over, const float* port,
-                                         const Landing& stretch) const {
+  Hit hit_near(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over, const float* port, const Landing& stretch,
+               const std::optional<Enclosure>& reference) const {
     const Enclosure zero(0.0f), own = along(ray.origin, ray.d, port);
     const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(stretch.above.hi, u_.epsilon));
     double low = stretch.t.lo, high = stretch.t.hi;
@@ -377,35 +403,51 @@ class CorrectedDescent {
       low = std::max<double>(low, own.lo - longest);
       high = std::min<double>(high, own.hi);
     }
-    scalar::SurfaceHit<Enclosure> out;
-    bool found = false;
-    for (const int pieces : {16, 48}) {
-      if (low > high) break;
-      const double step = (high - low) / pieces, begin = low;
-      double first = high, last = low;
-      found = false;
-      for (int k = 0; k < pieces; ++k) {
-        const Enclosure t = around(begin + k * step, begin + (k + 1) * step), gap = scalar::gap_above(u_, wave_, ray, t);
-        if (gap.lo >= u_.epsilon) continue;
-        const scalar::DescentState<Enclosure> part{t, min(gap, stopping()), zero, zero};
-        enclosed::PathEnumeration paths;
-        const bool settled = paths.for_each_alternative([&] {
-          const scalar::SurfaceHit<Enclosure> end = scalar::landed(u_, wave_, ray, over, part);
-          if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]))) return;
-          out = found ? hull_of(out, end) : end;
-          found = true;
-          first = std::min(first, static_cast<double>(t.lo));
-          last = std::max(last, static_cast<double>(t.hi));
-        });
-        if (!settled) return scalar::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+    bool is_settled = true;
+    const auto end_of = [&](const Enclosure& t) { return end_near(ray, over, port, t, is_settled); };
+    const auto piece = [&](int k, int pieces) {
+      const double step = (high - low) / pieces;
+      return around(low + k * step, low + (k + 1) * step);
+    };
+    // The outermost of coarse pieces where the port's end may lie; then all of the fine ones between them.
+    constexpr int coarse = 16, fine = 48;
+    std::optional<Hit> all;
+    if (low <= high) {
+      int first = 0, last = coarse - 1;
+      while (first < coarse && !end_of(piece(first, coarse))) ++first;
+      while (last > first && !end_of(piece(last, coarse))) --last;
+      if (first < coarse && is_settled) {
+        const double from = piece(first, coarse).lo;
+        high = piece(last, coarse).hi;
+        low = from;
+        for (int k = 0; k < fine && is_settled; ++k)
+          if (const std::optional<Hit> end = end_of(piece(k, fine))) all = all ? hull_of(*all, *end) : *end;
       }
-      if (!found) break;
-      low = first;
-      high = last;
     }
-    return found ? out : scalar::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+    const Hit ends =
+        all && is_settled ? *all : scalar::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+    // What hit_beside_reference() gives is a part of this.
+    if (!reference || reference->hi < stretch.t.lo || stretch.t.hi < reference->lo) return ends;
+    const std::optional<Hit> beside = end_of(*reference);
+    return beside ? hull_of(ends, *beside) : ends;
   }
-  static scalar::SurfaceHit<Enclosure> hull_of(scalar::SurfaceHit<Enclosure> a, const scalar::SurfaceHit<Enclosure>& b) {
+  /// What a march that stopped at t may end with, where the port's end is among it; nothing where it is not. Clears `is_settled` where too
+  /// much of it is open.
+  std::optional<Hit> end_near(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over, const float* port,
+                              const Enclosure& t, bool& is_settled) const {
+    std::optional<Hit> out;
+    const Enclosure gap = scalar::gap_above(u_, wave_, ray, t), zero(0.0f);
+    if (gap.lo >= u_.epsilon) return out;
+    const scalar::DescentState<Enclosure> part{t, min(gap, stopping()), zero, zero};
+    enclosed::PathEnumeration paths;
+    is_settled &= paths.for_each_alternative([&] {
+      const Hit end = scalar::landed(u_, wave_, ray, over, part);
+      if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]))) return;
+      out = out ? hull_of(*out, end) : end;
+    });
+    return out;
+  }
+  static Hit hull_of(Hit a, const Hit& b) {
     const auto add = [](Vector& to, const Vector& v) { to = Vector(hull(to.x, v.x), hull(to.y, v.y), hull(to.z, v.z)); };
     add(a.position, b.position);
     add(a.normal, b.normal);
@@ -428,6 +470,14 @@ class SurfaceHitModel : public capture::ModelOf<MarchedPass> {
     return std::array<double, 2>{0, static_cast<double>(pass().uniforms.max_steps)};
   }
 
+  bool enclose_part(int x, int y, const float* port, Enclosure* out) const override {
+    const MarchedPass& p = pass();
+    if (!p.corrected) return false;
+    const Texture wave = p.wave.view();
+    const auto hit = CorrectedDescent(p.uniforms, wave).hit_beside_reference(p.bounds.view(), x, y, port);
+    if (hit) MarchedPass::write(*hit, out);
+    return hit.has_value();
+  }
   void enclose(int x, int y, const float* port, Enclosure* out) const override {
     const MarchedPass& p = pass();
     // Under exact rules the march itself is the only result.

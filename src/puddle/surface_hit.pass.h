@@ -172,6 +172,16 @@ RAINREF_FN Descent<N> descent(const SurfaceHitUniforms& u, int px, int py) {
   ray.run = length(ray.d.x, ray.d.z);
   return ray;
 }
+/// The hit of a ray that does not go down.
+template <class N>
+RAINREF_FN SurfaceHit<N> surface_missed(const Descent<N>& ray) {
+  const N zero(0.0f);
+  SurfaceHit<N> out;
+  out.position = ray.origin;
+  out.iterations = out.flag = zero;
+  out.normal = Vec3<N>{zero, N(1.0f), zero};
+  return out;
+}
 /// No water along the ray is higher than top or steeper than slope.
 template <class N>
 struct WaterBounds {
@@ -250,21 +260,12 @@ RAINREF_FN SurfaceHit<N> landed(const SurfaceHitUniforms& u, const T& wave, cons
   return out;
 }
 
-template <class N>
-RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& water, const Texture& bounds, int px, int py) {
-  const auto wave = fixed_texture<Address::clamp, Address::clamp, 1>(water);
+/// Where the march of a ray ends.
+template <class N, class T>
+RAINREF_FN DescentState<N> marched(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, const Stretch<N>& over) {
   const N zero(0.0f), epsilon(u.epsilon);
-  const Descent<N> ray = descent<N>(u, px, py);
-  if (!any(ray.down)) {
-    SurfaceHit<N> out;
-    out.position = ray.origin;
-    out.iterations = out.flag = zero;
-    out.normal = Vec3<N>{zero, N(1.0f), zero};
-    return out;
-  }
-  const Stretch<N> over = stretch(u, ray, water_bounds(u, bounds, ray));
-  DescentState<N> state{select(over.enters, over.t_in, ray.t_plane), zero, zero, zero};
-  state = advance_while(u.max_steps, state, over.enters, [&](int round, const DescentState<N>& now) RAINREF_LAMBDA {
+  const DescentState<N> start{select(over.enters, over.t_in, ray.t_plane), zero, zero, zero};
+  return advance_while(u.max_steps, start, over.enters, [&](int round, const DescentState<N>& now) RAINREF_LAMBDA {
     const N t = now.t + now.step;
     const N above = gap_above(u, wave, ray, t);
     const N safe = now.above * over.stride;
@@ -274,7 +275,15 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
     const auto go = ((above >= epsilon) & (t < over.t_out)) | (!proven);
     return Round<decltype(go), DescentState<N> >{go, next};
   });
-  return landed(u, wave, ray, over, state);
+}
+
+template <class N>
+RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& water, const Texture& bounds, int px, int py) {
+  const auto wave = fixed_texture<Address::clamp, Address::clamp, 1>(water);
+  const Descent<N> ray = descent<N>(u, px, py);
+  if (!any(ray.down)) return surface_missed(ray);
+  const Stretch<N> over = stretch(u, ray, water_bounds(u, bounds, ray));
+  return landed(u, wave, ray, over, marched(u, wave, ray, over));
 }
 
 struct SurfaceHitPassText {

@@ -107,6 +107,56 @@ TEST_P(ShortCut, EveryEnvelopeHoldsTheReference) {
   }
 }
 
+// A part of an envelope that is found sooner holds no codes that the envelope does not hold, in one alternative: of ports that are some
+// codes away from the reference, so that the parts hold some of them and not others.
+TEST_P(ShortCut, PartsLieInTheirEnvelopes) {
+  test::Words words(51);
+  std::int64_t held = 0, missed = 0, offered = 0;
+  for (const BoundPass& pass : passes()) {
+    for (const BoundCase& b : pass.cases) {
+      const capture::PassModel& model = *b.model;
+      const std::vector<Slot> slots = slots_of(*b.c, model);
+      for (const std::string& name : test::inexact_profiles()) {
+        const enclosed::Profile& p = profile(name);
+        if (model.rounds_inside()) continue;
+        for (int k = 0; k < 60; ++k) {
+          const int x = static_cast<int>(words() % static_cast<std::uint64_t>(model.width())),
+                    y = static_cast<int>(words() % static_cast<std::uint64_t>(model.height()));
+          std::vector<Array> port = b.expected();
+          for (const Slot& s : slots)
+            if (s.channel_bytes == 4)
+              change_at<std::uint32_t>(port[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y),
+                                       [&](std::uint32_t v) { return v == 0 ? v : v + static_cast<std::uint32_t>(words() % 7) - 3; });
+          Stored stored;
+          stored.read(slots, *b.c, model, p, port, x, y);
+          Alternatives parts, all;
+          parts.run_parts(model, x, y, stored.got_values.data(), p);
+          if (parts.count == 0) continue;
+          ++offered;
+          all.run(model, x, y, stored.got_values.data(), p);
+          if (all.gave_up) continue;
+          for (const HalfMode mode : modes_of(b, p)) {
+            const auto holds = [&](const Alternatives& some) {
+              std::vector<enclosed::CodeRange> ranges;
+              bool is_held = false;
+              for (int a = 0; a < some.count && !is_held; ++a) {
+                code_ranges(slots, some.values[static_cast<std::size_t>(a)], p, mode, ranges);
+                is_held = inside(p, ranges, stored);
+              }
+              return is_held;
+            };
+            const bool is_held = holds(parts);
+            EXPECT_TRUE(!is_held || holds(all)) << pass.name() << ' ' << b.c->folder() << ' ' << name << " (" << x << ", " << y << ')';
+            ++(is_held ? held : missed);
+          }
+        }
+      }
+    }
+  }
+  if (offered > 0) EXPECT_GT(held, 0);
+  if (GetParam().name == "puddle-corrected") EXPECT_GT(std::min(held, missed), 0) << "surface_hit has parts";
+}
+
 /// All that a verdict hangs on and a report lists element by element.
 void expect_equal(const CaseJudgement& some, const CaseJudgement& all, const std::string& what) {
   EXPECT_EQ(some.status, all.status) << what << ": " << some.reason << "; " << all.reason;
