@@ -51,6 +51,7 @@ struct ValidateRequest {
   std::vector<std::string> only;  ///< these passes alone; empty: all
   bool partial = false;           ///< a pass without files of the port is not judged, and nothing of it is missing
   bool no_causes = false;         ///< what went wrong is not looked for
+  double causes_within = 0;       ///< seconds of that for a pass; 0: as long as it takes
   std::string exec;               ///< the port's own command, run first; "": `port` holds its outputs
   double timeout_s = 600;         ///< of each run of it
   int repeat = 1;                 ///< runs of it

@@ -48,7 +48,7 @@ struct ValidateFlags {
   ValidateRequest request;
   std::string pack, port;
   SceneFlags scene;  // of --shadow
-  std::optional<std::string> shadow, exec, timeout, repeat, threads;
+  std::optional<std::string> shadow, exec, timeout, repeat, threads, causes_within;
 };
 
 void add_validate_options(CLI::App& verb, ValidateFlags& f) {
@@ -70,6 +70,9 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
   add_only(verb, f.request.only, "Judge these passes alone");
   verb.add_flag("--partial", f.request.partial, "A port in progress: passes that it has no files of are NOT JUDGED, and not missing");
   verb.add_flag("--no-causes", f.request.no_causes, "Do not look for what went wrong, which may take longer than judging");
+  verb.add_option("--causes-within", f.causes_within,
+                  "Seconds of that for each failing pass; then the best so far is named (default: no limit)")
+      ->type_name("SECONDS");
   verb.add_flag("--allow-untested", f.request.allow_untested, "Forgive UNTESTED and NOT JUDGED, beside at least one PASS");
   verb.add_flag("--strict", f.request.strict, "Each WARN fails");
   verb.add_flag("--exhaustive", f.request.exhaustive,
@@ -144,6 +147,9 @@ Verb validate_verb(CLI::App& app, const std::string& command) {
             else
               require_pack_and_port(*f);
             ask_for_command(*f, request);
+            if (f->causes_within && request.no_causes)
+              throw Error(ExitCode::usage, "--causes-within: expected no --no-causes beside it, which looks for none");
+            if (f->causes_within) request.causes_within = whole_number(*f->causes_within, "--causes-within", 1, 1000000);
             request.pack = f->pack;
             request.port = f->port;
             request.threads = threads_of(f->threads);

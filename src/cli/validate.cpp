@@ -57,6 +57,7 @@ judging::FolderOptions folder_options(const ValidateRequest& request, const para
   options.strict = request.strict;
   if (request.exhaustive) options.sample = 0;
   options.seeks_causes = !request.no_causes;
+  options.causes_within = request.causes_within;
   return options;
 }
 /// A diagnosis may take minutes; the terminal says so.

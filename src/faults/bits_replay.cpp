@@ -43,7 +43,7 @@ std::vector<Fault> BitsReplay::plain() {
 
 std::vector<Tried> BitsReplay::causes(const std::vector<Fault>& all) const {
   const auto of = static_cast<std::int64_t>(failing_.size());
-  return tried(executor_, all, failing_.size(), true, [&](const Fault& d) {
+  return tried(*this, executor_, all, failing_.size(), true, [&](const Fault& d) {
     Tried cause = untried(d, failing_.size(), true);
     capture::PassCase altered = c_;
     if (d.alter_case) d.alter_case(altered);

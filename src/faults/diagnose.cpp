@@ -26,7 +26,7 @@ TexelReplay texels_of(const FailedRun& f) {
 }
 
 /// What explains the lists of a run, one by one.
-std::vector<Cause> causes_of_lists(const FailedRun& f) {
+std::vector<Cause> causes_of_lists(const FailedRun& f, const SearchLimit& limit) {
   std::vector<Cause> found;
   for (const std::size_t o : judge::keyed_outputs(f.run.c)) {
     const auto replay_of = [o](const FailedRun& r) {
@@ -40,13 +40,15 @@ std::vector<Cause> causes_of_lists(const FailedRun& f) {
       continue;
     }
     if (f.other) other.emplace(replay_of(*f.other));
+    run.limit(limit);
+    if (other) other->limit(limit);
     for (Cause& c : diagnosed(run, other && other->fails() ? &*other : nullptr)) found.push_back(std::move(c));
   }
   return found;
 }
 
 /// What explains lists that are whole numbers' work, judged by bits in their order.
-std::vector<Cause> causes_of_bits(const FailedRun& f) {
+std::vector<Cause> causes_of_bits(const FailedRun& f, const SearchLimit& limit) {
   std::vector<Cause> found;
   const capture::PassEvaluations* evaluations = judge::evaluations_of(f.run.c.effect, f.run.c.pass);
   if (!evaluations || !evaluations->recompute) return found;
@@ -63,21 +65,25 @@ std::vector<Cause> causes_of_bits(const FailedRun& f) {
     }
     std::optional<BitsReplay> other;
     if (f.other) other.emplace(replay_of(*f.other));
+    run.limit(limit);
+    if (other) other->limit(limit);
     for (Cause& c : diagnosed(run, other && other->fails() ? &*other : nullptr)) found.push_back(std::move(c));
   }
   return found;
 }
 
-std::vector<Cause> causes_of_texels(const FailedRun& f) {
+std::vector<Cause> causes_of_texels(const FailedRun& f, const SearchLimit& limit) {
   TexelReplay run = texels_of(f);
   std::optional<TexelReplay> other;
   if (f.other) other.emplace(texels_of(*f.other));
+  run.limit(limit);
+  if (other) other->limit(limit);
   if (std::optional<Cause> sure = decided(run, other ? &*other : nullptr)) return {std::move(*sure)};
   std::vector<Cause> best = diagnosed(run, other ? &*other : nullptr, f.is_warned);
   if (f.is_warned) return best;
   // What gives the very bits is a better word than a formula that could have given them.
   const bool is_exact = !best.empty() && best.front().is_likely && best.front().explained * 10 >= best.front().of * 9;
-  if (is_exact) return best;
+  if (is_exact || limit.is_over()) return best;
   if (std::optional<Cause> formula = run.alternative_formula(*f.options.profile)) {
     for (Cause& cause : best) cause.is_likely = false;
     best.insert(best.begin(), std::move(*formula));
@@ -86,20 +92,20 @@ std::vector<Cause> causes_of_texels(const FailedRun& f) {
   return best;
 }
 
-std::vector<Cause> causes_of(const FailedRun& failed) {
+std::vector<Cause> causes_of(const FailedRun& failed, const SearchLimit& limit) {
   const capture::PassCase& c = failed.run.c;
   if (!judge::keyed_outputs(c).empty()) {
-    std::vector<Cause> causes = causes_of_lists(failed);
+    std::vector<Cause> causes = causes_of_lists(failed, limit);
     if (!causes.empty() || !failed.bind || !judge::is_enveloped(c)) return causes;
   }
-  return judge::is_enveloped(c) ? causes_of_texels(failed) : causes_of_bits(failed);
+  return judge::is_enveloped(c) ? causes_of_texels(failed, limit) : causes_of_bits(failed, limit);
 }
 
 }  // namespace
 
-judge::Explanation diagnose(const FailedRun& failed) {
-  if (failed.is_warned) return {judge::is_enveloped(failed.run.c) ? causes_of_texels(failed) : std::vector<Cause>(), ""};
-  judge::Explanation why{causes_of(failed), where_it_fails(failed)};
+judge::Explanation diagnose(const FailedRun& failed, const SearchLimit& limit) {
+  if (failed.is_warned) return {judge::is_enveloped(failed.run.c) ? causes_of_texels(failed, limit) : std::vector<Cause>(), ""};
+  judge::Explanation why{causes_of(failed, limit), where_it_fails(failed)};
   if (std::optional<Cause> none = not_numbers(failed)) why.causes.push_back(*std::move(none));
   return why;
 }

@@ -252,7 +252,7 @@ Tried ListReplay::cause(const Fault& d) const {
 }
 
 std::vector<Tried> ListReplay::causes(const std::vector<Fault>& all) const {
-  return tried(executor_, all, failing_.size(), true, [&](const Fault& d) { return cause(d); });
+  return tried(*this, executor_, all, failing_.size(), true, [&](const Fault& d) { return cause(d); });
 }
 
 ListReplay::ListReplay(const ListReplay& of, const capture::PassCase& c, const capture::PassModel& model)

@@ -214,15 +214,15 @@ Tried untried(const Fault& d, std::size_t of, bool of_records, double misfit) {
   if (d.draws) what.kind = kind_of(*d.draws);
   return {std::move(what), {"", "", 0, static_cast<std::int64_t>(of), 0, of_records}, misfit};
 }
-std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, std::size_t of, bool of_records,
-                         const std::function<Tried(const Fault&)>& try_one) {
+std::vector<Tried> tried(const Replay& replay, const parallel::Executor& executor, const std::vector<Fault>& all, std::size_t of,
+                         bool of_records, const std::function<Tried(const Fault&)>& try_one) {
   std::vector<Tried> out(all.size());
   executor.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
       const Fault& d = all[static_cast<std::size_t>(k)];
       Tried& made = out[static_cast<std::size_t>(k)];
       try {
-        made = is_left_out(d.kind) ? untried(d, of, of_records) : try_one(d);
+        made = is_left_out(d.kind) || replay.is_time_over() ? untried(d, of, of_records) : try_one(d);
       } catch (const Error&) {
         made = untried(d, of, of_records);  // the altered case is none that the pass can run
       }
@@ -237,22 +237,27 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   Names sought;
   const auto explains_little = [&] { return std::none_of(causes.begin(), causes.end(), [](const Tried& c) { return score(c) >= 1.5; }); };
   for (const auto more : {&Replay::deeper, &Replay::solved, &Replay::fitted}) {
-    if (is_plain || is_explained(causes)) continue;
+    if (is_plain || is_explained(causes) || run.is_time_over()) continue;
     for (Tried& c : run.causes((run.*more)())) {
       sought.insert(c.name);
       causes.push_back(std::move(c));
     }
   }
-  if (!is_plain && explains_little() && run.widen()) {
+  if (!is_plain && !run.is_time_over() && explains_little() && run.widen()) {
     if (other) other->widen();
     for (const auto again : {&Replay::plain, &Replay::deeper})
       for (Tried& c : run.causes((run.*again)())) causes.push_back(std::move(c));
   }
-  if (other) check_in(*other, causes);
+  if (other && !run.is_time_over()) check_in(*other, causes);
   std::vector<Tried> best = best_causes(causes);
   if (best.empty()) return {};
   const Names solved = solved_of(causes);
   const auto said = [&] { return std::vector<Cause>(best.begin(), best.end()); };
+  if (run.is_time_over()) {
+    // What was not tried may be as good.
+    for (Tried& c : best) c.is_likely = false;
+    return said();
+  }
   static constexpr const char* as_much = "; or, which explains as much here, ";
   // What leaves clearly more unexplained, or would have made more fail, is none.
   const double least_against = [&] {

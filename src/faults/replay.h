@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "faults/fault.h"
+#include "faults/search_limit.h"
 #include "rainref/executor.h"
 
 namespace rainref::faults {
@@ -46,6 +47,13 @@ class Replay {
   virtual std::unique_ptr<Replay> elsewhere() const = 0;
   /// What the pass gives with a mistake, at some places; empty where it cannot be made. Of a fault without a name: without one.
   virtual std::vector<float> given(const Fault& d) const = 0;
+
+  /// From now on causes() tries nothing more once the time is over. The limit must outlive the replay.
+  void limit(const SearchLimit& to) { limit_ = &to; }
+  bool is_time_over() const { return limit_ && limit_->is_over(); }
+
+ private:
+  const SearchLimit* limit_ = nullptr;
 };
 
 /// Whether it was found by solving.
@@ -68,9 +76,9 @@ class OwnReplay : public R {
 /// A mistake that explains nothing of so many failing elements.
 Tried untried(const Fault& d, std::size_t of, bool of_records, double misfit = 0);
 /// try_one(fault) of each, in parallel. A mistake in what the pass is given may make it none that the pass can run: then it explains
-/// nothing of `of`.
-std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, std::size_t of, bool of_records,
-                         const std::function<Tried(const Fault&)>& try_one);
+/// nothing of `of`; and so does what `replay` has no time for.
+std::vector<Tried> tried(const Replay& replay, const parallel::Executor& executor, const std::vector<Fault>& all, std::size_t of,
+                         bool of_records, const std::function<Tried(const Fault&)>& try_one);
 
 /// Of a pass without one.
 inline const capture::PassModel& no_model() {
@@ -79,7 +87,7 @@ inline const capture::PassModel& no_model() {
 }
 
 /// What explains a run, best first. `other`: another failing run of the pass, or null: what explains both is believed. A cause is
-/// likely where no rival, which would be another mistake elsewhere, explains as much.
+/// likely where no rival, which would be another mistake elsewhere, explains as much; none is when the time was over before all were tried.
 /// `is_plain`: what is plain is tried alone.
 std::vector<judge::Cause> diagnosed(Replay& run, Replay* other, bool is_plain = false);
 

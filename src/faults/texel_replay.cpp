@@ -288,7 +288,7 @@ Tried TexelReplay::cause(const Fault& given) const {
 }
 
 std::vector<Tried> TexelReplay::causes(const std::vector<Fault>& all) const {
-  return tried(executor_, all, failing_.size(), false, [&](const Fault& d) { return cause(d); });
+  return tried(*this, executor_, all, failing_.size(), false, [&](const Fault& d) { return cause(d); });
 }
 
 TexelReplay::TexelReplay(const TexelReplay& of, const capture::PassCase& c, const capture::PassModel& model)

@@ -12,17 +12,35 @@ namespace rainref::judging {
 namespace {
 
 /// The judge's part of the options, with causes and with what is read of the port.
-judge::ValidateOptions judge_options(const FolderOptions& o) {
-  judge::ValidateOptions options = o;
-  options.buffers = std::make_shared<judge::ReadBuffers>();
-  options.explain = nullptr;
-  if (o.seeks_causes)
-    options.explain = [at_cause = o.at_cause](const judge::FailedRun& failed) {
-      if (at_cause) at_cause(failed.pass.name);
-      return faults::diagnose(failed);
+class JudgeCall {
+ public:
+  explicit JudgeCall(const FolderOptions& o) : options(o) {
+    options.buffers = std::make_shared<judge::ReadBuffers>();
+    options.explain = nullptr;
+    if (!o.seeks_causes) return;
+    options.explain = [this, &o](const judge::FailedRun& failed) {
+      if (o.at_cause) o.at_cause(failed.pass.name);
+      const faults::SearchLimit limit(o.causes_within);
+      judge::Explanation why = faults::diagnose(failed, limit);
+      if (limit.was_met()) cut_short_.push_back(failed.pass.name);
+      return why;
     };
-  return options;
-}
+  }
+  JudgeCall(const JudgeCall&) = delete;
+  JudgeCall& operator=(const JudgeCall&) = delete;
+
+  judge::ValidateOptions options;
+
+  /// What is to be said of the searches that ended early.
+  void add_notes(judge::PortJudgement& judgement) const {
+    for (const std::string& pass : cut_short_)
+      judgement.notes.push_back(
+          fmt::format("the time for causes was over before all were tried in {}: what is named there is the best so far", pass));
+  }
+
+ private:
+  std::vector<std::string> cut_short_;
+};
 
 void find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const judge::ValidateOptions& options,
                 judge::PortJudgement& judgement) {
@@ -51,19 +69,21 @@ void check_request(const capture::Pack& pack, const FolderOptions& options) {
 Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std::vector<std::filesystem::path>& runs,
                     const FolderOptions& o) {
   check_request(*pack, o);
-  const judge::ValidateOptions options = judge_options(o);
-  judge::PortJudgement judgement = judge::validate(*pack, runs.front(), options);
-  if (runs.size() > 1) find_races(*pack, runs, options, judgement);
-  return with_verdict(std::move(judgement), reports::page_source(pack, runs.front(), options.buffers), o);
+  const JudgeCall call(o);
+  judge::PortJudgement judgement = judge::validate(*pack, runs.front(), call.options);
+  call.add_notes(judgement);
+  if (runs.size() > 1) find_races(*pack, runs, call.options, judgement);
+  return with_verdict(std::move(judgement), reports::page_source(pack, runs.front(), call.options.buffers), o);
 }
 
 Judged judge_dumps(const std::shared_ptr<const judge::ShadowPlan>& plan, const std::filesystem::path& folder,
                    const std::vector<judge::DumpedRun>& dumped, const FolderOptions& o) {
-  judge::ValidateOptions options = judge_options(o);
-  judge::PortJudgement judgement = judge::shadow(*plan, folder, dumped, options);
-  options.progress = nullptr;
-  options.explain = nullptr;
-  return with_verdict(std::move(judgement), reports::page_source(plan, folder, dumped, options), o);
+  JudgeCall call(o);
+  judge::PortJudgement judgement = judge::shadow(*plan, folder, dumped, call.options);
+  call.add_notes(judgement);
+  call.options.progress = nullptr;
+  call.options.explain = nullptr;
+  return with_verdict(std::move(judgement), reports::page_source(plan, folder, dumped, call.options), o);
 }
 
 }  // namespace rainref::judging

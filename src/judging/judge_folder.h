@@ -16,6 +16,8 @@ namespace rainref::judging {
 struct FolderOptions : judge::ValidateOptions {
   bool strict = false;       ///< each WARN is a FAIL
   bool seeks_causes = true;  ///< why passes fail is looked for, in place of `explain`; that may take longer than judging
+  /// Seconds of that for each failing pass; then the best so far is said, and a note says so. 0: as long as it takes.
+  double causes_within = 0;
   std::function<void(const std::string& pass)> at_cause;  ///< before why this pass fails is looked for; may be null
 };
 

@@ -172,6 +172,9 @@ Enclosure nearest_octave(const Enclosure& x);
 /// By (1 / length(a)) a, a / length(a) or a inversesqrt(dot(a, a)).
 scalar::Vec3<Enclosure> normalize(const scalar::Vec3<Enclosure>& a);
 
+/// The least interval of floats that holds the reals [low, high].
+inline Enclosure rounded_outward(double low, double high) { return {float_below(low), float_above(high)}; }
+inline double width_of(const Enclosure& a) { return static_cast<double>(a.hi) - a.lo; }
 /// The interval of reals [low, high] computed with that accuracy and rounded outward.
 Enclosure widened(double low, double high, const Accuracy& accuracy, double x_magnitude);
 

@@ -5,6 +5,7 @@
 
 #include "cli/support.h"
 #include "cli/validate_reports.h"
+#include "judging/judge_folder.h"
 #include "reports/example_judgement.h"
 
 namespace rainref::cli {
@@ -46,6 +47,25 @@ TEST_F(ValidateReports, AllReportsOfAFailingPort) {
   EXPECT_EQ(folder.names().size(), before.size() + 3);  // no temporary stays
 }
 
+// The verdict does not hang on the time for causes, and what was found in it is not called likely.
+TEST_F(ValidateReports, WhenTheTimeForCausesIsOverANoteSaysSo) {
+  const auto pack = std::make_shared<const capture::Pack>(folder / "pack");
+  const parallel::Executor executor(2);
+  judging::FolderOptions options;
+  options.executor = &executor;
+  for (const double seconds : {1e-9, 1e6}) {
+    options.causes_within = seconds;
+    const judge::PortJudgement judged = judging::judge_folder(pack, {folder / "bad"}, options).judged;
+    const auto shade = std::find_if(judged.passes.begin(), judged.passes.end(), [](const auto& p) { return p.pass == "shade"; });
+    ASSERT_NE(shade, judged.passes.end());
+    EXPECT_EQ(shade->status, judge::Status::fail);
+    const bool is_over = seconds < 1;
+    EXPECT_EQ(std::count(judged.notes.begin(), judged.notes.end(),
+                         "the time for causes was over before all were tried in shade: what is named there is the best so far"),
+              is_over);
+    EXPECT_EQ(std::any_of(shade->causes.begin(), shade->causes.end(), [](const judge::Cause& c) { return c.is_likely; }), !is_over);
+  }
+}
 // Nobody looked for a cause: nothing says that it is unknown.
 TEST_F(ValidateReports, WithoutCausesTheVerdictIsTheSame) {
   const Outcome o = validate("bad", {"--no-causes", "--json", "r.json", "--junit", "r.xml", "--html", "r.html"});

@@ -57,6 +57,9 @@ TEST_F(Validate, ExitCodes) {
   expect_refusal({"validate", pack, "--exec", "true"}, 2, HasSubstr("expected {out} or $RAINREF_OUT in the command"));
   expect_refusal({"validate", pack, "--exec", ""}, 2, "--exec: expected a command, found ''");
   expect_refusal({"validate", pack, "--exec", "true {out}", "--timeout", "0"}, 2, HasSubstr("--timeout: expected a whole number from 1"));
+  expect_refusal({"validate", pack, "--port", "port", "--causes-within", "0"}, 2,
+                 HasSubstr("--causes-within: expected a whole number from 1"));
+  expect_refusal({"validate", pack, "--port", "port", "--causes-within", "5", "--no-causes"}, 2, HasSubstr("which looks for none"));
   expect_refusal({"validate", pack, "--exec", "true {out}", "--port", "port"}, 2, HasSubstr("expected a new or empty folder"));
   expect_refusal({"validate", pack, "--port", "none"}, 3, HasSubstr("none: expected a folder of a port, found none"));
   expect_refusal({"validate", "none", "--port", "none"}, 4, HasSubstr("no such folder"));

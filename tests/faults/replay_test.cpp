@@ -66,6 +66,31 @@ TEST(Replay, OneCauseThatExplainsAllIsLikelyAndNothingElseIsAsked) {
   EXPECT_TRUE(causes[0].is_likely);
   EXPECT_EQ(run.asked_for_more, 0);
 }
+TEST(Replay, PastTheLimitTheBestSoFarIsSaidAndNoneIsLikely) {
+  Told run;
+  run.first = {{"a", 100}, {"b", 60}};
+  run.second = {{"c", 100}};
+  const SearchLimit far(1e6), over(1e-12);
+  run.limit(far);
+  EXPECT_TRUE(diagnosed(run, nullptr)[0].is_likely);
+  EXPECT_FALSE(far.was_met());
+  run.limit(over);
+  EXPECT_EQ(diagnosed(run, nullptr)[0].name, "a");
+  EXPECT_FALSE(diagnosed(run, nullptr)[0].is_likely);
+  run.first = {{"b", 60}};
+  EXPECT_EQ(diagnosed(run, nullptr)[0].name, "b");
+  EXPECT_EQ(run.asked_for_more, 0);
+  EXPECT_TRUE(over.was_met());
+  // Nothing is known of what there is no time for.
+  const parallel::Executor executor(1);
+  int asked = 0;
+  const auto ask = [&](const Fault& d) { return ++asked, untried(d, 100, false); };
+  EXPECT_EQ(tried(run, executor, {Fault(what_of("a"))}, 100, false, ask).size(), 1u);
+  EXPECT_EQ(asked, 0);
+  run.limit(far);
+  static_cast<void>(tried(run, executor, {Fault(what_of("a"))}, 100, false, ask));
+  EXPECT_EQ(asked, 1);
+}
 TEST(Replay, MoreIsAskedWherePlainCausesExplainLittle) {
   Told run;
   run.first = {{"a", 60}};
