@@ -103,7 +103,8 @@ std::vector<Cause> causes_of(const FailedRun& failed, const SearchLimit& limit) 
 
 }  // namespace
 
-judge::Explanation diagnose(const FailedRun& failed, const SearchLimit& limit) {
+judge::Explanation diagnose(const FailedRun& failed) { return diagnose_within(SearchLimit(0), failed); }
+judge::Explanation diagnose_within(const SearchLimit& limit, const FailedRun& failed) {
   if (failed.is_warned) return {judge::is_enveloped(failed.run.c) ? causes_of_texels(failed, limit) : std::vector<Cause>(), ""};
   judge::Explanation why{causes_of(failed, limit), where_it_fails(failed)};
   if (std::optional<Cause> none = not_numbers(failed)) why.causes.push_back(*std::move(none));

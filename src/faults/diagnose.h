@@ -13,9 +13,10 @@
 namespace rainref::faults {
 
 /// What explains a failing run, best first, and where it fails; no cause when nothing explains enough of it. A wrong list is
-/// behind what is wrong in an image that goes with it, so lists are asked first. Serves as judge::ValidateOptions::explain. Past the limit
-/// the best so far is said, and none is likely.
-judge::Explanation diagnose(const judge::FailedRun& failed, const SearchLimit& limit = SearchLimit(0));
+/// behind what is wrong in an image that goes with it, so lists are asked first. Serves as judge::ValidateOptions::explain.
+judge::Explanation diagnose(const judge::FailedRun& failed);
+/// The same in a limited time: past it the best so far is said, and none is likely.
+judge::Explanation diagnose_within(const SearchLimit& limit, const judge::FailedRun& failed);
 
 /// "only channel y of wave; only within 4 texels of a record of drops", or "". The rule stands in where.cpp.
 std::string where_it_fails(const judge::FailedRun& failed);

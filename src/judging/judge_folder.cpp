@@ -21,7 +21,7 @@ class JudgeCall {
     options.explain = [this, &o](const judge::FailedRun& failed) {
       if (o.at_cause) o.at_cause(failed.pass.name);
       const faults::SearchLimit limit(o.causes_within);
-      judge::Explanation why = faults::diagnose(failed, limit);
+      judge::Explanation why = faults::diagnose_within(limit, failed);
       if (limit.was_met()) cut_short_.push_back(failed.pass.name);
       return why;
     };
