@@ -96,8 +96,6 @@ std::vector<image_io::Layer> Instance::layers() const {
 }
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), exposure_}; }
 
-effect::Effect entry() {
-  return {"edge_splash", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene};
-}
+effect::Effect entry() { return {"edge_splash", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
 
 }  // namespace rainref::edge_splash

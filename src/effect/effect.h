@@ -18,8 +18,8 @@ namespace rainref::effect {
 struct Effect {
   std::string name;
   std::vector<std::string> variants;
-  std::span<const scene::Parameter> parameters;              ///< its own; what every scene may say comes on top
-  const capture::EffectInfo* info;                 ///< passes, buffers, layouts
+  std::span<const scene::Parameter> parameters;  ///< its own; what every scene may say comes on top
+  const capture::EffectInfo* info;               ///< passes, buffers, layouts
   /// What a scene takes: the effect, the pictures made for it.
   RunMemory (*memory)(const scene::Config& config);
   /// Reads the scene's input files, which are added to `inputs`, and builds the effect. Throws Error naming key, expected and found.

@@ -109,8 +109,6 @@ std::optional<effect::Display> Instance::display() const {
                          corrected ? effect::Display::Code::srgb : effect::Display::Code::power};
 }
 
-effect::Effect entry() {
-  return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene};
-}
+effect::Effect entry() { return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
 
 }  // namespace rainref::puddle

@@ -136,8 +136,6 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
                              });
 }
 
-effect::Effect entry() {
-  return {"rainy_glass", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene};
-}
+effect::Effect entry() { return {"rainy_glass", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
 
 }  // namespace rainref::rainy_glass

@@ -113,8 +113,6 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
   });
 }
 
-effect::Effect entry() {
-  return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene};
-}
+effect::Effect entry() { return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
 
 }  // namespace rainref::screen_drops
