@@ -1,4 +1,4 @@
-// How long a search for causes may take. It changes what is found, so nothing that is compared is searched under one.
+// How long a search for causes may take. What is found then depends on the machine, so results that are compared have no limit.
 #pragma once
 
 #include <atomic>

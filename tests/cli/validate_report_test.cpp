@@ -47,7 +47,7 @@ TEST_F(ValidateReports, AllReportsOfAFailingPort) {
   EXPECT_EQ(folder.names().size(), before.size() + 3);  // no temporary stays
 }
 
-// The verdict does not hang on the time for causes, and what was found in it is not called likely.
+// The verdict does not depend on the time for causes. When it ends early, no cause is called likely.
 TEST_F(ValidateReports, WhenTheTimeForCausesIsOverANoteSaysSo) {
   const auto pack = std::make_shared<const capture::Pack>(folder / "pack");
   const parallel::Executor executor(2);
