@@ -39,7 +39,7 @@ class PassModel {
   /// As enclose(), of every rearrangement that the profile in force allows. False where the pass has no such evaluation: it is
   /// judged as it is written.
   virtual bool rearrange(int, int, const float*, enclosed::Enclosure*) const { return false; }
-  /// Whether enclose() depends on `port`.
+  /// Whether enclose() depends on `port`: on values alone that are the same however halves are rounded, as floats and flags.
   virtual bool needs_port() const { return false; }
   /// Whether the pass itself rounds to binary16 on its way, as its outputs are stored.
   virtual bool rounds_inside() const { return false; }

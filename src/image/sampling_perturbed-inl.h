@@ -1,6 +1,8 @@
 // The faults and variations of texture lookups. Text only; include it before sampling-inl.h, whose rules it bends.
 
 template <class N>
+RAINREF_FN N address_coordinate(Address address, N u);
+template <class N>
 RAINREF_FN N texel_coordinate(Address address, N u, N size);
 
 RAINREF_FN Address altered(Address address) {
@@ -23,7 +25,18 @@ RAINREF_FN void address_decided(Address address, perturbed::DecisionKind kind, i
 RAINREF_FN void address_decided(Address address, float u, float size) {
   address_decided(address, perturbed::DecisionKind::address, u * size < 0.5f ? 0 : u * size > size - 0.5f ? 2 : 1);
 }
+/// The coordinate of a filtered lookup as the sampler in force takes it; `in_float` by arithmetic.
+RAINREF_FN float by_filter(Address address, float u, float size, float in_float) {
+  if (perturbed::behaviour().filter == perturbed::Filter::arithmetic) return in_float;
+  const bool is_held = address == Address::clamp || address == Address::mirror;
+  const float reduced = address_coordinate<scalar::Scalar<float>>(address, u).v;
+  return fixed_point::texel_coordinate(reduced, size, in_float, is_held ? 0.0f : -1.0f, is_held ? size - 1 : size);
+}
 RAINREF_FN perturbed::Perturbed texel_coordinate(Address address, perturbed::Perturbed u, perturbed::Perturbed size) {
+  if (perturbed::detail::is_reference)
+    return perturbed::Perturbed::of(
+        by_filter(address, u.v, size.v,
+                  texel_coordinate<scalar::Scalar<float>>(address, scalar::Scalar<float>(u.v), scalar::Scalar<float>(size.v)).v));
   address_decided(address, u.v, size.v);
   const auto result = [&] {
     const perturbed::Unseen parts;
@@ -44,7 +57,7 @@ RAINREF_FN perturbed::Perturbed texel_coordinate(Address address, perturbed::Per
       case perturbed::Fault::texel_after:
         return of(x.v + 1.0f);
       default:
-        return of(sampler.texel(x.v));
+        return of(by_filter(address, u.v, size.v, sampler.texel(x.v)));
     }
   };
   return perturbed::Perturbed::met(perturbed::Op::coordinate, result(), u);
@@ -62,6 +75,7 @@ RAINREF_FN perturbed::Perturbed nearest_coordinate(Address address, perturbed::P
   return perturbed::Perturbed::met(perturbed::Op::coordinate, result(), u);
 }
 RAINREF_FN perturbed::Perturbed level_of_detail(perturbed::Perturbed lod) {
+  if (perturbed::detail::is_reference && perturbed::behaviour().filter == perturbed::Filter::arithmetic) return lod;
   return perturbed::Perturbed::met(perturbed::Op::level, perturbed::Perturbed::of(perturbed::Sampler().level(lod.v)), lod);
 }
 template <class N>
@@ -71,11 +85,15 @@ RAINREF_FN int filtered_bits(TexelPrecision precision) {
 }
 RAINREF_FN perturbed::Perturbed blend(TexelPrecision precision, perturbed::Perturbed a, perturbed::Perturbed b, perturbed::Perturbed c,
                                       perturbed::Perturbed d, perturbed::Perturbed fx, perturbed::Perturbed fy) {
+  if (perturbed::detail::is_reference && perturbed::behaviour().filter == perturbed::Filter::arithmetic)
+    return blend<perturbed::Perturbed>(precision, a, b, c, d, fx, fy);
   const auto result = [&] {
     const perturbed::Unseen parts;
     const perturbed::Sampler sampler;
     if (const perturbed::Share& s = perturbed::share(); s.of_level > 0)
       return perturbed::Perturbed::of(sampler.weighted(a.v, b.v, c.v, d.v, fx.v, fy.v, s.of_level, s.x_first));
+    if (perturbed::behaviour().filter == perturbed::Filter::fixed_point)
+      return perturbed::Perturbed::of(sampler.stored(sampler.weighted(a.v, b.v, c.v, d.v, fx.v, fy.v, 1, true), filtered_bits(precision)));
     const perturbed::Perturbed in_float = blend<perturbed::Perturbed>(precision, a, b, c, d, fx, fy);
     // A texel of weight 0 adds nothing, so that the result does not lie between it and the others.
     const bool right = fx.v != 0, above = fy.v != 0;

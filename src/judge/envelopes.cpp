@@ -10,9 +10,9 @@
 #include "judge/beyond.h"
 #include "judge/failures.h"
 #include "judge/quantities.h"
-#include "judge/reference_bits.h"
 #include "judge/sample.h"
 #include "judge/second_tier.h"
+#include "judge/short_cuts.h"
 #include "judge/slots.h"
 #include "judge/stored.h"
 #include "judge/widths.h"
@@ -54,7 +54,7 @@ class CaseJudge {
         slots_(slots_of(c, model)),
         // Exact rules compare bits, which is as quick.
         sample_(c, model, options.profile->reference ? 0 : options.sample),
-        bits_(c, model, port, slots_, modes_) {
+        short_cuts_(c, model, port, options, slots_, modes_) {
     if (static_cast<int>(slots_.size()) != model.values())
       throw Error(ExitCode::internal,
                   fmt::format("{}: the model has {} values, the outputs {}", c.folder(), model.values(), slots_.size()));
@@ -62,7 +62,7 @@ class CaseJudge {
   }
 
   std::vector<CaseJudgement> run() {
-    if (!sample_.is_whole()) bits_.prepare(sample_, *options_.executor, options_.every_rounding);
+    if (!sample_.is_whole()) short_cuts_.prepare(sample_);
     constexpr int rows = 4;
     const int tiles = (model_.height() + rows - 1) / rows;
     std::vector<std::vector<Part>> parts(static_cast<std::size_t>(tiles), std::vector<Part>(modes_.size(), empty_part()));
@@ -70,7 +70,7 @@ class CaseJudge {
     for (CaseJudgement& j : whole)
       for (OutputJudgement& o : j.outputs) o.map.assign(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
     options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
-      Scratch scratch(SecondTier(slots_, model_, *options_.profile),
+      Scratch scratch(short_cuts_, SecondTier(slots_, model_, *options_.profile),
                       SecondTier(slots_, model_, options_.typical ? *options_.typical : *options_.profile));
       if (options_.typical) scratch.coarse.emplace(slots_, model_, *options_.profile);
       for (int y = tile.y0; y < tile.y1; ++y)
@@ -103,14 +103,15 @@ class CaseJudge {
     Stored stored;
     std::vector<CodeRange> ranges, nearest, other_ranges;
     std::vector<char> vacuous;        ///< of each value
-    std::vector<char> is_held;        ///< of each rounding: by parts of envelopes
     bool is_open = false;             ///< some alternative leaves a value without a bound
     bool is_sampled = true;           ///< it counts in widths and shares
     SecondTier second, other_second;  ///< by the profile, and by what known devices do
 
     std::optional<Beyond> coarse;  ///< where devices are known
+    ShortCuts::Work short_cut;
 
-    Scratch(const SecondTier& tier, const SecondTier& other) : second(tier), other_second(other) {}
+    Scratch(const ShortCuts& short_cuts, const SecondTier& tier, const SecondTier& other)
+        : second(tier), other_second(other), short_cut(short_cuts) {}
   };
 
   Part empty_part() const {
@@ -134,16 +135,11 @@ class CaseJudge {
 
   void invocation(int x, int y, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
     s.is_sampled = sample_.has(x, y);
-    if (!s.is_sampled && has_reference_bits(x, y)) {
-      for (std::size_t m = 0; m < modes_.size(); ++m)
-        without_envelope(x, y, parts[m], whole[m], m == bits_.leading() || bits_.has(m, x, y));
+    if (!s.is_sampled && short_cuts_.lies_inside(x, y, s.stored, s.short_cut)) {
+      for (std::size_t m = 0; m < modes_.size(); ++m) without_envelope(x, y, parts[m], whole[m], s.short_cut.is_held[m]);
       return;
     }
-    s.stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
-    if (!s.is_sampled && lies_in_parts(x, y, s)) {
-      for (std::size_t m = 0; m < modes_.size(); ++m) without_envelope(x, y, parts[m], whole[m], s.is_held[m]);
-      return;
-    }
+    if (s.is_sampled) s.stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
     const bool is_exact = options_.profile->reference, each_rounds = model_.rounds_inside() && !is_exact;
     if (is_exact)
       s.alternatives.only(s.stored.expected_values);
@@ -155,37 +151,6 @@ class CaseJudge {
     }
   }
 
-  /// Whether an invocation lies inside for having the reference's bits: by the rounding that most have, or by each that is tried.
-  bool has_reference_bits(int x, int y) const {
-    if (!options_.every_rounding) return bits_.has(bits_.leading(), x, y);
-    for (std::size_t m = 0; m < modes_.size(); ++m)
-      if (!bits_.has(m, x, y)) return false;
-    return true;
-  }
-  /// Whether what is stored lies in a part of the envelopes that is found sooner, of the profile's and of what known devices do: by the
-  /// rounding that most have, or by each that is tried. s.is_held says by which.
-  bool lies_in_parts(int x, int y, Scratch& s) const {
-    if (options_.profile->reference || model_.rounds_inside() || s.stored.any_impossible) return false;
-    s.is_held.assign(modes_.size(), 1);
-    const auto is_enough = [&] {
-      return options_.every_rounding ? std::find(s.is_held.begin(), s.is_held.end(), 0) == s.is_held.end()
-                                     : s.is_held[bits_.leading()] != 0;
-    };
-    for (const enclosed::Profile* profile : {options_.profile, options_.typical}) {
-      if (!profile) continue;
-      s.alternatives.run_parts(model_, x, y, s.stored.got_values.data(), *profile);
-      for (std::size_t m = 0; m < modes_.size(); ++m) {
-        bool is_inside = false;
-        for (int a = 0; a < s.alternatives.count && s.is_held[m] && !is_inside; ++a) {
-          code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(a)], *profile, modes_[m], s.ranges);
-          is_inside = inside(*profile, s.ranges, s.stored);
-        }
-        s.is_held[m] &= is_inside;
-      }
-      if (!is_enough()) return false;
-    }
-    return true;
-  }
   /// Counts one that no envelope is asked of.
   void without_envelope(int x, int y, Part& part, CaseJudgement& whole, bool is_decided) const {
     CaseJudgement& counts = part.counts;
@@ -502,7 +467,7 @@ class CaseJudge {
   std::vector<Slot> slots_;
   std::vector<char> free_;  // of each slot, as Stored::free
   Sample sample_;
-  ReferenceBits bits_;
+  ShortCuts short_cuts_;
   bool needs_all_ = false;
 };
 

@@ -1,7 +1,6 @@
 #include "judge/reference_bits.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "judge/reference_outputs.h"
 #include "math/scalar.h"
@@ -10,17 +9,6 @@ namespace rainref::judge {
 
 using capture::Array;
 
-namespace {
-
-/// Whether a stored value lies below the largest of its format: beyond that a profile says what a store may do.
-bool is_below_largest(FormatInfo::Kind kind, const std::byte* at) {
-  if (kind != FormatInfo::float16 && kind != FormatInfo::float32) return true;
-  const std::int64_t code = enclosed::ordered_code(kind, at), largest = kind == FormatInfo::float16 ? 0x7bff : 0x7f7fffff;
-  return -largest < code && code < largest;
-}
-
-}  // namespace
-
 ReferenceBits::ReferenceBits(const capture::PassCase& c, const capture::PassModel& model, const std::vector<Array>& port,
                              const std::vector<Slot>& slots, const std::vector<HalfMode>& modes)
     : case_(c), model_(model), port_(port), slots_(slots), modes_(modes) {}
@@ -28,7 +16,7 @@ ReferenceBits::ReferenceBits(const capture::PassCase& c, const capture::PassMode
 bool ReferenceBits::is_own(HalfMode mode) const {
   return std::all_of(slots_.begin(), slots_.end(), [&](const Slot& s) { return rounding_of(s, mode) == s.store_rounding; });
 }
-bool ReferenceBits::has_reference(HalfMode mode) const { return is_own(mode) || !(model_.rounds_inside() || model_.needs_port()); }
+bool ReferenceBits::has_reference(HalfMode mode) const { return is_own(mode) || !model_.rounds_inside(); }
 
 void ReferenceBits::prepare(const Sample& sample, const parallel::Executor& executor, bool every) {
   const std::size_t roundings = std::min<std::size_t>(2, modes_.size());
@@ -44,8 +32,7 @@ void ReferenceBits::prepare(const Sample& sample, const parallel::Executor& exec
           const Slot& s = slots_[v];
           std::array<std::byte, 4> stored{};
           store_value(s, values[v].v, rounding_of(s, modes_[m]), stored.data());
-          is_equal = std::memcmp(stored.data(), s.at(port_[static_cast<std::size_t>(s.output)], x, y),
-                                 static_cast<std::size_t>(s.channel_bytes)) == 0;
+          is_equal = s.is_same(stored.data(), s.at(port_[static_cast<std::size_t>(s.output)], x, y));
         }
         counts[m] += is_equal;
       }
@@ -62,8 +49,7 @@ template <class ArrayOf>
 bool ReferenceBits::equals(const ArrayOf& reference, int x, int y) const {
   return std::all_of(slots_.begin(), slots_.end(), [&](const Slot& s) {
     const auto o = static_cast<std::size_t>(s.output);
-    const std::byte *want = s.at(reference(o), x, y), *have = s.at(port_[o], x, y);
-    return std::memcmp(want, have, static_cast<std::size_t>(s.channel_bytes)) == 0 && is_below_largest(s.kind, have);
+    return s.is_same(s.at(reference(o), x, y), s.at(port_[o], x, y));
   });
 }
 bool ReferenceBits::has(std::size_t mode, int x, int y) const {

@@ -1,4 +1,4 @@
-// Which invocations of a port have the reference's bits: they need no envelope.
+// Which invocations of a port have the reference's bits, but for the sign of a zero: they need no envelope.
 //
 // Every profile allows what the reference does, so each of its envelopes, in one alternative for all outputs together, holds the
 // reference's values, and the store's codes the code that the reference stores. What has those bits lies inside.

@@ -58,6 +58,13 @@ float stored_value(const Slot& slot, const std::byte* at) {
   }
   return 0;
 }
+bool Slot::is_same(const std::byte* a, const std::byte* b) const {
+  const std::int64_t code = enclosed::ordered_code(kind, a);
+  if (code != enclosed::ordered_code(kind, b)) return false;
+  if (kind != FormatInfo::float16 && kind != FormatInfo::float32) return true;
+  const std::int64_t largest = kind == FormatInfo::float16 ? 0x7bff : 0x7f7fffff;
+  return -largest < code && code < largest;
+}
 bool is_nan(FormatInfo::Kind kind, const std::byte* at) {
   if (kind == FormatInfo::float16) return (loaded<Half>(at).bits & 0x7fffu) > 0x7c00u;
   if (kind == FormatInfo::float32) return (loaded<std::uint32_t>(at) & 0x7fffffffu) > 0x7f800000u;

@@ -24,6 +24,9 @@ struct Slot {
   }
   const std::byte* at(const capture::Array& a, int x, int y) const { return a.levels[0].data() + offset(x, y); }
   std::int64_t code(const capture::Array& a, int x, int y) const { return enclosed::ordered_code(kind, at(a, x, y)); }
+  /// Whether two stored values have one code, below the largest of their format: beyond that a profile says what a store may do. The zeros
+  /// are one code.
+  bool is_same(const std::byte* a, const std::byte* b) const;
 };
 std::vector<Slot> slots_of(const capture::PassCase& c);
 /// The same with the ranges that the model knows better.

@@ -8,15 +8,19 @@
 #include "math/perturbed_draws.h"
 
 namespace rainref::perturbed {
+
+constinit thread_local Behaviour detail::current;
+constinit thread_local bool detail::is_plain = true;
+constinit thread_local bool detail::is_reference = true;
+
 namespace {
 
 using Reference = scalar::Scalar<float>;
 using enclosed::Accuracy;
 using enclosed::Profile;
 
-thread_local Behaviour current;
-/// Whether sums, products, comparisons and extrema are the reference's and nobody looks at them: what most invocations are made of.
-thread_local bool is_plain = true;
+using detail::current;
+using detail::is_reference;
 
 bool is(Fault fault) { return current.fault == fault; }
 /// Whether this operation takes a variation that is granted.
@@ -81,18 +85,19 @@ Reference reference(const Perturbed& a) { return Reference(a.v); }
 
 }  // namespace
 
-Behaviour& behaviour() { return current; }
-
 Scope::Scope(const Behaviour& b) : saved_(current) { set(b); }
 Scope::~Scope() { set(saved_); }
 void Scope::set(const Behaviour& b) {
   current = b;
-  is_plain = !b.variations && !b.follows() && b.fault != Fault::fused && b.fault != Fault::flushed &&
-             b.fault != Fault::half_intermediates && b.fault != Fault::strict_for_weak && b.fault != Fault::weak_for_strict &&
-             b.fault != Fault::minimum_missing && b.fault != Fault::maximum_missing && b.fault != Fault::abs_missing;
+  detail::is_plain = !b.variations && !b.follows() && b.fault != Fault::fused && b.fault != Fault::flushed &&
+                     b.fault != Fault::half_intermediates && b.fault != Fault::strict_for_weak && b.fault != Fault::weak_for_strict &&
+                     b.fault != Fault::minimum_missing && b.fault != Fault::maximum_missing && b.fault != Fault::abs_missing;
+  is_reference = detail::is_plain && b.fault == Fault::none && !b.constants && !b.loads && !b.coverage && b.column_offset == 0 &&
+                 !b.is_column_mirrored;
 }
 
-Perturbed::Perturbed(float constant) : v(constant) {
+void Perturbed::literal() {
+  const float constant = v;
   if (current.constants) current.constants->push_back(constant);
   if (current.follows()) {
     const bool is_known = current.known && std::binary_search(current.known->begin(), current.known->end(), constant);
@@ -101,13 +106,13 @@ Perturbed::Perturbed(float constant) : v(constant) {
   if (is(Fault::constant) && constant == current.constant) v = current.replacement;
   if (is(Fault::half_constants)) v = to_float(to_half(constant));
 }
-Perturbed Perturbed::index(int first) {
+Perturbed Perturbed::column(int first) {
   Perturbed column = of(current.is_column_mirrored ? current.column_offset - static_cast<float>(first)
                                                    : static_cast<float>(first) + current.column_offset);
   if (current.follows()) column.leaf(Op::index, 0);
   return column;
 }
-Perturbed Perturbed::loaded(const Perturbed& stored) {
+Perturbed Perturbed::load_of(const Perturbed& stored) {
   Perturbed texel = stored;
   if (current.loads && current.loaded < current.loads->size())
     if (const float other = (*current.loads)[current.loaded]; other == other) texel.v = other;
@@ -115,7 +120,7 @@ Perturbed Perturbed::loaded(const Perturbed& stored) {
   if (current.follows()) texel.leaf(Op::load, 0);
   return texel;
 }
-Perturbed Perturbed::fetched(float texel) {
+Perturbed Perturbed::fetch_of(float texel) {
   Perturbed f = of(texel);
   if (current.follows()) f.leaf(Op::fetch, 0);
   return f;
@@ -126,41 +131,31 @@ Perturbed Perturbed::opposite() const {
   o.factor_ = -o.factor_;
   return o;
 }
-bool operator<(const Perturbed& a, const Perturbed& b) {
-  if (is_plain) return a.v < b.v;
+bool Perturbed::is_less(const Perturbed& a, const Perturbed& b) {
   return Perturbed::met(is(Fault::weak_for_strict) ? a.v <= b.v : a.v < b.v, a, b);
 }
-bool operator<=(const Perturbed& a, const Perturbed& b) {
-  if (is_plain) return a.v <= b.v;
+bool Perturbed::is_at_most(const Perturbed& a, const Perturbed& b) {
   return Perturbed::met(is(Fault::strict_for_weak) ? a.v < b.v : a.v <= b.v, a, b);
 }
-Perturbed Perturbed::chosen(bool m, const Perturbed& a, const Perturbed& b) {
-  if (is_plain) return of(m ? a.v : b.v);
+Perturbed Perturbed::choice(bool m, const Perturbed& a, const Perturbed& b) {
   return Perturbed::met(Op::choice, m ? a : b, a, b, Perturbed::of(m ? 1.0f : 0.0f));
 }
-Perturbed Perturbed::lesser(const Perturbed& a, const Perturbed& b) {
-  if (is_plain) return of(b.v < a.v ? b.v : a.v);
+Perturbed Perturbed::minimum(const Perturbed& a, const Perturbed& b) {
   return Perturbed::met(Op::minimum, Perturbed::of(is(Fault::minimum_missing) || !(b.v < a.v) ? a.v : b.v), a, b);
 }
-Perturbed Perturbed::greater(const Perturbed& a, const Perturbed& b) {
-  if (is_plain) return of(a.v < b.v ? b.v : a.v);
+Perturbed Perturbed::maximum(const Perturbed& a, const Perturbed& b) {
   return Perturbed::met(Op::maximum, Perturbed::of(is(Fault::maximum_missing) || !(a.v < b.v) ? a.v : b.v), a, b);
 }
 Perturbed abs(const Perturbed& a) {
-  if (is_plain) return Perturbed::of(a.v < 0 ? -a.v : a.v);
+  if (detail::is_plain) return Perturbed::of(a.v < 0 ? -a.v : a.v);
   return Perturbed::met(Op::magnitude, a.v < 0 && !is(Fault::abs_missing) ? a.opposite() : a, a);
 }
-Perturbed operator-(const Perturbed& a) {
-  if (is_plain) return Perturbed::of(-a.v);
-  return Perturbed::met(Op::negation, a.opposite(), a);
-}
-Perturbed operator+(const Perturbed& a, const Perturbed& b) {
-  if (is_plain) return Perturbed::of(a.v + b.v);
+Perturbed Perturbed::negation(const Perturbed& a) { return Perturbed::met(Op::negation, a.opposite(), a); }
+Perturbed Perturbed::sum(const Perturbed& a, const Perturbed& b) {
   return Perturbed::made(
       Op::sum, [&] { return Perturbed::add(a, b); }, a, b);
 }
-Perturbed operator-(const Perturbed& a, const Perturbed& b) {
-  if (is_plain) return Perturbed::of(a.v - b.v);
+Perturbed Perturbed::difference(const Perturbed& a, const Perturbed& b) {
   return Perturbed::made(
       Op::difference, [&] { return Perturbed::add(a, b.opposite()); }, a, b);
 }
@@ -178,9 +173,8 @@ Perturbed Perturbed::add(const Perturbed& a, const Perturbed& b) {
   const float s = a.v + b.v, t = s - a.v;
   return finish(s, (a.v - (s - t)) + (b.v - t));
 }
-Perturbed operator*(const Perturbed& a, const Perturbed& b) {
-  if (is_plain) return Perturbed::of(a.v * b.v);
-  const auto product = [&] {
+Perturbed Perturbed::product(const Perturbed& a, const Perturbed& b) {
+  const auto result = [&] {
     const float p = a.v * b.v;
     Perturbed r = finish(p, static_cast<double>(a.v) * b.v - p);
     r.factor_ = a.v;
@@ -188,9 +182,10 @@ Perturbed operator*(const Perturbed& a, const Perturbed& b) {
     r.product_ = true;
     return r;
   };
-  return Perturbed::made(Op::product, product, a, b);
+  return Perturbed::made(Op::product, result, a, b);
 }
 Perturbed square(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(a.v * a.v);
   const auto squared = [&] {
     const Unseen parts;
     return is(Fault::square_missing) ? a : a * a;
@@ -198,7 +193,7 @@ Perturbed square(const Perturbed& a) {
   return Perturbed::made(Op::square, squared, a);
 }
 namespace {
-Perturbed quotient(const Perturbed& a, const Perturbed& b) {
+Perturbed divided(const Perturbed& a, const Perturbed& b) {
   if (is(Fault::reciprocal_division)) return finish(a.v * (1.0f / b.v), 0);
   if (is(Fault::division_by_estimate)) return finish(a.v * beside(1.0f / b.v, true), 0);
   const double exact_quotient = exact(a) / b.v;
@@ -209,11 +204,12 @@ Perturbed quotient(const Perturbed& a, const Perturbed& b) {
   return erring(a.v / b.v, exact_quotient, &Profile::division);
 }
 }  // namespace
-Perturbed operator/(const Perturbed& a, const Perturbed& b) {
+Perturbed Perturbed::quotient(const Perturbed& a, const Perturbed& b) {
   return Perturbed::made(
-      Op::quotient, [&] { return quotient(a, b); }, a, b);
+      Op::quotient, [&] { return divided(a, b); }, a, b);
 }
 Perturbed Perturbed::load_unorm(Unorm8 code) {
+  if (is_reference) return of(scalar::to_float(code));
   // 0 and 1 are exact everywhere.
   if (code.code == 0 || code.code == 255) return of(scalar::to_float(code));
   return erring(scalar::to_float(code), code.code / 255.0, &Profile::unorm_load);
@@ -223,6 +219,7 @@ Perturbed inverse_sqrt(const Perturbed& a) {
   return erring(static_cast<float>(root), root, &Profile::inverse_sqrt);
 }
 Perturbed sqrt(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(__builtin_sqrtf(a.v));
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::root_missing)) return a;
@@ -234,6 +231,7 @@ Perturbed sqrt(const Perturbed& a) {
   return Perturbed::made(Op::root, result, a);
 }
 Perturbed floor(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(floor(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
     const Reference down = floor(reference(a));
@@ -244,6 +242,7 @@ Perturbed floor(const Perturbed& a) {
   return Perturbed::made(Op::floor, result, a);
 }
 Perturbed fract(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(fract(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
     const Reference down = floor(reference(a));
@@ -253,6 +252,7 @@ Perturbed fract(const Perturbed& a) {
   return Perturbed::made(Op::fract, result, a);
 }
 Perturbed mix(const Perturbed& a, const Perturbed& b, const Perturbed& t) {
+  if (is_reference) return Perturbed::of(a.v * (1.0f - t.v) + b.v * t.v);
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::mix_swapped)) return b * (Perturbed::of(1.0f) - t) + a * t;
@@ -263,6 +263,7 @@ Perturbed mix(const Perturbed& a, const Perturbed& b, const Perturbed& t) {
 }
 
 Perturbed exp(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(exp(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::exp_base_two)) return finish(exp2(reference(a)).v, 0);
@@ -271,6 +272,7 @@ Perturbed exp(const Perturbed& a) {
   return Perturbed::made(Op::exponential, result, a);
 }
 Perturbed exp2(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(exp2(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::exp2_base_e)) return finish(exp(reference(a)).v, 0);
@@ -301,6 +303,7 @@ Perturbed wave(float nearest, double exact, double x) {
 }
 }  // namespace
 Perturbed log(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(log(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
     return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
@@ -308,6 +311,7 @@ Perturbed log(const Perturbed& a) {
   return Perturbed::made(Op::logarithm, result, a);
 }
 Perturbed pow(const Perturbed& a, const Perturbed& b) {
+  if (is_reference) return Perturbed::of(pow(reference(a), reference(b)).v);
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::pow_squared)) return a * a;
@@ -318,6 +322,7 @@ Perturbed pow(const Perturbed& a, const Perturbed& b) {
   return Perturbed::made(Op::power, result, a, b);
 }
 Perturbed sin(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(sin(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
     const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
@@ -326,6 +331,7 @@ Perturbed sin(const Perturbed& a) {
   return Perturbed::made(Op::sine, result, a);
 }
 Perturbed cos(const Perturbed& a) {
+  if (is_reference) return Perturbed::of(cos(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
     const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
@@ -334,6 +340,7 @@ Perturbed cos(const Perturbed& a) {
   return Perturbed::made(Op::cosine, result, a);
 }
 Perturbed atan2(const Perturbed& given_y, const Perturbed& x) {
+  if (is_reference) return Perturbed::of(atan2(reference(given_y), reference(x)).v);
   Perturbed y = given_y;
   const auto result = [&] {
     const Unseen parts;
@@ -359,18 +366,21 @@ Perturbed shuffled_sum(std::array<Perturbed, Count> terms) {
 }
 }  // namespace
 Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c) {
+  if (is_reference) return Perturbed::of((a.v + b.v) + c.v);
   if (is(Fault::sum_backwards)) return (c + b) + a;
   if (is(Fault::sum_otherwise_paired)) return a + (b + c);
   if (take(&Variations::reorder)) return shuffled_sum<3>({a, b, c});
   return (a + b) + c;
 }
 Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d) {
+  if (is_reference) return Perturbed::of(((a.v + b.v) + c.v) + d.v);
   if (is(Fault::sum_backwards)) return ((d + c) + b) + a;
   if (is(Fault::sum_otherwise_paired)) return (a + b) + (c + d);
   if (take(&Variations::reorder)) return shuffled_sum<4>({a, b, c, d});
   return ((a + b) + c) + d;
 }
 Perturbed sum_any_order_in_pairs(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d) {
+  if (is_reference) return Perturbed::of((a.v + b.v) + (c.v + d.v));
   if (is(Fault::sum_backwards)) return ((d + c) + b) + a;
   if (is(Fault::sum_otherwise_paired)) return (a + c) + (b + d);
   if (take(&Variations::reorder)) return shuffled_sum<4>({a, b, c, d});
@@ -393,16 +403,19 @@ class Counted {
 }  // namespace
 
 Perturbed clamp(const Perturbed& x, const Perturbed& low, const Perturbed& high, const Site& site) {
+  if (is_reference) return scalar::clamp<Perturbed>(x, low, high);
   Perturbed::decided(site, DecisionKind::clamp, x.v < low.v ? 0 : x.v > high.v ? 2 : 1);
   const Counted parts;
   return scalar::clamp<Perturbed>(x, low, high);
 }
 Perturbed saturate(const Perturbed& x, const Site& site) {
+  if (is_reference) return scalar::saturate<Perturbed>(x);
   Perturbed::decided(site, DecisionKind::clamp, x.v < 0 ? 0 : x.v > 1 ? 2 : 1);
   const Counted parts;
   return scalar::saturate<Perturbed>(x);
 }
 Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const Site& site) {
+  if (is_reference) return scalar::smoothstep<Perturbed>(edge0, edge1, x);
   const float ramp = (x.v - edge0) / (edge1 - edge0);
   Perturbed::decided(site, DecisionKind::clamp, ramp < 0 ? 0 : ramp > 1 ? 2 : 1);
   const Counted counted;
@@ -421,6 +434,7 @@ Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const Site& s
 }
 Perturbed uniform_quotient(float a, float b, Perturbed) { return current.variations ? Perturbed(a) / Perturbed(b) : Perturbed(a / b); }
 scalar::Vec3<Perturbed> normalize(const scalar::Vec3<Perturbed>& a) {
+  if (is_reference) return scalar::normalize<Perturbed>(a);
   if (is(Fault::normalize_missing)) return a;
   if (take(&Variations::normalize_any)) {
     const Perturbed squared = scalar::dot(a, a);
@@ -436,12 +450,14 @@ scalar::Vec3<Perturbed> as_argument(const scalar::Vec3<Perturbed>& a) {
   return {part(a.x), part(a.y), part(a.z)};
 }
 scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& given_v, const scalar::Vec3<Perturbed>& given_n) {
+  if (is_reference) return scalar::reflect<Perturbed>(given_v, given_n);
   const scalar::Vec3<Perturbed> v = as_argument(given_v), n = as_argument(given_n);
   if (is(Fault::reflect_doubled_missing)) return v - scalar::dot(n, v) * n;
   return scalar::reflect<Perturbed>(v, n);
 }
 scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& given_v, const scalar::Vec3<Perturbed>& given_n, float eta,
                                 const Site& site) {
+  if (is_reference) return scalar::refract<Perturbed>(given_v, given_n, eta);
   const scalar::Vec3<Perturbed> v = as_argument(given_v), n = as_argument(given_n);
   const float along = n.x.v * v.x.v + n.y.v * v.y.v + n.z.v * v.z.v;
   Perturbed::decided(site, DecisionKind::total_reflection, eta * eta * (1 - along * along) > 1);
@@ -453,6 +469,7 @@ scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& given_v, const sc
   return {part(bent.x, v.x), part(bent.y, v.y), part(bent.z, v.z)};
 }
 Perturbed nearest_octave(const Perturbed& x) {
+  if (is_reference) return scalar::nearest_octave<Perturbed>(x);
   const Perturbed level = scalar::nearest_octave<Perturbed>(x);
   if (is(Fault::level_above)) return level + Perturbed(1.0f);
   if (is(Fault::level_below)) return scalar::nearest_octave<Perturbed>(x * Perturbed(0.5f));

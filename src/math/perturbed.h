@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "math/coverage.h"
+#include "math/fixed_point_filter.h"
 #include "math/places.h"
 #include "math/scalar.h"
 #include "math/profile.h"
@@ -88,9 +89,16 @@ struct Variations {
 /// Exactly what the profile allows; nothing for one that is the reference.
 Variations variations_of(const enclosed::Profile& profile);
 
+/// Who makes filtered lookups, where no variation draws it.
+enum class Filter : std::uint8_t {
+  arithmetic,  ///< the pass text, in floats
+  fixed_point  ///< a known device's sampler (fixed_point_filter.h)
+};
+
 /// What the calling thread's Perturbeds do.
 struct Behaviour {
   Fault fault = Fault::none;
+  Filter filter = Filter::arithmetic;
   float constant = 0, replacement = 0;  ///< of Fault::constant
   const Variations* variations = nullptr;
   std::uint64_t random = 1;                 ///< state of the variations' draws
@@ -113,7 +121,14 @@ struct Behaviour {
   void begin_invocation();
   bool follows() const { return trace || substitutions || places[0].fault != PlaceFault::none; }
 };
-Behaviour& behaviour();
+namespace detail {
+extern constinit thread_local Behaviour current;
+/// Whether sums, products, comparisons and extrema are the reference's and nobody looks at them: what most invocations are made of.
+extern constinit thread_local bool is_plain;
+/// Whether everything is but lookups, for which Behaviour::filter counts.
+extern constinit thread_local bool is_reference;
+}  // namespace detail
+inline Behaviour& behaviour() { return detail::current; }
 /// Sets the behaviour for a scope.
 class Scope {
  public:
@@ -158,7 +173,9 @@ class Perturbed {
   float v = 0;
 
   Perturbed() = default;
-  Perturbed(float constant);
+  Perturbed(float constant) : v(constant) {
+    if (!detail::is_reference) literal();
+  }
   /// A value that is no literal and no uniform.
   static Perturbed of(float x) {
     Perturbed d;
@@ -172,16 +189,16 @@ class Perturbed {
     else
       return loaded(of(scalar::to_float(*p)));
   }
-  static Perturbed index(int first);
+  static Perturbed index(int first) { return detail::is_reference ? of(static_cast<float>(first)) : column(first); }
   static Int uniform_int(int value) { return {value}; }
 
-  friend Perturbed operator+(const Perturbed& a, const Perturbed& b);
-  friend Perturbed operator-(const Perturbed& a, const Perturbed& b);
-  friend Perturbed operator*(const Perturbed& a, const Perturbed& b);
-  friend Perturbed operator/(const Perturbed& a, const Perturbed& b);
-  friend Perturbed operator-(const Perturbed& a);
-  friend bool operator<(const Perturbed& a, const Perturbed& b);
-  friend bool operator<=(const Perturbed& a, const Perturbed& b);
+  friend Perturbed operator+(const Perturbed& a, const Perturbed& b) { return detail::is_plain ? of(a.v + b.v) : sum(a, b); }
+  friend Perturbed operator-(const Perturbed& a, const Perturbed& b) { return detail::is_plain ? of(a.v - b.v) : difference(a, b); }
+  friend Perturbed operator*(const Perturbed& a, const Perturbed& b) { return detail::is_plain ? of(a.v * b.v) : product(a, b); }
+  friend Perturbed operator/(const Perturbed& a, const Perturbed& b) { return detail::is_reference ? of(a.v / b.v) : quotient(a, b); }
+  friend Perturbed operator-(const Perturbed& a) { return detail::is_plain ? of(-a.v) : negation(a); }
+  friend bool operator<(const Perturbed& a, const Perturbed& b) { return detail::is_plain ? a.v < b.v : is_less(a, b); }
+  friend bool operator<=(const Perturbed& a, const Perturbed& b) { return detail::is_plain ? a.v <= b.v : is_at_most(a, b); }
   friend bool operator>(const Perturbed& a, const Perturbed& b) { return b < a; }
   friend bool operator>=(const Perturbed& a, const Perturbed& b) { return b <= a; }
   // The place of the call is that of a decision in the pass text.
@@ -253,13 +270,28 @@ class Perturbed {
   }
 
  private:
-  static Perturbed chosen(bool m, const Perturbed& a, const Perturbed& b);
-  static Perturbed lesser(const Perturbed& a, const Perturbed& b);
-  static Perturbed greater(const Perturbed& a, const Perturbed& b);
+  // As the behaviour has them.
+  void literal();
+  static Perturbed column(int first);
+  static Perturbed sum(const Perturbed& a, const Perturbed& b);
+  static Perturbed difference(const Perturbed& a, const Perturbed& b);
+  static Perturbed product(const Perturbed& a, const Perturbed& b);
+  static Perturbed quotient(const Perturbed& a, const Perturbed& b);
+  static Perturbed negation(const Perturbed& a);
+  static bool is_less(const Perturbed& a, const Perturbed& b);
+  static bool is_at_most(const Perturbed& a, const Perturbed& b);
+  static Perturbed chosen(bool m, const Perturbed& a, const Perturbed& b) { return detail::is_plain ? of(m ? a.v : b.v) : choice(m, a, b); }
+  static Perturbed choice(bool m, const Perturbed& a, const Perturbed& b);
+  static Perturbed lesser(const Perturbed& a, const Perturbed& b) { return detail::is_plain ? of(b.v < a.v ? b.v : a.v) : minimum(a, b); }
+  static Perturbed minimum(const Perturbed& a, const Perturbed& b);
+  static Perturbed greater(const Perturbed& a, const Perturbed& b) { return detail::is_plain ? of(a.v < b.v ? b.v : a.v) : maximum(a, b); }
+  static Perturbed maximum(const Perturbed& a, const Perturbed& b);
   static Perturbed add(const Perturbed& a, const Perturbed& b);
   static Perturbed load_unorm(Unorm8 code);
-  static Perturbed loaded(const Perturbed& texel);
-  static Perturbed fetched(float texel);
+  static Perturbed loaded(const Perturbed& texel) { return detail::is_reference ? texel : load_of(texel); }
+  static Perturbed load_of(const Perturbed& texel);
+  static Perturbed fetched(float texel) { return detail::is_reference ? of(texel) : fetch_of(texel); }
+  static Perturbed fetch_of(float texel);
   void leaf(Op op, std::uint32_t shape);
   static Perturbed follow(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of);
   static bool follow(bool result, const Perturbed& a, const Perturbed& b);
@@ -318,6 +350,9 @@ struct Sampler {
   bool takes_x_first() const;
   float weighted(float a, float b, float c, float d, float fx, float fy, float share, bool x_first) const;
   float stored(float value, int bits) const;
+
+ private:
+  bool is_fixed_point;
 };
 
 }  // namespace rainref::perturbed

@@ -1,11 +1,14 @@
 // A lookup as the variations have it.
 #include <algorithm>
 
+#include "math/fixed_point_filter.h"
 #include "math/perturbed_draws.h"
 
 namespace rainref::perturbed {
 
-Sampler::Sampler() : is_used(behaviour().variations && behaviour().variations->rules.subtexel_bits > 0 && coin()) {}
+Sampler::Sampler()
+    : is_used(behaviour().variations && behaviour().variations->rules.subtexel_bits > 0 && coin()),
+      is_fixed_point(behaviour().filter == Filter::fixed_point) {}
 float Sampler::coordinate(float u) const {
   if (!is_used || behaviour().variations->rules.coordinate_bits == 0) return u;
   // 0.9 leaves room for the rounding of the sum.
@@ -20,6 +23,7 @@ float snapped(float x, int bits) {
 }  // namespace
 float Sampler::texel(float x) const { return is_used ? snapped(x, behaviour().variations->rules.subtexel_bits) : x; }
 float Sampler::level(float lod) const {
+  if (is_fixed_point) return fixed_point::level(lod);
   return behaviour().variations && behaviour().variations->rules.lod_bits > 0 ? snapped(lod, behaviour().variations->rules.lod_bits) : lod;
 }
 
@@ -31,6 +35,7 @@ float Sampler::blend(float in_float, float a, float b, float c, float d, bool in
   return std::clamp(stored(static_cast<float>(value), bits), least, greatest);
 }
 float Sampler::stored(float in_float, int bits) const {
+  if (is_fixed_point) return bits == 11 ? fixed_point::to_nearest_half(in_float) : in_float;
   double value = in_float;
   const bool up = behaviour().lean != 0 && (draw() & 7) != 0 ? behaviour().lean > 0 : coin();
   if (bits == 0) {
@@ -43,13 +48,14 @@ float Sampler::stored(float in_float, int bits) const {
   }
   return static_cast<float>(value);
 }
-bool Sampler::rounds_jointly() const { return is_used && coin(); }
-bool Sampler::takes_x_first() const { return coin(); }
+bool Sampler::rounds_jointly() const { return is_fixed_point || (is_used && coin()); }
+bool Sampler::takes_x_first() const { return is_fixed_point || coin(); }
 Share& share() {
   thread_local Share current_share;
   return current_share;
 }
 float Sampler::weighted(float a, float b, float c, float d, float fx, float fy, float share, bool x_first) const {
+  if (is_fixed_point) return fixed_point::weighted(a, b, c, d, fx, fy, share);
   if (!x_first) {
     std::swap(b, c);
     std::swap(fx, fy);

@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
 #include "judge/judge.h"
+#include "judge/known_device.h"
 #include "judge/mini_port.h"
 #include "judge/reference_outputs.h"
 #include "judge/stored.h"
@@ -49,18 +51,21 @@ std::vector<HalfMode> modes_of(const BoundCase& b, const enclosed::Profile& p) {
                                    : std::vector<HalfMode>{HalfMode::rne, HalfMode::rtz};
 }
 
-/// Whether some alternative holds what the reference stores of an invocation by this rounding. What a store may do with halves at or
-/// beyond the largest is no part of the premise.
-bool codes_are_held(const Alternatives& all, const BoundCase& b, const std::vector<Slot>& slots, const std::vector<float>& reference,
-                    const enclosed::Profile& p, HalfMode mode) {
+/// What an evaluation stores of an invocation by this rounding.
+std::vector<std::array<std::byte, 4>> stored_by(const std::vector<Slot>& slots, const std::vector<float>& values, HalfMode mode) {
+  std::vector<std::array<std::byte, 4>> all(slots.size());
+  for (std::size_t v = 0; v < slots.size(); ++v) store_value(slots[v], values[v], rounding_of(slots[v], mode), all[v].data());
+  return all;
+}
+/// Whether some alternative holds it. What a store may do with halves at or beyond the largest is no part of the premise.
+bool codes_are_held(const Alternatives& all, const BoundCase& b, const std::vector<Slot>& slots,
+                    const std::vector<std::array<std::byte, 4>>& stored, const enclosed::Profile& p, HalfMode mode) {
   std::vector<enclosed::CodeRange> ranges;
   for (int a = 0; a < all.count; ++a) {
     code_ranges(slots, all.values[static_cast<std::size_t>(a)], p, mode, ranges);
     bool is_held = true;
     for (std::size_t v = 0; v < slots.size(); ++v) {
-      std::array<std::byte, 4> stored{};
-      store_value(slots[v], reference[v], rounding_of(slots[v], mode), stored.data());
-      const std::int64_t code = enclosed::ordered_code(slots[v].kind, stored.data());
+      const std::int64_t code = enclosed::ordered_code(slots[v].kind, stored[v].data());
       const bool overflows = slots[v].kind == FormatInfo::float16 && std::abs(code) >= 0x7bff;
       is_held &= overflows || b.model->is_free(static_cast<int>(v)) || ranges[v].contains(code);
     }
@@ -68,44 +73,81 @@ bool codes_are_held(const Alternatives& all, const BoundCase& b, const std::vect
   }
   return false;
 }
+/// In one alternative of an invocation's envelope lie these values of an evaluation, and in its codes what is stored of them.
+void expect_held(const BoundCase& b, const std::vector<Slot>& slots, const enclosed::Profile& p, int x, int y,
+                 const std::vector<float>& values, const std::string& what) {
+  const capture::PassModel& model = *b.model;
+  for (const HalfMode mode : modes_of(b, p)) {
+    const bool is_own = std::all_of(slots.begin(), slots.end(), [&](const Slot& s) { return rounding_of(s, mode) == s.store_rounding; });
+    if (!is_own && model.rounds_inside()) continue;  // the evaluation has another by this rounding
+    const auto stored = stored_by(slots, values, mode);
+    std::vector<float> port;
+    for (std::size_t v = 0; v < slots.size(); ++v) port.push_back(stored_value(slots[v], stored[v].data()));
+    Alternatives all;
+    all.run(model, x, y, port.data(), model.rounds_inside() ? narrowed(p, mode) : p);
+    if (all.gave_up) continue;
+    EXPECT_TRUE(test::one_holds(all, model, values)) << what;
+    EXPECT_TRUE(codes_are_held(all, b, slots, stored, p, mode)) << what << judge::name(mode);
+  }
+}
+/// Calls ask(x, y, where) with some invocations of a run, evenly.
+void each_of_some(const BoundPass& pass, const BoundCase& b, const std::string& profile,
+                  const std::function<void(int, int, const std::string&)>& ask) {
+  const std::int64_t texels = static_cast<std::int64_t>(b.model->width()) * b.model->height(),
+                     step = std::max<std::int64_t>(1, texels / test::count_from("RAINREF_SHORT_CUTS", 100));
+  for (std::int64_t at = 0; at < texels; at += step) {
+    const int x = static_cast<int>(at % b.model->width()), y = static_cast<int>(at / b.model->width());
+    ask(x, y, pass.name() + ' ' + b.c->folder() + ' ' + profile + " (" + std::to_string(x) + ", " + std::to_string(y) + ") ");
+  }
+}
 
-// The premise: in one alternative of every envelope lie the reference's values, and in its codes what the reference stores of them.
+// The premises: in one alternative of every envelope lies what the reference gives, and what each known device gives that the profile
+// allows; in its codes what is stored of that.
 TEST_P(ShortCut, EveryEnvelopeHoldsTheReference) {
-  const std::int64_t most = test::count_from("RAINREF_SHORT_CUTS", 100);
   for (const BoundPass& pass : passes()) {
     for (const BoundCase& b : pass.cases) {
-      const capture::PassModel& model = *b.model;
-      const std::vector<Slot> slots = slots_of(*b.c, model);
-      const std::int64_t texels = static_cast<std::int64_t>(model.width()) * model.height(),
-                         step = std::max<std::int64_t>(1, texels / most);
-      for (const std::string& name : test::inexact_profiles()) {
-        const enclosed::Profile& p = profile(name);
-        for (std::int64_t at = 0; at < texels; at += step) {
-          const int x = static_cast<int>(at % model.width()), y = static_cast<int>(at / model.width());
-          const std::string what =
-              pass.name() + ' ' + b.c->folder() + ' ' + name + " (" + std::to_string(x) + ", " + std::to_string(y) + ") ";
+      const std::vector<Slot> slots = slots_of(*b.c, *b.model);
+      for (const std::string& name : test::inexact_profiles())
+        each_of_some(pass, b, name, [&](int x, int y, const std::string& where) {
           std::vector<scalar::Scalar<float>> values(slots.size());
-          model.evaluate(x, y, values.data());
-          std::vector<float> reference, stored;
-          for (std::size_t v = 0; v < slots.size(); ++v) {
-            reference.push_back(values[v].v);
-            stored.push_back(stored_value(slots[v], slots[v].at(b.c->outputs[static_cast<std::size_t>(slots[v].output)].array, x, y)));
-          }
-          Alternatives all;
-          for (const HalfMode mode : modes_of(b, p)) {
-            const bool is_own =
-                std::all_of(slots.begin(), slots.end(), [&](const Slot& s) { return rounding_of(s, mode) == s.store_rounding; });
-            if (!is_own && (model.rounds_inside() || model.needs_port())) continue;  // no reference by this rounding
-            // Where rounding inside does not matter one evaluation serves all.
-            if (all.count == 0 || model.rounds_inside()) all.run(model, x, y, stored.data(), model.rounds_inside() ? narrowed(p, mode) : p);
-            if (all.gave_up) continue;
-            EXPECT_TRUE(test::one_holds(all, model, reference)) << what;
-            EXPECT_TRUE(codes_are_held(all, b, slots, reference, p, mode)) << what << judge::name(mode);
-          }
+          b.model->evaluate(x, y, values.data());
+          std::vector<float> reference;
+          for (const scalar::Scalar<float>& v : values) reference.push_back(v.v);
+          expect_held(b, slots, profile(name), x, y, reference, where);
+        });
+    }
+  }
+}
+TEST_P(ShortCut, EveryEnvelopeHoldsTheKnownDevices) {
+  std::int64_t tried = 0, other = 0;
+  const std::vector<perturbed::Behaviour> devices = known_devices();
+  for (const BoundPass& pass : passes()) {
+    for (const BoundCase& b : pass.cases) {
+      if (b.model->rounds_inside()) continue;
+      const std::vector<Slot> slots = slots_of(*b.c, *b.model);
+      for (const std::string& name : test::inexact_profiles()) {
+        for (std::size_t d = 0; d < devices.size(); ++d) {
+          if (!allows(profile(name), devices[d])) continue;
+          each_of_some(pass, b, name, [&](int x, int y, const std::string& where) {
+            std::vector<perturbed::Perturbed> values(slots.size());
+            std::vector<scalar::Scalar<float>> reference(slots.size());
+            {
+              const perturbed::Scope scope(devices[d]);
+              perturbed::behaviour().begin_invocation();
+              b.model->evaluate(x, y, values.data());
+            }
+            b.model->evaluate(x, y, reference.data());
+            std::vector<float> given;
+            for (std::size_t v = 0; v < slots.size(); ++v) given.push_back(values[v].v);
+            ++tried;
+            other += !std::equal(given.begin(), given.end(), reference.begin(), [](float g, const auto& r) { return g == r.v; });
+            expect_held(b, slots, profile(name), x, y, given, where + "device " + std::to_string(d) + ' ');
+          });
         }
       }
     }
   }
+  EXPECT_TRUE(tried == 0 || other > 0) << "no device differs from the reference";
 }
 
 // A part of an envelope that is found sooner holds no codes that the envelope does not hold, in one alternative: of ports that are some
@@ -189,9 +231,22 @@ void expect_equal(const CaseJudgement& some, const CaseJudgement& all, const std
   }
 }
 
-/// What the reference gives, by its own rounding or toward zero; with `moved` one invocation in 16 is moved by some codes.
-std::vector<Array> port_of(const BoundCase& b, HalfMode stores, bool moved) {
+/// What the reference gives, or where `device` is given that, by the reference's own rounding or toward zero; with `moved` one invocation
+/// in 16 is moved by some codes.
+std::vector<Array> port_of(const BoundCase& b, HalfMode stores, bool moved, const perturbed::Behaviour* device) {
   std::vector<Array> port = stores == HalfMode::either ? b.expected() : reference_outputs(*b.c, *b.model, test_executor(), stores);
+  if (device && !b.model->rounds_inside()) {
+    const perturbed::Scope scope(*device);
+    std::vector<perturbed::Perturbed> values(b.slots.size());
+    for (int y = 0; y < b.model->height(); ++y)
+      for (int x = 0; x < b.model->width(); ++x) {
+        perturbed::behaviour().begin_invocation();
+        b.model->evaluate(x, y, values.data());
+        for (std::size_t v = 0; v < values.size(); ++v)
+          store_value(b.slots[v], values[v].v, rounding_of(b.slots[v], stores),
+                      port[static_cast<std::size_t>(b.slots[v].output)].levels[0].data() + b.slots[v].offset(x, y));
+      }
+  }
   test::Words words(50);
   for (int y = 0; moved && y < b.model->height(); ++y)
     for (int x = 0; x < b.model->width(); ++x) {
@@ -216,18 +271,24 @@ TEST_P(ShortCut, ChangesNoElementsVerdict) {
   if (!takes_all) std::erase(profiles, "ieee");
   std::size_t turn = GetParam().name.size();
   std::int64_t judged = 0, sampled = 0;
+  struct Made {
+    HalfMode stores;
+    bool moved, by_device;
+  };
+  const perturbed::Behaviour device = known_devices().front();
   for (const BoundPass& pass : passes()) {
     for (const BoundCase& b : pass.cases) {
       const bool has_halves = std::any_of(b.slots.begin(), b.slots.end(), [](const Slot& s) { return s.kind == FormatInfo::float16; });
-      for (const auto& [stores, moved] :
-           {std::pair(HalfMode::either, false), std::pair(HalfMode::either, true), std::pair(HalfMode::rtz, true)}) {
+      for (const auto& [stores, moved, by_device] : {Made{HalfMode::either, false, false}, Made{HalfMode::either, true, false},
+                                                     Made{HalfMode::rtz, true, false}, Made{HalfMode::rtz, true, true}}) {
         if (stores == HalfMode::rtz && !has_halves) continue;
-        const std::vector<Array> port = port_of(b, stores, moved);
+        const std::vector<Array> port = port_of(b, stores, moved, by_device ? &device : nullptr);
         ++turn;
         for (std::size_t k = 0; k < profiles.size(); ++k) {
           if (!takes_all && k != turn % profiles.size()) continue;
           const std::string& name = profiles[k];
-          const std::string what = pass.name() + ' ' + b.c->folder() + ' ' + name + (moved ? " moved" : "") + ' ' + judge::name(stores);
+          const std::string what = pass.name() + ' ' + b.c->folder() + ' ' + name + (moved ? " moved" : "") +
+                                   (by_device ? " by a device" : "") + ' ' + judge::name(stores);
           JudgeOptions options{&profile(name), name == "ieee" ? nullptr : &profile("typical"), &test_executor(), std::nullopt};
           const ModeJudgements all = judge_case(*b.c, b.model.get(), port, options);
           // A few hundred leave a margin that tells.

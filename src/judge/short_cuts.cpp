@@ -1,0 +1,74 @@
+#include "judge/short_cuts.h"
+
+#include <algorithm>
+
+namespace rainref::judge {
+
+using capture::Array;
+using capture::PassCase;
+using capture::PassModel;
+
+ShortCuts::ShortCuts(const PassCase& c, const PassModel& model, const std::vector<Array>& port, const JudgeOptions& options,
+                     const std::vector<Slot>& slots, const std::vector<HalfMode>& modes)
+    : case_(c),
+      model_(model),
+      port_(port),
+      options_(options),
+      slots_(slots),
+      modes_(modes),
+      bits_(c, model, port, slots, modes),
+      device_(model, port, slots, modes) {}
+
+void ShortCuts::prepare(const Sample& sample) {
+  bits_.prepare(sample, *options_.executor, options_.every_rounding);
+  std::vector<perturbed::Behaviour> devices = known_devices();
+  std::erase_if(devices, [&](const perturbed::Behaviour& d) {
+    return !allows(*options_.profile, d) || (options_.typical && !allows(*options_.typical, d));
+  });
+  device_.prepare(sample, devices, [&](int x, int y) { return !has_reference_bits(x, y); });
+}
+
+bool ShortCuts::is_enough(const std::vector<char>& is_held) const {
+  return options_.every_rounding ? std::find(is_held.begin(), is_held.end(), 0) == is_held.end() : is_held[bits_.leading()] != 0;
+}
+bool ShortCuts::has_reference_bits(int x, int y) const {
+  if (!options_.every_rounding) return bits_.has(bits_.leading(), x, y);
+  for (std::size_t m = 0; m < modes_.size(); ++m)
+    if (!bits_.has(m, x, y)) return false;
+  return true;
+}
+
+bool ShortCuts::lies_inside(int x, int y, Stored& stored, Work& work) const {
+  if (has_reference_bits(x, y)) {
+    work.is_held.resize(modes_.size());
+    for (std::size_t m = 0; m < modes_.size(); ++m) work.is_held[m] = m == bits_.leading() || bits_.has(m, x, y);
+    return true;
+  }
+  if (work.device) {
+    device_.find(x, y, work.is_held);
+    if (is_enough(work.is_held)) return true;
+  }
+  stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
+  return lies_in_parts(x, y, stored, work);
+}
+
+bool ShortCuts::lies_in_parts(int x, int y, const Stored& stored, Work& work) const {
+  if (options_.profile->reference || model_.rounds_inside() || stored.any_impossible) return false;
+  work.is_held.assign(modes_.size(), 1);
+  for (const enclosed::Profile* profile : {options_.profile, options_.typical}) {
+    if (!profile) continue;
+    work.parts.run_parts(model_, x, y, stored.got_values.data(), *profile);
+    for (std::size_t m = 0; m < modes_.size(); ++m) {
+      bool is_inside = false;
+      for (int a = 0; a < work.parts.count && work.is_held[m] && !is_inside; ++a) {
+        code_ranges(slots_, work.parts.values[static_cast<std::size_t>(a)], *profile, modes_[m], work.ranges);
+        is_inside = inside(*profile, work.ranges, stored);
+      }
+      work.is_held[m] &= is_inside;
+    }
+    if (!is_enough(work.is_held)) return false;
+  }
+  return true;
+}
+
+}  // namespace rainref::judge
