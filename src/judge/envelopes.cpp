@@ -62,7 +62,7 @@ class CaseJudge {
   }
 
   std::vector<CaseJudgement> run() {
-    if (!sample_.is_whole()) short_cuts_.prepare(sample_);
+    short_cuts_.prepare(sample_);
     constexpr int rows = 4;
     const int tiles = (model_.height() + rows - 1) / rows;
     std::vector<std::vector<Part>> parts(static_cast<std::size_t>(tiles), std::vector<Part>(modes_.size(), empty_part()));
@@ -89,6 +89,7 @@ class CaseJudge {
         out.rearranged_median_width = quantile(rearranged[o], 0.5);
         out.rearranged_p99_width = quantile(rearranged[o], 0.99);
       }
+      whole[m].with_bits = short_cuts_.with_bits(m);
       whole[m].stride = sample_.stride();
       whole[m].unbounded_margin = sample_.margin(static_cast<double>(std::count(free_.begin(), free_.end(), 0)));
     }

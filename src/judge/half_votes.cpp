@@ -56,16 +56,18 @@ HalfMode port_rounding(const std::vector<HalfVotes>& passes) {
   const auto voter = std::find_if(passes.begin(), passes.end(), has_vote);
   if (voter == passes.end()) return HalfMode::either;
   const auto against = [&](std::size_t k) {
-    std::int64_t failing_passes = 0, failing = 0;
+    std::int64_t failing_passes = 0, failing = 0, with_bits = 0;
     for (const HalfVotes& p : passes) {
       if (!has_vote(p)) continue;
       failing_passes += p.failing[k] > 0;
       failing += p.failing[k];
+      with_bits += p.with_bits.empty() ? 0 : p.with_bits[k];
     }
-    return std::pair(failing_passes, failing);
+    return std::tuple(failing_passes, failing, with_bits);
   };
-  const auto [passes_0, failing_0] = against(0);
-  const auto [passes_1, failing_1] = against(1);
+  const auto [passes_0, failing_0, bits_0] = against(0);
+  const auto [passes_1, failing_1, bits_1] = against(1);
+  if (failing_0 + failing_1 == 0) return voter->modes[bits_1 > bits_0 ? 1 : 0];
   const bool is_second = passes_1 != passes_0 ? passes_1 < passes_0 : 10 * failing_1 <= 9 * failing_0 && failing_1 < failing_0;
   return voter->modes[is_second ? 1 : 0];
 }

@@ -45,10 +45,12 @@ HalfVotes votes_of(const std::string& pass, const std::vector<ModeJudgements>& c
   votes.rounds_inside = judged->rounds_inside;
   votes.failing.resize(votes.modes.size(), 0);
   votes.undecided.resize(votes.modes.size(), 0);
+  votes.with_bits.resize(votes.modes.size(), 0);
   for (const ModeJudgements& c : cases) {
     for (std::size_t m = 0; m < c.modes.size(); ++m) {
       votes.failing[m] += c.judgements[m].failing;
       votes.undecided[m] += c.judgements[m].undecided;
+      votes.with_bits[m] += c.judgements[m].with_bits;
     }
   }
   return votes;

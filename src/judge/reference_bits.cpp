@@ -18,26 +18,24 @@ bool ReferenceBits::is_own(HalfMode mode) const {
 }
 bool ReferenceBits::has_reference(HalfMode mode) const { return is_own(mode) || !model_.rounds_inside(); }
 
-void ReferenceBits::prepare(const Sample& sample, const parallel::Executor& executor, bool every) {
+void ReferenceBits::count(const Sample& sample) {
+  const std::size_t roundings = std::min<std::size_t>(2, modes_.size());
+  std::vector<scalar::Scalar<float>> values(slots_.size());
+  sample.each(std::max<std::int64_t>(1, sample.size() / 1024), [&](int x, int y) {
+    model_.evaluate(x, y, values.data());
+    for (std::size_t m = 0; m < roundings; ++m)
+      counts_[m] +=
+          has_reference(modes_[m]) && std::equal(slots_.begin(), slots_.end(), values.begin(), [&](const Slot& s, const auto& value) {
+            std::array<std::byte, 4> stored{};
+            store_value(s, value.v, rounding_of(s, modes_[m]), stored.data());
+            return s.is_same(stored.data(), s.at(port_[static_cast<std::size_t>(s.output)], x, y));
+          });
+  });
+}
+void ReferenceBits::prepare(const parallel::Executor& executor, bool every) {
   const std::size_t roundings = std::min<std::size_t>(2, modes_.size());
   if (roundings == 2) {
-    std::array<std::int64_t, 2> counts{};
-    std::vector<scalar::Scalar<float>> values(slots_.size());
-    constexpr std::int64_t step = 16;
-    sample.each(step, [&](int x, int y) {
-      model_.evaluate(x, y, values.data());
-      for (std::size_t m = 0; m < 2; ++m) {
-        bool is_equal = has_reference(modes_[m]);
-        for (std::size_t v = 0; v < slots_.size() && is_equal; ++v) {
-          const Slot& s = slots_[v];
-          std::array<std::byte, 4> stored{};
-          store_value(s, values[v].v, rounding_of(s, modes_[m]), stored.data());
-          is_equal = s.is_same(stored.data(), s.at(port_[static_cast<std::size_t>(s.output)], x, y));
-        }
-        counts[m] += is_equal;
-      }
-    });
-    leading_ = counts[1] > counts[0] ? 1 : 0;
+    leading_ = counts_[1] > counts_[0] ? 1 : 0;
     if (!has_reference(modes_[leading_])) leading_ = 1 - leading_;
   }
   for (std::size_t m = 0; m < roundings; ++m)

@@ -23,9 +23,11 @@ class ReferenceBits {
   ReferenceBits(const capture::PassCase& c, const capture::PassModel& model, const std::vector<capture::Array>& port,
                 const std::vector<Slot>& slots, const std::vector<HalfMode>& modes);
 
-  /// Finds the rounding that most of the sample is stored by, or with `every` all that are tried, and computes what the reference stores
-  /// so.
-  void prepare(const Sample& sample, const parallel::Executor& executor, bool every);
+  /// Counts what of the sample is stored by each of two roundings.
+  void count(const Sample& sample);
+  std::int64_t counted(std::size_t mode) const { return mode < counts_.size() ? counts_[mode] : 0; }
+  /// Finds the rounding that most is counted of, or with `every` all that are tried, and computes what the reference stores so.
+  void prepare(const parallel::Executor& executor, bool every);
   /// The place of that rounding among the modes: what it leaves unasked is known to lie inside by this rounding, not by the other.
   std::size_t leading() const { return leading_; }
   /// Whether all that is stored for an invocation, free values too, has the reference's bits by the mode of this place, or by either
@@ -45,6 +47,7 @@ class ReferenceBits {
   const std::vector<Slot>& slots_;
   const std::vector<HalfMode>& modes_;
   std::array<std::vector<capture::Array>, 2> other_;  // by mode, where that is another rounding than the reference's own
+  std::array<std::int64_t, 2> counts_{};
   std::size_t leading_ = 0;
 };
 

@@ -36,6 +36,8 @@ class Sample {
   bool has(int x, int y) const { return is_whole() || drawn(index(x, y) / stride_) == index(x, y); }
   /// How many invocations one of the sample stands for.
   std::int64_t stride() const { return stride_; }
+  /// How many invocations it has.
+  std::int64_t size() const { return (count_ + stride_ - 1) / stride_; }
   /// Calls visit(x, y) with each invocation of the sample, or with each `step`th.
   template <class Visit>
   void each(std::int64_t step, Visit visit) const {

@@ -20,7 +20,9 @@ ShortCuts::ShortCuts(const PassCase& c, const PassModel& model, const std::vecto
       device_(model, port, slots, modes) {}
 
 void ShortCuts::prepare(const Sample& sample) {
-  bits_.prepare(sample, *options_.executor, options_.every_rounding);
+  bits_.count(sample);
+  if (sample.is_whole()) return;
+  bits_.prepare(*options_.executor, options_.every_rounding);
   std::vector<perturbed::Behaviour> devices = known_devices();
   std::erase_if(devices, [&](const perturbed::Behaviour& d) {
     return !allows(*options_.profile, d) || (options_.typical && !allows(*options_.typical, d));

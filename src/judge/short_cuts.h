@@ -19,6 +19,8 @@ class ShortCuts {
   ShortCuts(const capture::PassCase& c, const capture::PassModel& model, const std::vector<capture::Array>& port,
             const JudgeOptions& options, const std::vector<Slot>& slots, const std::vector<HalfMode>& modes);
   void prepare(const Sample& sample);
+  /// Of some hundreds of the sample those that store what the reference does, by a rounding of halves.
+  std::int64_t with_bits(std::size_t mode) const { return bits_.counted(mode); }
 
   /// What a thread needs to ask; one after the other.
   struct Work {

@@ -32,6 +32,13 @@ TEST(HalfVotes, FewestFailingPassesDecide) {
   // Nothing tells: the first.
   EXPECT_EQ(port_rounding({votes("a", {0, 0, 0})}), HalfMode::rne);
   EXPECT_EQ(port_rounding({votes("a", {0, 0}, asked_rtz)}), HalfMode::rtz);
+  // Nothing fails: what has the reference's bits tells.
+  HalfVotes truncated = votes("a", {0, 0, 0}), wrong = votes("b", {1, 0, 0});
+  truncated.with_bits = {3, 90, 0};
+  EXPECT_EQ(port_rounding({truncated}), HalfMode::rtz);
+  truncated.with_bits = {90, 3, 0};
+  EXPECT_EQ(port_rounding({truncated}), HalfMode::rne);
+  EXPECT_EQ(port_rounding({truncated, wrong}), HalfMode::rtz) << "a failure weighs more";
   // Passes without halves have no vote.
   EXPECT_EQ(port_rounding({{"floats", {HalfMode::rne}, {5}}, votes("a", {4, 0, 0})}), HalfMode::rtz);
   EXPECT_EQ(port_rounding({{"data", {}, {}}}), HalfMode::either);
@@ -137,6 +144,7 @@ TEST(UndecidedVotes, WhatIsFoundHoldsForEveryRest) {
       for (std::size_t m = 0; m < modes.size(); ++m) {
         v.failing.push_back(words.coin() ? 0 : below(20));
         v.undecided.push_back(m == leading || words.coin() ? 0 : below(12));
+        v.with_bits.push_back(below(3));
       }
       all.push_back(std::move(v));
     }
