@@ -33,9 +33,10 @@ class PassModel {
   /// Under the profile and the enumeration in force. `port` holds the values that the port stored for this invocation: a pass
   /// whose result is judged by what it must satisfy (a march by the gap at its end) may take them, others do not.
   virtual void enclose(int x, int y, const float* port, enclosed::Enclosure* out) const = 0;
-  /// A part of what enclose() gives that takes much less time: what lies in it lies in one alternative of that. False where the pass has
-  /// none for this invocation.
-  virtual bool enclose_part(int, int, const float*, enclosed::Enclosure*) const { return false; }
+  /// How many parts of what enclose() gives are found sooner, the quickest first.
+  virtual int parts() const { return 0; }
+  /// One of them: what lies in it lies in one alternative of enclose(). False where there is none for this invocation.
+  virtual bool enclose_part(int /*part*/, int, int, const float*, enclosed::Enclosure*) const { return false; }
   /// As enclose(), of every rearrangement that the profile in force allows. False where the pass has no such evaluation: it is
   /// judged as it is written.
   virtual bool rearrange(int, int, const float*, enclosed::Enclosure*) const { return false; }

@@ -43,7 +43,7 @@ void Alternatives::run(const PassModel& model, int x, int y, const float* port, 
     model.enclose(x, y, port, out.data());
   });
 }
-void Alternatives::run_parts(const PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile) {
+void Alternatives::run_part(const PassModel& model, int part, int x, int y, const float* port, const enclosed::Profile& profile) {
   const enclosed::ProfileScope scope(profile);
   enclosed::PathEnumeration paths;
   count = 0;
@@ -51,7 +51,7 @@ void Alternatives::run_parts(const PassModel& model, int x, int y, const float* 
   const bool is_settled = paths.for_each_alternative([&] {
     std::vector<Enclosure>& out = values[static_cast<std::size_t>(count)];
     out.assign(static_cast<std::size_t>(model.values()), Enclosure());
-    count += model.enclose_part(x, y, port, out.data());
+    count += model.enclose_part(part, x, y, port, out.data());
   });
   if (!is_settled) count = 0;
 }

@@ -30,8 +30,8 @@ struct Alternatives {
   void only(const std::vector<float>& expected);
   /// What the profile allows. `port`: what the port stored for the invocation.
   void run(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
-  /// The parts of these that the pass finds sooner (PassModel::enclose_part); none where it has no such parts.
-  void run_parts(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
+  /// A part of these that the pass finds sooner (PassModel::enclose_part); none where it has no such part.
+  void run_part(const capture::PassModel& model, int part, int x, int y, const float* port, const enclosed::Profile& profile);
   /// What the rearrangements give that it allows; nothing, as if given up, where the pass has no evaluation for them.
   void rearrange(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
 };

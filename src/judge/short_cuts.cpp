@@ -51,15 +51,17 @@ bool ShortCuts::lies_inside(int x, int y, Stored& stored, Work& work) const {
     if (is_enough(work.is_held)) return true;
   }
   stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
-  return lies_in_parts(x, y, stored, work);
+  if (options_.profile->reference || model_.rounds_inside() || stored.any_impossible) return false;
+  for (int part = 0; part < model_.parts(); ++part)
+    if (lies_in_part(part, x, y, stored, work)) return true;
+  return false;
 }
 
-bool ShortCuts::lies_in_parts(int x, int y, const Stored& stored, Work& work) const {
-  if (options_.profile->reference || model_.rounds_inside() || stored.any_impossible) return false;
+bool ShortCuts::lies_in_part(int part, int x, int y, const Stored& stored, Work& work) const {
   work.is_held.assign(modes_.size(), 1);
   for (const enclosed::Profile* profile : {options_.profile, options_.typical}) {
     if (!profile) continue;
-    work.parts.run_parts(model_, x, y, stored.got_values.data(), *profile);
+    work.parts.run_part(model_, part, x, y, stored.got_values.data(), *profile);
     for (std::size_t m = 0; m < modes_.size(); ++m) {
       bool is_inside = false;
       for (int a = 0; a < work.parts.count && work.is_held[m] && !is_inside; ++a) {

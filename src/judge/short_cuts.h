@@ -39,7 +39,7 @@ class ShortCuts {
  private:
   bool is_enough(const std::vector<char>& is_held) const;
   bool has_reference_bits(int x, int y) const;
-  bool lies_in_parts(int x, int y, const Stored& stored, Work& work) const;
+  bool lies_in_part(int part, int x, int y, const Stored& stored, Work& work) const;
 
   const capture::PassCase& case_;
   const capture::PassModel& model_;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "puddle/descent_members.h"
 #include "puddle/scalar.h"
 
 namespace rainref::puddle {
@@ -39,6 +40,8 @@ class CorrectedDescent {
     if (chosen.leaves) return on_plane(ray, over, chosen.t, px, py);
     return hit_near(ray, over, port, chosen, beside_reference(bounds, px, py));
   }
+  /// What lies between some results that every device may give: a part of what hit_beside_reference() gives.
+  Hit between_members(const Texture& bounds, int px, int py) const { return DescentMembers(u_, wave_, bounds, px, py).box(); }
   /// The ends of a march that ends as the reference's does, or within some roundings of it: a part of what hit() gives.
   std::optional<Hit> hit_beside_reference(const Texture& bounds, int px, int py, const float* port) const {
     const scalar::Descent<Enclosure> ray = scalar::descent<Enclosure>(u_, px, py);
@@ -68,17 +71,11 @@ class CorrectedDescent {
     if (!(low <= high)) return Enclosure::vacuous();
     return enclosed::rounded_outward(low, high);
   }
-  /// Around the place where the reference's march stops on the water; nothing where it meets the plane. Its steps add up to t, each
-  /// rounded.
+  /// Around the place where the reference's march stops on the water; nothing where it meets the plane.
   std::optional<Enclosure> beside_reference(const Texture& bounds, int px, int py) const {
-    using Single = scalar::Scalar<float>;
-    const scalar::Descent<Single> ray = scalar::descent<Single>(u_, px, py);
-    const scalar::Stretch<Single> over = scalar::stretch(u_, ray, scalar::water_bounds(u_, bounds, ray));
-    if (!over.enters) return std::nullopt;
-    const double t = scalar::marched(u_, wave_, ray, over).t.v;
-    if (!(t < over.t_out.v)) return std::nullopt;
-    constexpr double roundings = 16 * 0x1p-23;
-    return enclosed::rounded_outward(t * (1 - roundings), t * (1 + roundings));
+    const std::optional<double> t = DescentMembers(u_, wave_, bounds, px, py).stop();
+    if (!t) return std::nullopt;
+    return enclosed::rounded_outward(*t * (1 - DescentMembers::roundings), *t * (1 + DescentMembers::roundings));
   }
   /// Where a ray is that has passed the water.
   static Enclosure leaving(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over) {

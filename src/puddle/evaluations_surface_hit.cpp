@@ -44,11 +44,13 @@ class SurfaceHitModel : public capture::ModelOf<MarchedPass> {
     return std::array<double, 2>{0, static_cast<double>(pass().uniforms.max_steps)};
   }
 
-  bool enclose_part(int x, int y, const float* port, Enclosure* out) const override {
+  int parts() const override { return pass().corrected ? 2 : 0; }
+  bool enclose_part(int part, int x, int y, const float* port, Enclosure* out) const override {
     const MarchedPass& p = pass();
-    if (!p.corrected) return false;
     const Texture wave = p.wave.view();
-    const auto hit = CorrectedDescent(p.uniforms, wave).hit_beside_reference(p.bounds.view(), x, y, port);
+    const CorrectedDescent descent(p.uniforms, wave);
+    const std::optional<scalar::SurfaceHit<Enclosure>> hit =
+        part == 0 ? descent.between_members(p.bounds.view(), x, y) : descent.hit_beside_reference(p.bounds.view(), x, y, port);
     if (hit) MarchedPass::write(*hit, out);
     return hit.has_value();
   }

@@ -233,28 +233,51 @@ template <class N, class T>
 RAINREF_FN N gap_above(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, N t) {
   return (ray.origin.y + t * ray.d.y) - water_height(u, wave, ray.s0 + t * ray.ds, ray.r0 + t * ray.dr);
 }
+/// The last step of a march, and the normal of the water where it begins.
+template <class N>
+struct LastStep {
+  N t;
+  Vec3<N> normal;
+  typename N::Mask is_taken;
+  RAINREF_FN LastStep() {}
+};
+template <class N, class T>
+RAINREF_FN LastStep<N> last_step(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, const Stretch<N>& over,
+                                 typename N::Mask on_water, N t, N above) {
+  const N zero(0.0f), one(1.0f), epsilon(u.epsilon);
+  const Neighbours<N> near = sample_neighbours<0, N>(wave, ray.s0 + t * ray.ds, ray.r0 + t * ray.dr);
+  const N gain = N(u.normal_gain) * N(u.height_scale), gx = (near.left - near.right) * gain, gz = (near.down - near.up) * gain;
+  // gx and gz are the negative slopes. A ray that runs along a flank keeps its place, and so does one that enters
+  // through the side under the water. Twice the safe stride bounds the step: it ends no more than epsilon under and
+  // three epsilon above the water, whatever the water does between its texels.
+  const N closing = ray.fall - (gx * ray.d.x + gz * ray.d.z), least = N(0.5f) * ray.fall;
+  LastStep<N> out;
+  out.is_taken = on_water & (above < epsilon) & (above >= zero) & (closing >= least);
+  out.t = select(out.is_taken, t + above * min(one / max(closing, least), N(2.0f) * over.stride), t);
+  out.normal = normalize(Vec3<N>(gx, one, gz));
+  return out;
+}
+/// Where a ray is at t.
+template <class N>
+RAINREF_FN Vec3<N> place_at(const Descent<N>& ray, N t) {
+  return ray.origin + t * ray.d;
+}
 /// The hit of a ray whose march ended at `state`.
 template <class N, class T>
 RAINREF_FN SurfaceHit<N> landed(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, const Stretch<N>& over,
                                 const DescentState<N>& state) {
-  const N zero(0.0f), one(1.0f), epsilon(u.epsilon);
+  const N zero(0.0f), one(1.0f);
   SurfaceHit<N> out;
   out.normal = Vec3<N>(zero, one, zero);
   const auto on_water = over.enters & (state.t < over.t_out);
   const N t = select(on_water, state.t, ray.t_plane);
   N hit_t = t;
   if (any(on_water)) {
-    const Neighbours<N> near = sample_neighbours<0, N>(wave, ray.s0 + t * ray.ds, ray.r0 + t * ray.dr);
-    const N gain = N(u.normal_gain) * N(u.height_scale), gx = (near.left - near.right) * gain, gz = (near.down - near.up) * gain;
-    // gx and gz are the negative slopes. A ray that runs along a flank keeps its place, and so does one that enters
-    // through the side under the water. Twice the safe stride bounds the step: it ends no more than epsilon under and
-    // three epsilon above the water, whatever the water does between its texels.
-    const N closing = ray.fall - (gx * ray.d.x + gz * ray.d.z), least = N(0.5f) * ray.fall;
-    const auto close = on_water & (state.above < epsilon) & (state.above >= zero) & (closing >= least);
-    hit_t = select(close, t + state.above * min(one / max(closing, least), N(2.0f) * over.stride), t);
-    out.normal = select(on_water, normalize(Vec3<N>(gx, one, gz)), out.normal);
+    const LastStep<N> last = last_step(u, wave, ray, over, on_water, t, state.above);
+    hit_t = last.t;
+    out.normal = select(on_water, last.normal, out.normal);
   }
-  out.position = guard<N>(select(ray.down, ray.origin + hit_t * ray.d, ray.origin), for_lanes);
+  out.position = guard<N>(select(ray.down, place_at(ray, hit_t), ray.origin), for_lanes);
   out.iterations = state.iterations;
   out.flag = guard<N>(select(ray.down, one, zero), for_lanes);
   return out;
