@@ -89,7 +89,7 @@ class CaseJudge {
         out.rearranged_median_width = quantile(rearranged[o], 0.5);
         out.rearranged_p99_width = quantile(rearranged[o], 0.99);
       }
-      whole[m].with_bits = short_cuts_.with_bits(m);
+      whole[m].with_bits = short_cuts_.counted(m);
       whole[m].stride = sample_.stride();
       whole[m].unbounded_margin = sample_.margin(static_cast<double>(std::count(free_.begin(), free_.end(), 0)));
     }

@@ -22,7 +22,8 @@ struct HalfVotes {
   bool rounds_inside = false;
   /// Of each mode the invocations that may fail besides: they were not asked about under it, because another mode holds them. Empty: none.
   std::vector<std::int64_t> undecided = {};
-  /// Of each mode, of a few invocations those that store what the reference does. Empty: none.
+  /// Of each mode, of a few invocations those that are found inside without an envelope: nearly all store what the reference does by it.
+  /// Empty: none.
   std::vector<std::int64_t> with_bits = {};
 
   std::int64_t most(std::size_t mode) const { return failing[mode] + (undecided.empty() ? 0 : undecided[mode]); }
@@ -33,7 +34,7 @@ struct HalfVotes {
 };
 
 /// The rounding under which fewest passes fail; of equals the first, unless the second has a tenth fewer failing invocations. Where
-/// nothing fails under either, the one by which more is stored that the reference stores.
+/// nothing fails under either, the one with more HalfVotes::with_bits.
 HalfMode port_rounding(const std::vector<HalfVotes>& passes);
 
 /// Whether a pass fails under every rounding and none of these can be stored by one of them alone: other passes of the port may tell.

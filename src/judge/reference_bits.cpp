@@ -16,30 +16,24 @@ ReferenceBits::ReferenceBits(const capture::PassCase& c, const capture::PassMode
 bool ReferenceBits::is_own(HalfMode mode) const {
   return std::all_of(slots_.begin(), slots_.end(), [&](const Slot& s) { return rounding_of(s, mode) == s.store_rounding; });
 }
-bool ReferenceBits::has_reference(HalfMode mode) const { return is_own(mode) || !model_.rounds_inside(); }
+bool ReferenceBits::has_reference(std::size_t mode) const { return is_own(modes_[mode]) || !model_.rounds_inside(); }
 
-void ReferenceBits::count(const Sample& sample) {
-  const std::size_t roundings = std::min<std::size_t>(2, modes_.size());
-  std::vector<scalar::Scalar<float>> values(slots_.size());
-  sample.each(std::max<std::int64_t>(1, sample.size() / 1024), [&](int x, int y) {
-    model_.evaluate(x, y, values.data());
-    for (std::size_t m = 0; m < roundings; ++m)
-      counts_[m] +=
-          has_reference(modes_[m]) && std::equal(slots_.begin(), slots_.end(), values.begin(), [&](const Slot& s, const auto& value) {
-            std::array<std::byte, 4> stored{};
-            store_value(s, value.v, rounding_of(s, modes_[m]), stored.data());
-            return s.is_same(stored.data(), s.at(port_[static_cast<std::size_t>(s.output)], x, y));
-          });
-  });
+std::array<bool, 2> ReferenceBits::stores(int x, int y) const {
+  thread_local std::vector<scalar::Scalar<float>> values;
+  values.resize(slots_.size());
+  model_.evaluate(x, y, values.data());
+  std::array<bool, 2> all{};
+  for (std::size_t m = 0; m < std::min<std::size_t>(2, modes_.size()); ++m)
+    all[m] = has_reference(m) && std::equal(slots_.begin(), slots_.end(), values.begin(), [&](const Slot& s, const auto& value) {
+               std::array<std::byte, 4> stored{};
+               store_value(s, value.v, rounding_of(s, modes_[m]), stored.data());
+               return s.is_same(stored.data(), s.at(port_[static_cast<std::size_t>(s.output)], x, y));
+             });
+  return all;
 }
-void ReferenceBits::prepare(const parallel::Executor& executor, bool every) {
-  const std::size_t roundings = std::min<std::size_t>(2, modes_.size());
-  if (roundings == 2) {
-    leading_ = counts_[1] > counts_[0] ? 1 : 0;
-    if (!has_reference(modes_[leading_])) leading_ = 1 - leading_;
-  }
-  for (std::size_t m = 0; m < roundings; ++m)
-    if ((every || m == leading_) && has_reference(modes_[m]) && !is_own(modes_[m]))
+void ReferenceBits::prepare(const parallel::Executor& executor, std::size_t leading, bool every) {
+  for (std::size_t m = 0; m < std::min<std::size_t>(2, modes_.size()); ++m)
+    if ((every || m == leading) && has_reference(m) && !is_own(modes_[m]))
       other_[m] = reference_outputs(case_, model_, executor, modes_[m]);
 }
 

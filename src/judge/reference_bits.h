@@ -23,13 +23,13 @@ class ReferenceBits {
   ReferenceBits(const capture::PassCase& c, const capture::PassModel& model, const std::vector<capture::Array>& port,
                 const std::vector<Slot>& slots, const std::vector<HalfMode>& modes);
 
-  /// Counts what of the sample is stored by each of two roundings.
-  void count(const Sample& sample);
-  std::int64_t counted(std::size_t mode) const { return mode < counts_.size() ? counts_[mode] : 0; }
-  /// Finds the rounding that most is counted of, or with `every` all that are tried, and computes what the reference stores so.
-  void prepare(const parallel::Executor& executor, bool every);
-  /// The place of that rounding among the modes: what it leaves unasked is known to lie inside by this rounding, not by the other.
-  std::size_t leading() const { return leading_; }
+  /// Whether an evaluation of the pass says what is stored of halves by the rounding of this place among the modes: where it rounds inside,
+  /// by the reference's own alone.
+  bool has_reference(std::size_t mode) const;
+  /// Of each of two roundings, whether the reference stores so what the port has for an invocation.
+  std::array<bool, 2> stores(int x, int y) const;
+  /// Computes what the reference stores by the rounding of this place, or with `every` by all that are tried.
+  void prepare(const parallel::Executor& executor, std::size_t leading, bool every);
   /// Whether all that is stored for an invocation, free values too, has the reference's bits by the mode of this place, or by either
   /// rounding where a mixture is asked for. False where the pass has no such reference: where it rounds inside, or is judged near what is
   /// stored, the reference's own rounding alone has one.
@@ -37,7 +37,6 @@ class ReferenceBits {
 
  private:
   bool is_own(HalfMode mode) const;
-  bool has_reference(HalfMode mode) const;
   template <class ArrayOf>
   bool equals(const ArrayOf& reference, int x, int y) const;
 
@@ -47,8 +46,6 @@ class ReferenceBits {
   const std::vector<Slot>& slots_;
   const std::vector<HalfMode>& modes_;
   std::array<std::vector<capture::Array>, 2> other_;  // by mode, where that is another rounding than the reference's own
-  std::array<std::int64_t, 2> counts_{};
-  std::size_t leading_ = 0;
 };
 
 }  // namespace rainref::judge

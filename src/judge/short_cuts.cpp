@@ -19,10 +19,27 @@ ShortCuts::ShortCuts(const PassCase& c, const PassModel& model, const std::vecto
       bits_(c, model, port, slots, modes),
       device_(model, port, slots, modes) {}
 
+void ShortCuts::count(const Sample& sample) {
+  Work work(*this);
+  Stored stored;
+  sample.each(std::max<std::int64_t>(1, sample.size() / 1024), [&](int x, int y) {
+    std::array<bool, 2> is_held = bits_.stores(x, y);
+    if (!is_held[0] && !is_held[1] && has_parts()) {
+      stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
+      for (int part = 0; part < model_.parts() && !is_held[0] && !is_held[1]; ++part) {
+        find_in_part(part, x, y, stored, work);
+        for (std::size_t m = 0; m < 2; ++m) is_held[m] = work.is_held[m] != 0;
+      }
+    }
+    for (std::size_t m = 0; m < 2; ++m) counts_[m] += is_held[m];
+  });
+  leading_ = counts_[1] > counts_[0] ? 1 : 0;
+  if (!bits_.has_reference(leading_)) leading_ = 1 - leading_;
+}
 void ShortCuts::prepare(const Sample& sample) {
-  bits_.count(sample);
+  if (modes_.size() >= 2) count(sample);
   if (sample.is_whole()) return;
-  bits_.prepare(*options_.executor, options_.every_rounding);
+  bits_.prepare(*options_.executor, leading_, options_.every_rounding);
   std::vector<perturbed::Behaviour> devices = known_devices();
   std::erase_if(devices, [&](const perturbed::Behaviour& d) {
     return !allows(*options_.profile, d) || (options_.typical && !allows(*options_.typical, d));
@@ -31,10 +48,10 @@ void ShortCuts::prepare(const Sample& sample) {
 }
 
 bool ShortCuts::is_enough(const std::vector<char>& is_held) const {
-  return options_.every_rounding ? std::find(is_held.begin(), is_held.end(), 0) == is_held.end() : is_held[bits_.leading()] != 0;
+  return options_.every_rounding ? std::find(is_held.begin(), is_held.end(), 0) == is_held.end() : is_held[leading_] != 0;
 }
 bool ShortCuts::has_reference_bits(int x, int y) const {
-  if (!options_.every_rounding) return bits_.has(bits_.leading(), x, y);
+  if (!options_.every_rounding) return bits_.has(leading_, x, y);
   for (std::size_t m = 0; m < modes_.size(); ++m)
     if (!bits_.has(m, x, y)) return false;
   return true;
@@ -43,7 +60,7 @@ bool ShortCuts::has_reference_bits(int x, int y) const {
 bool ShortCuts::lies_inside(int x, int y, Stored& stored, Work& work) const {
   if (has_reference_bits(x, y)) {
     work.is_held.resize(modes_.size());
-    for (std::size_t m = 0; m < modes_.size(); ++m) work.is_held[m] = m == bits_.leading() || bits_.has(m, x, y);
+    for (std::size_t m = 0; m < modes_.size(); ++m) work.is_held[m] = m == leading_ || bits_.has(m, x, y);
     return true;
   }
   if (work.device) {
@@ -51,16 +68,19 @@ bool ShortCuts::lies_inside(int x, int y, Stored& stored, Work& work) const {
     if (is_enough(work.is_held)) return true;
   }
   stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
-  if (options_.profile->reference || model_.rounds_inside() || stored.any_impossible) return false;
-  for (int part = 0; part < model_.parts(); ++part)
-    if (lies_in_part(part, x, y, stored, work)) return true;
+  if (stored.any_impossible) return false;
+  for (int part = 0; has_parts() && part < model_.parts(); ++part) {
+    find_in_part(part, x, y, stored, work);
+    if (is_enough(work.is_held)) return true;
+  }
   return false;
 }
 
-bool ShortCuts::lies_in_part(int part, int x, int y, const Stored& stored, Work& work) const {
+bool ShortCuts::has_parts() const { return !options_.profile->reference && !model_.rounds_inside(); }
+void ShortCuts::find_in_part(int part, int x, int y, const Stored& stored, Work& work) const {
   work.is_held.assign(modes_.size(), 1);
   for (const enclosed::Profile* profile : {options_.profile, options_.typical}) {
-    if (!profile) continue;
+    if (!profile || std::find(work.is_held.begin(), work.is_held.end(), 1) == work.is_held.end()) continue;
     work.parts.run_part(model_, part, x, y, stored.got_values.data(), *profile);
     for (std::size_t m = 0; m < modes_.size(); ++m) {
       bool is_inside = false;
@@ -70,9 +90,7 @@ bool ShortCuts::lies_in_part(int part, int x, int y, const Stored& stored, Work&
       }
       work.is_held[m] &= is_inside;
     }
-    if (!is_enough(work.is_held)) return false;
   }
-  return true;
 }
 
 }  // namespace rainref::judge

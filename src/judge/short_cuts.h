@@ -2,6 +2,7 @@
 // those of a known device, or it lies in a part of them that the pass finds sooner.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,9 +19,10 @@ class ShortCuts {
   /// What is given must outlive it.
   ShortCuts(const capture::PassCase& c, const capture::PassModel& model, const std::vector<capture::Array>& port,
             const JudgeOptions& options, const std::vector<Slot>& slots, const std::vector<HalfMode>& modes);
+  /// Finds the rounding of halves that most of the sample is stored by, and a device that most of it comes from.
   void prepare(const Sample& sample);
-  /// Of some hundreds of the sample those that store what the reference does, by a rounding of halves.
-  std::int64_t with_bits(std::size_t mode) const { return bits_.counted(mode); }
+  /// Of some hundreds of the sample those that lie inside by a rounding of halves, as far as short cuts tell.
+  std::int64_t counted(std::size_t mode) const { return mode < counts_.size() ? counts_[mode] : 0; }
 
   /// What a thread needs to ask; one after the other.
   struct Work {
@@ -39,7 +41,10 @@ class ShortCuts {
  private:
   bool is_enough(const std::vector<char>& is_held) const;
   bool has_reference_bits(int x, int y) const;
-  bool lies_in_part(int part, int x, int y, const Stored& stored, Work& work) const;
+  void count(const Sample& sample);
+  bool has_parts() const;
+  /// For each rounding, whether an invocation lies in a part of the envelopes of both profiles, into work.is_held.
+  void find_in_part(int part, int x, int y, const Stored& stored, Work& work) const;
 
   const capture::PassCase& case_;
   const capture::PassModel& model_;
@@ -49,6 +54,8 @@ class ShortCuts {
   const std::vector<HalfMode>& modes_;
   ReferenceBits bits_;
   KnownDevice device_;
+  std::array<std::int64_t, 2> counts_{};
+  std::size_t leading_ = 0;  ///< what it leaves unasked is known to lie inside by this rounding, not by the other
 };
 
 }  // namespace rainref::judge

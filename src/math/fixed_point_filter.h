@@ -1,5 +1,5 @@
-// How an NVIDIA H200 filters, as far as the outputs of ports tell: of what such ports store it gives 98 to 100 % to the bit, where
-// arithmetic in floats gives 31 to 95 % (docs/notes/devices.md has the figures).
+// How NVIDIA's H100 and H200 filter, as sweeps of small textures and the outputs of ports tell (docs/notes/devices.md, "What an H100's
+// sampler does"). tests/image/h100_filter_test.cpp holds it to formulas of its own.
 //
 //   coordinate  the fraction of u after the address rule is cut to 21 bits, u size - 1/2 then rounded to 1/256, half up
 //   level       cut to 1/256

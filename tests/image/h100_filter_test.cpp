@@ -1,8 +1,9 @@
 // A filter as an NVIDIA H100 was seen to make it (CUDA texture objects, 1D, one-hot 2D, half and float texels, driver 580.159):
-// x rounded to 1/256, half up; of the four weights the product fx fy rounded to 1/256 and the others such that rows,
-// columns and the whole keep their sums; texels of half give a half. Between two levels (32000 lookups, one-hot and random
-// texels) all eight weights are multiples of 1/256: the coarse level's share S is cut, S f_x is rounded half up to X, X f_y half up
-// and (S - X) f_y half down. Every such result must lie in the hull.
+// u cut to 21 bits (an H200, outputs of ports), x rounded to 1/256, half up; of the four weights the product fx fy rounded to 1/256 and the
+// others such that rows, columns and the whole keep their sums; texels of half give a half, half away from zero. Between two levels (32000
+// lookups, one-hot and random texels) all eight weights are multiples of 1/256: the coarse level's share S is cut, S f_x is rounded half up
+// to X, X f_y half up and (S - X) f_y half down. Every such result must lie in the hull, and be what Perturbeds give that filter in fixed
+// point.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "image/footprint.h"
 #include "image/texture.h"
 #include "math/half.h"
+#include "math/perturbed.h"
 #include "math/profiles.h"
 
 namespace rainref::test {
@@ -18,6 +20,7 @@ namespace h100 {
 using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
+#include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
 #undef RAINREF_FN
@@ -29,10 +32,16 @@ using enclosed::Enclosure;
 
 constexpr int size = 5;
 
-double filtered_by_h100(const std::vector<float>& texels, double x, double y, bool half) {
-  const auto snapped = [](double c) { return std::floor(c * 256 + 0.5) / 256; };
-  x = snapped(x);
-  y = snapped(y);
+double place_by_h100(float u, int side) {
+  const double cut = std::floor(static_cast<double>(u) * 0x1p21) / 0x1p21;
+  return std::floor((cut * side - 0.5) * 256 + 0.5) / 256;
+}
+double half_by_h100(double value) {
+  const double step = std::ldexp(1, std::max(std::ilogb(value), -14) - 10);
+  return std::round(value / step) * step;
+}
+double filtered_by_h100(const std::vector<float>& texels, float u, float v, bool half) {
+  const double x = place_by_h100(u, size), y = place_by_h100(v, size);
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   const double fx = x - i, fy = y - j, both = std::floor(fx * fy * 256 + 0.5) / 256;
   const auto texel = [&](int a, int b) {
@@ -40,21 +49,20 @@ double filtered_by_h100(const std::vector<float>& texels, double x, double y, bo
   };
   const double value =
       (1 - fx - fy + both) * texel(i, j) + (fx - both) * texel(i + 1, j) + (fy - both) * texel(i, j + 1) + both * texel(i + 1, j + 1);
-  return half ? static_cast<double>(to_float(to_half(static_cast<float>(value)))) : value;
+  return half ? half_by_h100(value) : value;
 }
 
 struct TwoLevels {
   int side;                   ///< of the fine level; the coarse one has half of it
   std::vector<float> texels;  ///< both, one channel
 };
-double between_by_h100(const TwoLevels& t, double u, double v, double lod, bool half) {
-  const auto snapped = [](double c) { return std::floor(c * 256 + 0.5) / 256; };
+double between_by_h100(const TwoLevels& t, float u, float v, double lod, bool half) {
   const double coarse_share = std::floor(lod * 256);
   double value = 0;
   for (int level = 0; level < 2; ++level) {
     const int s = t.side >> level;
     const float* texels = t.texels.data() + (level == 0 ? 0 : t.side * t.side);
-    const double x = snapped(u * s - 0.5), y = snapped(v * s - 0.5), share = level == 0 ? 256 - coarse_share : coarse_share;
+    const double x = place_by_h100(u, s), y = place_by_h100(v, s), share = level == 0 ? 256 - coarse_share : coarse_share;
     const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
     const double right = std::floor(share * (x - i) + 0.5), left = share - right;
     const double right_above = std::floor(right * (y - j) + 0.5), left_above = std::ceil(left * (y - j) - 0.5);
@@ -63,8 +71,20 @@ double between_by_h100(const TwoLevels& t, double u, double v, double lod, bool 
               right_above * texel(i + 1, j + 1)) /
              256;
   }
-  return half ? static_cast<double>(to_float(to_half(static_cast<float>(value)))) : value;
+  return half ? half_by_h100(value) : value;
 }
+/// What a device gives whose sampler works in fixed point.
+struct ByKnownDevice {
+  perturbed::Scope scope;
+  ByKnownDevice()
+      : scope([] {
+          perturbed::Behaviour b;
+          b.filter = perturbed::Filter::fixed_point;
+          return b;
+        }()) {}
+  using Number = perturbed::Perturbed;
+  static Number number(float x) { return Number::of(x); }
+};
 
 class H100Filter : public testing::TestWithParam<TexelPrecision> {};
 
@@ -81,14 +101,17 @@ TEST_P(H100Filter, LiesInTheHull) {
     Texture t = data.view();
     t.precision = GetParam();
     const float u = static_cast<float>(random(0.1, 0.9)), v = static_cast<float>(random(0.1, 0.9));
-    const double x = static_cast<double>(u) * size - 0.5, y = static_cast<double>(v) * size - 0.5;
     const Enclosure hull = h100::sample_bilinear<0, 1, Enclosure>(t, Enclosure(u), Enclosure(v))[0];
-    const double got = filtered_by_h100(texels, x, y, half);
+    const double got = filtered_by_h100(texels, u, v, half);
     EXPECT_LE(hull.lo, got);
     EXPECT_GE(hull.hi, got);
+    {
+      const ByKnownDevice device;
+      EXPECT_EQ((h100::sample_bilinear<0, 1, ByKnownDevice::Number>(t, device.number(u), device.number(v))[0].v), static_cast<float>(got));
+    }
     // Not covered by the coordinate's slack alone: the test would have failed before weights were modelled.
     t.precision = TexelPrecision::float32;
-    beyond_exact += std::abs(got - filtered_by_h100(texels, x, y, false)) > 0;
+    beyond_exact += std::abs(got - filtered_by_h100(texels, u, v, false)) > 0;
   }
   EXPECT_EQ(beyond_exact > 0, half);
 }
@@ -100,7 +123,7 @@ TEST_P(H100Filter, BetweenTwoLevelsLiesInTheHull) {
   const auto one = [](const Texture& t, Enclosure u, Enclosure v, Enclosure lod) {
     return h100::sample_trilinear<0, 1, Enclosure>(t, u, v, lod)[0];
   };
-  int beyond_each_alone = 0;
+  int beyond_each_alone = 0, off = 0;
   double widest = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     TwoLevels levels{8, std::vector<float>(64 + 16)};
@@ -118,6 +141,13 @@ TEST_P(H100Filter, BetweenTwoLevelsLiesInTheHull) {
     const double got = between_by_h100(levels, u, v, lod, half);
     EXPECT_LE(hull.lo, got) << u << ' ' << v << ' ' << lod;
     EXPECT_GE(hull.hi, got) << u << ' ' << v << ' ' << lod;
+    {
+      const ByKnownDevice device;
+      const float same =
+          h100::sample_trilinear<0, 1, ByKnownDevice::Number>(t, device.number(u), device.number(v), device.number(lod))[0].v;
+      EXPECT_NEAR(same, got, half ? 0x1p-11 : 0x1p-23);
+      off += half && same != static_cast<float>(got);
+    }
     widest = std::max(widest, static_cast<double>(hull.hi) - hull.lo);
     // Each level rounded alone would not do: the test would have failed before the weights were modelled together.
     Texture fine = t, coarse = t;
@@ -130,6 +160,7 @@ TEST_P(H100Filter, BetweenTwoLevelsLiesInTheHull) {
     beyond_each_alone += got < alone.lo || got > alone.hi;
   }
   EXPECT_GT(beyond_each_alone, 0);
+  EXPECT_LT(off, 8) << "the levels' shares are floats, whose sum may miss a tie";
   EXPECT_LT(widest, 0.06);  // of texels from 0 to 1: two coordinates of either level off by 1/256, six roundings by 1/512, the LOD
 }
 INSTANTIATE_TEST_SUITE_P(Every, H100Filter, testing::Values(TexelPrecision::float32, TexelPrecision::float16));
