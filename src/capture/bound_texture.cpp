@@ -16,13 +16,31 @@
 namespace rainref::capture {
 namespace {
 
+/// Adds the decoded values of a level.
 template <class Stored, class Decode>
 void decode_all(const std::vector<std::byte>& bytes, std::vector<float>& out, Decode decode) {
-  out.resize(bytes.size() / sizeof(Stored));
-  for (std::size_t i = 0; i < out.size(); ++i) {
+  const std::size_t before = out.size(), count = bytes.size() / sizeof(Stored);
+  out.resize(before + count);
+  float* const to = out.data() + before;
+  for (std::size_t i = 0; i < count; ++i) {
     Stored s;
     std::memcpy(&s, bytes.data() + i * sizeof(Stored), sizeof(Stored));
-    out[i] = decode(s);
+    to[i] = decode(s);
+  }
+}
+void add_decoded(const Array& image, int level, std::vector<float>& out) {
+  const std::vector<std::byte>& bytes = image.levels.at(static_cast<std::size_t>(level));
+  switch (info(image.format).kind) {
+    case FormatInfo::unorm8:
+      return decode_all<Unorm8>(bytes, out, [](Unorm8 u) { return to_float(u); });
+    case FormatInfo::srgb8:
+      return decode_all<Unorm8>(bytes, out, [](Unorm8 u) { return static_cast<float>(decode_srgb(u.code / 255.0)); });
+    case FormatInfo::float16:
+      return decode_all<Half>(bytes, out, [](Half h) { return to_float(h); });
+    case FormatInfo::float32:
+      return decode_all<float>(bytes, out, [](float x) { return x; });
+    case FormatInfo::uint32:
+      return decode_all<std::uint32_t>(bytes, out, [](std::uint32_t i) { return static_cast<float>(i); });
   }
 }
 const CaseInput& input_of(const PassCase& c, std::string_view name, bool records) {
@@ -34,13 +52,19 @@ const CaseInput& input_of(const PassCase& c, std::string_view name, bool records
 }
 
 std::vector<float> taken_of(const Array& a, int levels, int first, int taken) {
-  const auto channels = static_cast<std::size_t>(info(a.format).channels);
+  const auto channels = static_cast<std::size_t>(info(a.format).channels), count = static_cast<std::size_t>(taken);
+  std::size_t elements = 0;
+  for (int l = 0; l < levels; ++l) elements += a.levels[static_cast<std::size_t>(l)].size() / a.element_bytes();
   std::vector<float> texels;
+  texels.reserve(elements * count);
   for (int l = 0; l < levels; ++l) {
-    const std::vector<float> all = decoded(a, l);
-    for (std::size_t i = 0; i + channels <= all.size(); i += channels) {
-      for (int c = 0; c < taken; ++c) texels.push_back(all[i + static_cast<std::size_t>(first + c)]);
+    if (count == channels) {
+      add_decoded(a, l, texels);
+      continue;
     }
+    const std::vector<float> all = decoded(a, l);
+    for (std::size_t i = static_cast<std::size_t>(first); i + count <= all.size(); i += channels)
+      texels.insert(texels.end(), all.begin() + static_cast<std::ptrdiff_t>(i), all.begin() + static_cast<std::ptrdiff_t>(i + count));
   }
   return texels;
 }
@@ -74,26 +98,13 @@ Texels shared_texels(const Array& a, int levels, int first, int taken) {
 }  // namespace
 
 std::vector<float> decoded(const Array& image, int level) {
-  const std::vector<std::byte>& bytes = image.levels.at(static_cast<std::size_t>(level));
   std::vector<float> out;
-  switch (info(image.format).kind) {
-    case FormatInfo::unorm8:
-      decode_all<Unorm8>(bytes, out, [](Unorm8 u) { return to_float(u); });
-      break;
-    case FormatInfo::srgb8:
-      decode_all<Unorm8>(bytes, out, [](Unorm8 u) { return static_cast<float>(decode_srgb(u.code / 255.0)); });
-      break;
-    case FormatInfo::float16:
-      decode_all<Half>(bytes, out, [](Half h) { return to_float(h); });
-      break;
-    case FormatInfo::float32:
-      decode_all<float>(bytes, out, [](float x) { return x; });
-      break;
-    case FormatInfo::uint32:
-      decode_all<std::uint32_t>(bytes, out, [](std::uint32_t i) { return static_cast<float>(i); });
-      break;
-  }
+  add_decoded(image, level, out);
   return out;
+}
+
+std::shared_ptr<const std::vector<float>> shared_decoded(const Array& image) {
+  return shared_texels(image, 1, 0, info(image.format).channels);
 }
 
 BoundTexture::BoundTexture(const CaseInput& input, int first, int count) {

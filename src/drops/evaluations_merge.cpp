@@ -53,7 +53,7 @@ class Merging {
   int groups() const { return static_cast<int>(groups_.size()); }
   /// Groups that may leave water in a texel.
   const std::vector<int>& groups_over(int texel) const { return over_[static_cast<std::size_t>(texel)]; }
-  const float& film(int texel) const { return film_[static_cast<std::size_t>(texel)]; }
+  const float& film(int texel) const { return (*film_)[static_cast<std::size_t>(texel)]; }
 
   /// A drop after the merge: `state` without its trail.
   template <class N>
@@ -210,7 +210,7 @@ class Merging {
 
   // What merges lies between its parts, and its tail within the radius that all of them have together.
   void find_texels() {
-    over_.resize(film_.size());
+    over_.resize(film_->size());
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       double u0 = 2, u1 = -1, v0 = 2, v1 = -1, mass = 0;
       bool moves = false;
@@ -240,7 +240,7 @@ class Merging {
 
   MergeUniforms u_;
   std::vector<Drop> drops_;  ///< live ones, in ascending id
-  std::vector<float> film_;
+  std::shared_ptr<const std::vector<float>> film_;
   std::vector<Group> groups_;
   std::vector<std::vector<int>> over_;
 };

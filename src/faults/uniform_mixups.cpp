@@ -21,7 +21,7 @@ using scene::Member;
 using scene::Scalar;
 using Word = std::array<std::byte, 4>;
 
-Word word_at(const PassCase& c, const Member& m, int k) { return number_at<Word>(c.uniforms.data(), offset_of(m, k)); }
+Word word_at(const std::vector<std::byte>& uniforms, const Member& m, int k) { return number_at<Word>(uniforms.data(), offset_of(m, k)); }
 void put_word(PassCase& c, const Member& m, int k, Word w) { put_number(c.uniforms.data(), offset_of(m, k), w); }
 bool same_value(const PassCase& c, const Member& a, const Member& b) {
   return std::memcmp(c.uniforms.data() + a.offset, c.uniforms.data() + b.offset, a.size()) == 0;
@@ -63,17 +63,17 @@ class UniformAdder {
         bool is_changed = false;
         for (std::size_t k = 0; k < order.size(); ++k) {
           swizzle += component_name(order[k]);
-          is_changed |= word_at(c_, m, order[k]) != word_at(c_, m, static_cast<int>(k));
+          is_changed |= word_at(c_.uniforms, m, order[k]) != word_at(c_.uniforms, m, static_cast<int>(k));
         }
         if (!is_changed) continue;
         add(Kind::uniform_permuted, {m.name, swizzle}, [m, order](PassCase& altered) {
-          const PassCase right = altered;
+          const std::vector<std::byte> right = altered.uniforms;
           for (std::size_t k = 0; k < order.size(); ++k) put_word(altered, m, static_cast<int>(k), word_at(right, m, order[k]));
         });
       }
       for (int from = 0; from < m.components; ++from)
         add(Kind::uniform_component_for_each, {m.name, component_name(from)}, [m, from](PassCase& altered) {
-          for (int k = 0; k < m.components; ++k) put_word(altered, m, k, word_at(altered, m, from));
+          for (int k = 0; k < m.components; ++k) put_word(altered, m, k, word_at(altered.uniforms, m, from));
         });
       add(Kind::uniform_of_other_sign, {m.name}, [m](PassCase& altered) {
         for (int k = 0; k < m.components; ++k) altered.uniforms[offset_of(m, k) + 3] ^= std::byte{0x80};
@@ -102,10 +102,10 @@ class UniformAdder {
           const auto row = [](int a) { return static_cast<std::size_t>(a); };
           bool is_symmetric = true;
           for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < a; ++b) is_symmetric &= word_at(c_, matrix[row(a)], b) == word_at(c_, matrix[row(b)], a);
+            for (int b = 0; b < a; ++b) is_symmetric &= word_at(c_.uniforms, matrix[row(a)], b) == word_at(c_.uniforms, matrix[row(b)], a);
           if (is_symmetric) continue;
           add(Kind::uniforms_transposed, {rows[i].name, rows[j].name, rows[k].name}, [matrix, row](PassCase& altered) {
-            const PassCase right = altered;
+            const std::vector<std::byte> right = altered.uniforms;
             for (int a = 0; a < 3; ++a)
               for (int b = 0; b < 3; ++b) put_word(altered, matrix[row(a)], b, word_at(right, matrix[row(b)], a));
           });
@@ -145,11 +145,11 @@ class UniformAdder {
     for (const Member& m : of) names += (names.empty() ? "" : " and ") + m.name;
     for (int to = 0; to < of[0].components; ++to)
       for (int from = 0; from < of[0].components; ++from) {
-        const bool is_changed =
-            std::all_of(of.begin(), of.end(), [&](const Member& m) { return word_at(c_, m, from) != word_at(c_, m, to); });
+        const bool is_changed = std::all_of(of.begin(), of.end(),
+                                            [&](const Member& m) { return word_at(c_.uniforms, m, from) != word_at(c_.uniforms, m, to); });
         if (from == to || !is_changed) continue;
         add(Kind::uniforms_by_component, {names, component_name(from), component_name(to)}, [of, from, to](PassCase& altered) {
-          for (const Member& m : of) put_word(altered, m, to, word_at(altered, m, from));
+          for (const Member& m : of) put_word(altered, m, to, word_at(altered.uniforms, m, from));
         });
       }
   }

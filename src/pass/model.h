@@ -25,7 +25,8 @@ struct Captured {
   template <Format f, int around = 0>
   struct Texels {
     In is;
-    std::vector<DecodedOf<f>> texels;  ///< row-major, `around` texels before and behind each row, where the nearest one stands again
+    std::shared_ptr<const std::vector<DecodedOf<f>>>
+        texels;  ///< row-major, `around` texels before and behind each row, where the nearest one stands again
     int width = 0, height = 0;
     static constexpr std::array formats{f};
     static constexpr int channels = StorageOf<f>::channels;
@@ -34,23 +35,27 @@ struct Captured {
     void read(const capture::CaseInput& input) {
       width = input.array.width;
       height = input.array.height;
-      texels.resize(static_cast<std::size_t>(channels) * static_cast<std::size_t>(width + 2 * around) * static_cast<std::size_t>(height));
       if constexpr (std::is_same_v<DecodedOf<f>, Unorm8>)
         frame(reinterpret_cast<const Unorm8*>(input.array.levels.at(0).data()));
+      else if constexpr (around == 0)
+        texels = capture::shared_decoded(input.array);
       else
-        frame(capture::decoded(input.array).data());
+        frame(capture::shared_decoded(input.array)->data());
     }
     /// Column x of the row y or the nearest one.
     const DecodedOf<f>* at(int x, int y) const {
-      return texels.data() + channels * (static_cast<std::ptrdiff_t>(std::clamp(y, 0, height - 1)) * (width + 2 * around) + around + x);
+      return texels->data() + channels * (static_cast<std::ptrdiff_t>(std::clamp(y, 0, height - 1)) * (width + 2 * around) + around + x);
     }
 
    private:
     void frame(const DecodedOf<f>* from) {
-      auto to = texels.begin();
+      std::vector<DecodedOf<f>> framed(static_cast<std::size_t>(channels) * static_cast<std::size_t>(width + 2 * around) *
+                                       static_cast<std::size_t>(height));
+      auto to = framed.begin();
       for (int y = 0; y < height; ++y)
         for (int x = -around; x < width + around; ++x)
           to = std::copy_n(from + channels * (static_cast<std::ptrdiff_t>(y) * width + std::clamp(x, 0, width - 1)), channels, to);
+      texels = std::make_shared<const std::vector<DecodedOf<f>>>(std::move(framed));
     }
   };
   struct Sampled {
