@@ -22,8 +22,8 @@ struct HalfVotes {
   bool rounds_inside = false;
   /// Of each mode the invocations that may fail besides: they were not asked about under it, because another mode holds them. Empty: none.
   std::vector<std::int64_t> undecided = {};
-  /// Of each mode, of a few invocations those that are found inside without an envelope: nearly all store what the reference does by it.
-  /// Empty: none.
+  /// How many of some hundreds of invocations are found inside without an envelope, by each mode: nearly all of these store what the
+  /// reference does. Empty: none.
   std::vector<std::int64_t> with_bits = {};
 
   std::int64_t most(std::size_t mode) const { return failing[mode] + (undecided.empty() ? 0 : undecided[mode]); }

@@ -26,13 +26,13 @@ class ReferenceBits {
   /// Whether an evaluation of the pass says what is stored of halves by the rounding of this place among the modes: where it rounds inside,
   /// by the reference's own alone.
   bool has_reference(std::size_t mode) const;
-  /// Of each of two roundings, whether the reference stores so what the port has for an invocation.
+  /// Whether the port has for an invocation what the reference stores, by each of two roundings.
   std::array<bool, 2> stores(int x, int y) const;
   /// Computes what the reference stores by the rounding of this place, or with `every` by all that are tried.
   void prepare(const parallel::Executor& executor, std::size_t leading, bool every);
   /// Whether all that is stored for an invocation, free values too, has the reference's bits by the mode of this place, or by either
-  /// rounding where a mixture is asked for. False where the pass has no such reference: where it rounds inside, or is judged near what is
-  /// stored, the reference's own rounding alone has one.
+  /// rounding where a mixture is asked for. False where the pass has no such reference: where it rounds inside, the reference's own
+  /// rounding alone has one.
   bool has(std::size_t mode, int x, int y) const;
 
  private:

@@ -21,7 +21,7 @@ class ShortCuts {
             const JudgeOptions& options, const std::vector<Slot>& slots, const std::vector<HalfMode>& modes);
   /// Finds the rounding of halves that most of the sample is stored by, and a device that most of it comes from.
   void prepare(const Sample& sample);
-  /// Of some hundreds of the sample those that lie inside by a rounding of halves, as far as short cuts tell.
+  /// How many of some hundreds of sampled invocations lie inside by a rounding of halves, as far as short cuts tell.
   std::int64_t counted(std::size_t mode) const { return mode < counts_.size() ? counts_[mode] : 0; }
 
   /// What a thread needs to ask; one after the other.
@@ -35,7 +35,7 @@ class ShortCuts {
     std::optional<perturbed::Scope> device;
   };
   /// Whether an invocation is known to lie inside, by the profile and by what known devices do: by the rounding that most have, or by each
-  /// that is tried. work.is_held says by which. `stored`: what the port stored for it is read into, where that is not enough.
+  /// that is tried. work.is_held says by which. `stored` holds what the port stored for it, if false comes back.
   bool lies_inside(int x, int y, Stored& stored, Work& work) const;
 
  private:

@@ -127,7 +127,7 @@ struct CaseJudgement {
   /// those of the outputs. 1: all were asked.
   std::int64_t stride = 1;
   double unbounded_margin = 0;  ///< as Sample::margin, of unbounded elements
-  std::int64_t with_bits = 0;   ///< of some hundreds of invocations those that short cuts find inside by this rounding
+  std::int64_t with_bits = 0;   ///< how many of some hundreds of invocations short cuts find inside by this rounding
   std::int64_t undecided = 0;   ///< not asked about under this rounding of stores to binary16, which the other one settles
   std::vector<OutputJudgement> outputs;
 };

@@ -44,6 +44,17 @@ inline float sum_below(float a, float b) {
 }
 inline float sum_above(float a, float b) { return -sum_below(-a, -b); }
 
+/// a + b in double, made odd where it is inexact: it rounds to float as the exact sum would (Boldo and Melquiond, Emulation of FMA, 2008).
+inline double odd_sum(double a, double b) {
+  const double s = a + b, t = s - a, error = (a - (s - t)) + (b - t);
+  auto bits = std::bit_cast<std::uint64_t>(s);
+  const std::uint64_t step = static_cast<std::uint64_t>(error != 0) & ~bits & 1, is_outward = (error > 0) == (s > 0);
+  bits += step * (2 * is_outward - 1);  // without a branch: either is as likely
+  return std::bit_cast<double>(bits);
+}
+/// a b + c, rounded once.
+inline float fused_sum(float a, float b, float c) { return static_cast<float>(odd_sum(static_cast<double>(a) * b, c)); }
+
 /// The gap between the floats around y; the larger one at a power of two, 0 at 0.
 inline double ulp_of(double y) {
   if (y == 0) return 0;

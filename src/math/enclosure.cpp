@@ -39,14 +39,8 @@ Enclosure product(const Profile& p, double low, double high) {
   return out;
 }
 
-/// a + b to the nearest float: the sum in double is made odd where it is inexact, so that it rounds as the exact one would.
-float nearest_sum(double a, double b) {
-  const double s = a + b, t = s - a, error = (a - (s - t)) + (b - t);
-  auto bits = std::bit_cast<std::uint64_t>(s);
-  const std::uint64_t step = static_cast<std::uint64_t>(error != 0) & ~bits & 1, is_outward = (error > 0) == (s > 0);
-  bits += step * (2 * is_outward - 1);  // without a branch: either is as likely
-  return static_cast<float>(std::bit_cast<double>(bits));
-}
+/// a + b to the nearest float.
+float nearest_sum(double a, double b) { return static_cast<float>(odd_sum(a, b)); }
 
 }  // namespace
 

@@ -71,15 +71,6 @@ Perturbed erring(float nearest, double exact, Accuracy Profile::*accuracy, doubl
   return finish(within(r, exact, bound, a) ? r : nearest, 0);
 }
 
-/// a b + c, made odd where inexact: it rounds to float as the exact value would (Boldo and Melquiond, Emulation of FMA,
-/// 2008).
-double odd_sum_of_product(float a, float b, float c) {
-  const double p = static_cast<double>(a) * b, s = p + c, t = s - p, error = (p - (s - t)) + (c - t);
-  if (error == 0 || s == 0) return s;
-  auto bits = std::bit_cast<std::uint64_t>(s);
-  if (!(bits & 1)) bits = (error > 0) == (s > 0) ? bits + 1 : bits - 1;
-  return std::bit_cast<double>(bits);
-}
 double exact(const Perturbed& a) { return a.v; }
 Reference reference(const Perturbed& a) { return Reference(a.v); }
 
@@ -165,7 +156,7 @@ Perturbed Perturbed::add(const Perturbed& a, const Perturbed& b) {
     if (is(Fault::fused) || may_contract()) {
       const bool first = a.product_ && !(b.product_ && take(&Variations::reorder));
       const Perturbed& p = first ? a : b;
-      const double sum = odd_sum_of_product(p.factor_, p.other_, first ? b.v : a.v);
+      const double sum = enclosed::odd_sum(static_cast<double>(p.factor_) * p.other_, first ? b.v : a.v);
       const float nearest = static_cast<float>(sum);
       return finish(nearest, sum - nearest);
     }
@@ -185,7 +176,7 @@ Perturbed Perturbed::product(const Perturbed& a, const Perturbed& b) {
   return Perturbed::made(Op::product, result, a, b);
 }
 Perturbed square(const Perturbed& a) {
-  if (is_reference) return Perturbed::of(a.v * a.v);
+  if (is_reference) return Perturbed::of(square(reference(a)).v);
   const auto squared = [&] {
     const Unseen parts;
     return is(Fault::square_missing) ? a : a * a;
@@ -219,7 +210,7 @@ Perturbed inverse_sqrt(const Perturbed& a) {
   return erring(static_cast<float>(root), root, &Profile::inverse_sqrt);
 }
 Perturbed sqrt(const Perturbed& a) {
-  if (is_reference) return Perturbed::of(__builtin_sqrtf(a.v));
+  if (is_reference) return Perturbed::of(sqrt(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::root_missing)) return a;
@@ -252,7 +243,7 @@ Perturbed fract(const Perturbed& a) {
   return Perturbed::made(Op::fract, result, a);
 }
 Perturbed mix(const Perturbed& a, const Perturbed& b, const Perturbed& t) {
-  if (is_reference) return Perturbed::of(a.v * (1.0f - t.v) + b.v * t.v);
+  if (is_reference) return Perturbed::of(mix(reference(a), reference(b), reference(t)).v);
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::mix_swapped)) return b * (Perturbed::of(1.0f) - t) + a * t;
@@ -366,21 +357,21 @@ Perturbed shuffled_sum(std::array<Perturbed, Count> terms) {
 }
 }  // namespace
 Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c) {
-  if (is_reference) return Perturbed::of((a.v + b.v) + c.v);
+  if (is_reference) return Perturbed::of(scalar::sum_any_order(reference(a), reference(b), reference(c)).v);
   if (is(Fault::sum_backwards)) return (c + b) + a;
   if (is(Fault::sum_otherwise_paired)) return a + (b + c);
   if (take(&Variations::reorder)) return shuffled_sum<3>({a, b, c});
   return (a + b) + c;
 }
 Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d) {
-  if (is_reference) return Perturbed::of(((a.v + b.v) + c.v) + d.v);
+  if (is_reference) return Perturbed::of(scalar::sum_any_order(reference(a), reference(b), reference(c), reference(d)).v);
   if (is(Fault::sum_backwards)) return ((d + c) + b) + a;
   if (is(Fault::sum_otherwise_paired)) return (a + b) + (c + d);
   if (take(&Variations::reorder)) return shuffled_sum<4>({a, b, c, d});
   return ((a + b) + c) + d;
 }
 Perturbed sum_any_order_in_pairs(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d) {
-  if (is_reference) return Perturbed::of((a.v + b.v) + (c.v + d.v));
+  if (is_reference) return Perturbed::of(scalar::sum_any_order_in_pairs(reference(a), reference(b), reference(c), reference(d)).v);
   if (is(Fault::sum_backwards)) return ((d + c) + b) + a;
   if (is(Fault::sum_otherwise_paired)) return (a + c) + (b + d);
   if (take(&Variations::reorder)) return shuffled_sum<4>({a, b, c, d});

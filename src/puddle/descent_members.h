@@ -1,9 +1,9 @@
 // Results of surface_hit, corrected, that every device of a profile may give, found in plain floats: what lies between them lies in the
 // envelope (CorrectedDescent), too.
 //
-// Of a march that stops on the water these are its ends from the ends of the stretch that the envelope takes around the reference's own.
-// Where the ray meets the plane they are devices': a direction normalized by each formula, quotients with the largest error that the
-// profile allows, with and without fusing. All of them decide alike, so that they lie in one alternative.
+// A march that stops on the water has such results at the ends of the stretch that the envelope takes around the reference's own stop. A
+// ray that meets the plane has those of devices: they normalize its direction by each formula, divide with the largest error that the
+// profile allows, and fuse or do not. All results come from the same decisions, so they lie in one alternative.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class DescentMembers {
 
  private:
   void add_stops(double stop) {
-    constexpr double within = 15.0 / 16 * roundings;  // leaves room for rounding it to a float
+    constexpr double within = 7.0 / 8 * roundings;  // leaves room for rounding it to a float, and for the float beside that
     scalar::Descent<Single> fused = ray_;
     const std::vector<Vector> views = directions(true);
     fused.d = views.back();
@@ -70,7 +70,8 @@ class DescentMembers {
         const auto last = scalar::last_step(u_, wave_, ray, over_, true, at, min(scalar::gap_above(u_, wave_, ray, at), least));
         if (last.is_taken != steps.value_or(last.is_taken)) continue;  // another alternative
         steps = last.is_taken;
-        add_places(ray.origin, ray.d, last.t, last.normal);
+        for (const float beside : {last.t.v, enclosed::next_down(last.t.v), enclosed::next_up(last.t.v)})
+          add_place(ray.d, Single(beside), last.normal);
         if (!enclosed::profile().contraction) break;
       }
     }
@@ -79,18 +80,18 @@ class DescentMembers {
     const Vector up(Single(0.0f), Single(1.0f), Single(0.0f));
     for (const Vector& d : directions(enclosed::profile().contraction)) {
       for (const float quotient : quotients(1 / std::max<double>(-d.y.v, 1e-4f))) {
-        add_places(ray_.origin, d, ray_.origin.y * Single(quotient), up);
+        const double t = static_cast<double>(ray_.origin.y.v) * quotient;
+        add_place(d, Single(static_cast<float>(t)), up);
+        if (enclosed::profile().basic != enclosed::BasicRounding::either) continue;
+        for (const float beside : {enclosed::float_below(t), enclosed::float_above(t)}) add_place(d, Single(beside), up);
       }
     }
   }
-  /// origin + t d, rounded twice or once, and where an operation may give either float, of both beside t.
-  void add_places(const Vector& origin, const Vector& d, Single t, const Vector& normal) {
-    const bool either = enclosed::profile().basic == enclosed::BasicRounding::either;
-    for (const Single at : {t, Single(either ? enclosed::next_down(t.v) : t.v), Single(either ? enclosed::next_up(t.v) : t.v)}) {
-      add(origin + at * d, normal);
-      if (enclosed::profile().contraction)
-        add(Vector(fused(at, d.x, origin.x), fused(at, d.y, origin.y), fused(at, d.z, origin.z)), normal);
-    }
+  /// origin + t d, rounded twice, or once where that is allowed.
+  void add_place(const Vector& d, Single t, const Vector& normal) {
+    const Vector& o = ray_.origin;
+    add(o + t * d, normal);
+    if (enclosed::profile().contraction) add(Vector(fused(t, d.x, o.x), fused(t, d.y, o.y), fused(t, d.z, o.z)), normal);
   }
   /// The ray's direction as devices have it: the reference's first, one that fuses last where it may.
   std::vector<Vector> directions(bool fuses) const {
@@ -119,7 +120,7 @@ class DescentMembers {
     };
     return {nearest, toward(exact - error, false), toward(exact + error, true)};
   }
-  static Single fused(Single a, Single b, Single c) { return Single(__builtin_fmaf(a.v, b.v, c.v)); }
+  static Single fused(Single a, Single b, Single c) { return Single(enclosed::fused_sum(a.v, b.v, c.v)); }
 
   void add(const Vector& position, const Vector& normal) {
     scalar::SurfaceHit<Single> hit = scalar::surface_missed(ray_);

@@ -275,6 +275,22 @@ std::vector<Array> port_of(const BoundCase& b, HalfMode stores, bool moved, cons
   return port;
 }
 
+// A port that a known device made is known as that device's.
+TEST_P(ShortCut, AKnownDeviceIsFound) {
+  const std::vector<HalfMode> modes{HalfMode::rne};
+  for (const BoundPass& pass : passes()) {
+    for (const BoundCase& b : pass.cases) {
+      if (b.model->rounds_inside() || b.slots.empty()) continue;
+      const perturbed::Behaviour device = known_devices().front();
+      const std::vector<Array> port = port_of(b, HalfMode::either, false, &device);
+      KnownDevice found(*b.model, port, b.slots, modes);
+      found.prepare(Sample(*b.c, *b.model, 0), known_devices(), [](int, int) { return true; });
+      ASSERT_TRUE(found.device()) << pass.name();
+      EXPECT_EQ(found.device()->filter, device.filter) << pass.name();
+    }
+  }
+}
+
 TEST_P(ShortCut, ChangesNoElementsVerdict) {
   // By default the profiles take turns.
   std::vector<std::string> profiles = profile_names();
