@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "math/constants.h"
 #include "math/directed.h"
@@ -87,6 +90,25 @@ void Scope::set(const Behaviour& b) {
                  !b.is_column_mirrored;
 }
 
+Behaviour replacing(float constant, float by) {
+  Behaviour b;
+  b.fault = Fault::constant;
+  b.constant = constant;
+  b.replacement = by;
+  constexpr std::array made_of{
+      +[](float n) { return 1 / n; },
+      +[](float n) { return n * n; },
+      +[](float n) { return 1 / (n * n); },
+      +[](float n) { return reflectance_straight_on(n); },
+      +[](float n) { return 1 - reflectance_straight_on(n); },
+  };
+  const auto digits = [](float x) { return fmt::format("{}", x).size(); };
+  for (std::size_t k = 0; k < made_of.size(); ++k)
+    if (const float made = made_of[k](constant); std::isfinite(made) && digits(made) > digits(constant) + 2)
+      b.derived[k] = {made, made_of[k](by)};
+  return b;
+}
+
 void Perturbed::literal() {
   const float constant = v;
   if (current.constants) current.constants->push_back(constant);
@@ -94,7 +116,11 @@ void Perturbed::literal() {
     const bool is_known = current.known && std::binary_search(current.known->begin(), current.known->end(), constant);
     leaf(Op::constant, is_known ? std::bit_cast<std::uint32_t>(constant) : 0);
   }
-  if (is(Fault::constant) && constant == current.constant) v = current.replacement;
+  if (is(Fault::constant)) {
+    if (constant == current.constant) v = current.replacement;
+    for (const auto& [made, instead] : current.derived)
+      if (made != 0 && constant == made) v = instead;
+  }
   if (is(Fault::half_constants)) v = to_float(to_half(constant));
 }
 Perturbed Perturbed::column(int first) {

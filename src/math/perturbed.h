@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "math/coverage.h"
@@ -100,6 +101,8 @@ struct Behaviour {
   Fault fault = Fault::none;
   Filter filter = Filter::arithmetic;
   float constant = 0, replacement = 0;  ///< of Fault::constant
+  /// Numbers that a host or a compiler makes of the constant before the pass takes them, and what the replacement makes of them.
+  std::array<std::pair<float, float>, 5> derived{};
   const Variations* variations = nullptr;
   std::uint64_t random = 1;                 ///< state of the variations' draws
   int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up
@@ -129,6 +132,9 @@ extern constinit thread_local bool is_plain;
 extern constinit thread_local bool is_reference;
 }  // namespace detail
 inline Behaviour& behaviour() { return detail::current; }
+/// A literal or a uniform of one value has another, and so has what is made of it alone: for a refractive index n the ratio 1 / n, its
+/// squares, and the reflectance straight on. Only what has more digits than `constant` is taken for made of it.
+Behaviour replacing(float constant, float by);
 /// Sets the behaviour for a scope.
 class Scope {
  public:

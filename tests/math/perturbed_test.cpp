@@ -88,6 +88,30 @@ TEST(Perturbed, EachFaultIsWhatItsSentenceSays) {
     EXPECT_EQ(c.computed(), c.with) << static_cast<int>(c.fault);
   }
 }
+// Snell's law takes the ratio 1 / n, its square, and Schlick's formula the reflectance ((n - 1) / (n + 1))^2 and its complement: a port
+// with another index has others of each.
+TEST(Perturbed, WhatIsMadeOfAConstantIsReplacedWithIt) {
+  const float n = 1.333f, other = 1.5f;
+  const auto straight_on = [](float index) { return (1 - index) / (1 + index) * ((1 - index) / (1 + index)); };
+  const Scope scope(replacing(n, other));
+  EXPECT_EQ(Perturbed(n).v, other);
+  EXPECT_EQ(Perturbed(1 / n).v, 1 / other);
+  EXPECT_EQ(Perturbed(n * n).v, other * other);
+  EXPECT_EQ(Perturbed(1 / (n * n)).v, 1 / (other * other));
+  EXPECT_EQ(Perturbed(straight_on(n)).v, straight_on(other));
+  EXPECT_EQ(Perturbed(1 - straight_on(n)).v, 1 - straight_on(other));
+  EXPECT_EQ(Perturbed(std::nextafter(1 / n, 1.0f)).v, std::nextafter(1 / n, 1.0f));
+}
+// A half is no reciprocal of 2 but a literal of its own, and the ratio does not say which index was meant.
+TEST(Perturbed, WhatIsPlainerThanAConstantIsNotMadeOfIt) {
+  {
+    const Scope scope(replacing(2, 3));
+    EXPECT_EQ(Perturbed(0.5f).v, 0.5f);
+    EXPECT_EQ(Perturbed(4).v, 4);
+  }
+  const Scope scope(replacing(1 / 1.333f, 0.5f));
+  EXPECT_EQ(Perturbed(1.333f).v, 1.333f);
+}
 TEST(Perturbed, EveryFaultIsInTheTableOrOneOfLookups) {
   const std::set<Fault> lookups{Fault::address_clamped,   Fault::address_repeated,   Fault::address_mirrored, Fault::nearest_filter,
                                 Fault::weights_of_8_bits, Fault::half_texel_missing, Fault::half_texel_twice, Fault::texel_after};
