@@ -129,6 +129,20 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
   return best;
 }
 
+/// Short numbers that the pass takes through their reciprocals alone, as a host or a compiler made them (perturbed::replacing).
+Constants behind(const Constants& all) {
+  const auto digits = [](float x) { return fmt::format("{}", x).size(); };
+  Constants out;
+  for (const Constant& c : all) {
+    const float base = c.is_literal ? rounded(1 / c.value, 5) : 0;
+    const auto is_base = [base](const Constant& other) { return other.value == base; };
+    if (base != 0 && std::isfinite(base) && 1 / base == c.value && digits(c.value) > digits(base) + 2 &&
+        std::none_of(all.begin(), all.end(), is_base))
+      out.push_back({base, fmt::format("the literal {}", base), true, true, false, "the"});
+  }
+  return out;
+}
+
 }  // namespace
 
 Fault another_value(Kind kind, const Constant& constant, float said, float replacement) {
@@ -140,9 +154,10 @@ Fault another_value(Kind kind, const Constant& constant, float said, float repla
 void add_fitted_constants(std::vector<Fault>& out, const EvaluateWith& evaluate, const Constants& constants,
                           const std::vector<Wanted>& wanted) {
   if (wanted.empty()) return;
-  for (const Constant& constant : constants)
-    if (const std::optional<float> other = fitted({evaluate, constant.value}, wanted, constant.is_literal))
-      out.push_back(another_value(Kind::another_value, constant, *other, *other));
+  for (const Constants& some : {constants, behind(constants)})
+    for (const Constant& constant : some)
+      if (const std::optional<float> other = fitted({evaluate, constant.value}, wanted, constant.is_literal))
+        out.push_back(another_value(Kind::another_value, constant, *other, *other));
 }
 
 }  // namespace rainref::faults

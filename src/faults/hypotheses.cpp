@@ -19,15 +19,15 @@ using capture::Array;
 using judge::Slot;
 
 std::vector<Wanted> wanted_at(const capture::PassCase& c, const std::vector<Array>& port, const std::vector<Array>& reference,
-                              const std::vector<Texel>& texels) {
+                              const std::vector<Texel>& texels, judge::HalfMode mode) {
   const std::vector<Slot> slots = judge::slots_of(c);
   std::vector<Wanted> out;
   for (const Texel t : texels) {
     Wanted& w = out.emplace_back(Wanted{t, {}, {}, {}});
     for (const Slot& s : slots) {
       const auto o = static_cast<std::size_t>(s.output);
-      w.port.push_back(judge::stored_value(s, s.at(port[o], t.x, t.y)));
-      w.reference.push_back(judge::stored_value(s, s.at(reference[o], t.x, t.y)));
+      w.port.push_back(judge::middle_value(s, s.at(port[o], t.x, t.y), mode));
+      w.reference.push_back(judge::middle_value(s, s.at(reference[o], t.x, t.y), mode));
       const float size = std::abs(w.port.back());
       w.step.push_back(s.kind == FormatInfo::unorm8    ? 1 / 255.0f
                        : s.kind == FormatInfo::float16 ? size * 0x1p-10f + 0x1p-24f
@@ -37,7 +37,8 @@ std::vector<Wanted> wanted_at(const capture::PassCase& c, const std::vector<Arra
   return out;
 }
 
-/// Texels whose stored values say most about a constant: where the port is farthest off, in steps of the store.
+/// Texels whose stored values say most about a constant: where the port is farthest off, in steps of the store, and others all over the
+/// rest, since the farthest may be where a small change of a number gives quite another texel of a picture.
 std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
   const auto far = [](const Wanted& w) {
     double steps = 0;
@@ -47,8 +48,13 @@ std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
     return steps;
   };
   std::stable_sort(all.begin(), all.end(), [&](const Wanted& a, const Wanted& b) { return far(a) > far(b); });
-  if (all.size() > most) all.resize(most);
-  return all;
+  if (all.size() <= most) return all;
+  std::vector<Wanted> some;
+  for (std::size_t k = 0; k < most / 2; ++k) {
+    some.push_back(all[k]);
+    some.push_back(all[most / 2 + k * (all.size() - most / 2) / (most / 2)]);
+  }
+  return some;
 }
 
 /// Failing texels away from the edges, if there are some: what stands beyond an edge has no name.
@@ -175,19 +181,15 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
 }
 
 std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::vector<Array>& port, const std::vector<Array>& reference,
-                        const std::vector<Texel>& failing) {
+                        const std::vector<Texel>& failing, judge::HalfMode mode) {
   const auto evaluate = [&](const Wanted& w, std::size_t slot, float constant, float replacement) {
-    perturbed::Behaviour b;
-    b.fault = perturbed::Fault::constant;
-    b.constant = constant;
-    b.replacement = replacement;
-    const perturbed::Scope scope(b);
+    const perturbed::Scope scope(perturbed::replacing(constant, replacement));
     std::vector<perturbed::Perturbed> values(w.port.size());
     p.model.evaluate(w.at.x, w.at.y, values.data());
     return values[slot].v;
   };
   std::vector<Fault> out;
-  add_fitted_constants(out, evaluate, constants, telling(wanted_at(p.c, port, reference, spread(failing, 100)), 12));
+  add_fitted_constants(out, evaluate, constants, telling(wanted_at(p.c, port, reference, spread(failing, 100), mode), 12));
   add_fitted_thresholds(out, p, constants, spread(failing, 100));
   return out;
 }

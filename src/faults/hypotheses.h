@@ -19,9 +19,9 @@ struct Hypotheses {
 };
 /// `failing`: some texels that fail, at least one.
 Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Texel>& failing);
-/// Constants fitted to what a port stored there. `port`, `reference`: in the order of the case's outputs.
+/// Constants fitted to what a port stored there, halves by `mode`. `port`, `reference`: in the order of the case's outputs.
 std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::vector<capture::Array>& port,
-                        const std::vector<capture::Array>& reference, const std::vector<Texel>& failing);
+                        const std::vector<capture::Array>& reference, const std::vector<Texel>& failing, judge::HalfMode mode);
 /// The same for keyed lists, whose evaluation takes longer: what is asked first, and what only where that explains little. p.bind may
 /// be null.
 std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before);

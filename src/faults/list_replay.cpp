@@ -190,11 +190,7 @@ std::vector<Fault> ListReplay::fitted() {
     if (constant != of_constant) lists.clear(), of_constant = constant;
     const auto [at, is_new] = lists.try_emplace(replacement);
     if (is_new) {
-      perturbed::Behaviour b;
-      b.fault = perturbed::Fault::constant;
-      b.constant = constant;
-      b.replacement = replacement;
-      const perturbed::Scope scope(b);
+      const perturbed::Scope scope(perturbed::replacing(constant, replacement));
       Array list = reference_;
       list.levels = {keyed->perturbed().value_or(std::vector<std::byte>())};
       at->second = by_id(list);

@@ -1,5 +1,7 @@
 #include "judge/slots.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "image/colour.h"
@@ -73,6 +75,18 @@ bool is_nan(FormatInfo::Kind kind, const std::byte* at) {
 Rounding rounding_of(const Slot& slot, HalfMode mode) {
   if (slot.kind != FormatInfo::float16 || mode == HalfMode::either) return slot.store_rounding;
   return mode == HalfMode::rne ? Rounding::rne : Rounding::rtz;
+}
+float middle_value(const Slot& slot, const std::byte* at, HalfMode mode) {
+  const float stored = stored_value(slot, at);
+  if (slot.kind != FormatInfo::float16 || rounding_of(slot, mode) != Rounding::rtz) return stored;
+  Half next;
+  std::memcpy(&next, at, sizeof next);
+  ++next.bits;
+  const float beyond = to_float(next);
+  return std::isfinite(beyond) ? stored + (beyond - stored) / 2 : stored;
+}
+bool is_own_rounding(const std::vector<Slot>& slots, HalfMode mode) {
+  return std::all_of(slots.begin(), slots.end(), [&](const Slot& s) { return rounding_of(s, mode) == s.store_rounding; });
 }
 void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at) {
   const scalar::Scalar<float> x(value);

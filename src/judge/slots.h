@@ -38,10 +38,14 @@ bool is_placed(const capture::CaseOutput& output);
 
 /// A stored value as a shader reads it.
 float stored_value(const Slot& slot, const std::byte* at);
+/// The middle of the values that are stored so: a store toward zero leaves what lies up to a step farther from it.
+float middle_value(const Slot& slot, const std::byte* at, HalfMode mode);
 /// Whether a stored float is not a number.
 bool is_nan(FormatInfo::Kind kind, const std::byte* at);
 /// How a slot is stored where a device rounds its halves like this; `either` is the reference's own way.
 Rounding rounding_of(const Slot& slot, HalfMode mode);
+/// Whether every slot is stored so as the reference stores it.
+bool is_own_rounding(const std::vector<Slot>& slots, HalfMode mode);
 /// Stores as the reference does.
 void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at);
 
