@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/bytes.h"
 #include "rainref/image.h"
 #include "scene/uniform_block.h"
 
@@ -18,7 +19,7 @@ struct Array {
   Format format = Format::r8;
   scene::UniformBlock record;
   int width = 0, height = 0;
-  std::vector<std::vector<std::byte>> levels;
+  std::vector<Bytes> levels;
 
   int level_width(int level) const { return width >> level > 1 ? width >> level : 1; }
   int level_height(int level) const { return height >> level > 1 ? height >> level : 1; }

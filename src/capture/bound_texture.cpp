@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/hash.h"
 #include "image/colour.h"
 #include "math/half.h"
 #include "math/unorm.h"
@@ -69,23 +68,29 @@ std::vector<float> taken_of(const Array& a, int levels, int first, int taken) {
   return texels;
 }
 
-// Known as long as somebody holds them, by the hash of the bytes that they are made of.
-using Texels = std::shared_ptr<const std::vector<float>>;
-using Known = std::map<std::tuple<std::uint64_t, std::uint64_t, Format, int, int, int>, std::weak_ptr<const std::vector<float>>>;
+// Decoded texels, with the bytes that they are made of: as long as these are held nobody writes them.
+struct Decoded {
+  std::vector<float> texels;
+  std::vector<Bytes> of;
+};
+using Texels = std::shared_ptr<const Decoded>;
+// Known as long as somebody holds them, by the first level.
+using Known = std::map<std::tuple<const std::byte*, Format, int, int, int>, std::weak_ptr<const Decoded>>;
 Texels shared_texels(const Array& a, int levels, int first, int taken) {
-  const auto made = [&] { return std::make_shared<const std::vector<float>>(taken_of(a, levels, first, taken)); };
+  const auto made = [&] {
+    return std::make_shared<const Decoded>(Decoded{taken_of(a, levels, first, taken), {a.levels.begin(), a.levels.begin() + levels}});
+  };
   constexpr std::size_t large = 1 << 16;
   if (levels == 0 || a.levels[0].size() < large) return made();
-  Hasher hasher(0);
-  for (int l = 0; l < levels; ++l) hasher.add(a.levels[static_cast<std::size_t>(l)]);
-  const Hash128 hash = hasher.finish();
   static std::mutex& mutex = *new std::mutex;
   static Known& known = *new Known;
-  const Known::key_type key{hash.high, hash.low, a.format, levels, first, taken};
+  const Known::key_type key{a.levels[0].data(), a.format, levels, first, taken};
   {
     const std::lock_guard lock(mutex);
     if (const auto found = known.find(key); found != known.end()) {
-      if (Texels texels = found->second.lock()) return texels;
+      const Texels texels = found->second.lock();
+      const auto is_level = [](const Bytes& one, const Bytes& other) { return one.shares(other); };
+      if (texels && std::equal(texels->of.begin(), texels->of.end(), a.levels.begin(), is_level)) return texels;
     }
   }
   const Texels texels = made();
@@ -94,6 +99,8 @@ Texels shared_texels(const Array& a, int levels, int first, int taken) {
   known[key] = texels;
   return texels;
 }
+/// The values alone, which hold the rest.
+std::shared_ptr<const std::vector<float>> values_of(const Texels& texels) { return {texels, &texels->texels}; }
 
 }  // namespace
 
@@ -104,7 +111,7 @@ std::vector<float> decoded(const Array& image, int level) {
 }
 
 std::shared_ptr<const std::vector<float>> shared_decoded(const Array& image) {
-  return shared_texels(image, 1, 0, info(image.format).channels);
+  return values_of(shared_texels(image, 1, 0, info(image.format).channels));
 }
 
 BoundTexture::BoundTexture(const CaseInput& input, int first, int count) {
@@ -126,7 +133,7 @@ BoundTexture::BoundTexture(const CaseInput& input, int first, int count) {
     view_.offset[l] = texels;
     texels += static_cast<std::int32_t>(a.levels[static_cast<std::size_t>(l)].size() / a.element_bytes());
   }
-  texels_ = shared_texels(a, view_.levels, first, taken);
+  texels_ = values_of(shared_texels(a, view_.levels, first, taken));
 }
 Texture BoundTexture::view() const {
   Texture t = view_;

@@ -15,11 +15,11 @@ namespace rainref::capture {
 /// linear, both correctly rounded; uint32 rounded to float.
 std::vector<float> decoded(const Array& image, int level = 0);
 
-/// The same of level 0. Large ones of the same values share them: a search for causes binds one case hundreds of times.
+/// The same of level 0. Copies of a large one share its values: a search for causes binds one case hundreds of times.
 std::shared_ptr<const std::vector<float>> shared_decoded(const Array& image);
 
 /// A Texture over the decoded values of an input, with all its levels, address rules and border. Some channels of it,
-/// `count` from `first` on, or all (0). Large ones are shared as by shared_decoded().
+/// `count` from `first` on, or all (0). Copies share large ones as by shared_decoded().
 class BoundTexture {
  public:
   BoundTexture() = default;

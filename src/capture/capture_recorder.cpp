@@ -17,8 +17,9 @@ Array image_array(const BufferView& buffer) {
   array.format = buffer.format;
   array.width = buffer.width();
   array.height = buffer.height();
-  std::vector<std::byte>& bytes = array.levels.emplace_back(buffer.row_bytes() * static_cast<std::size_t>(array.height));
+  std::vector<std::byte> bytes(buffer.row_bytes() * static_cast<std::size_t>(array.height));
   for (int y = 0; y < array.height; ++y) buffer.copy_row(y, bytes.data() + static_cast<std::size_t>(y) * buffer.row_bytes());
+  array.levels.emplace_back(std::move(bytes));
   return array;
 }
 
@@ -66,7 +67,8 @@ Array array_of(const Texture& texture) {
   for (int level = 0; level < texture.levels; ++level) {
     const std::size_t texels = static_cast<std::size_t>(texture.width[level]) * texture.height[level];
     const float* first = texture.texels + static_cast<std::size_t>(texture.offset[level]) * texture.channels;
-    std::memcpy(array.levels.emplace_back(texels * array.element_bytes()).data(), first, texels * array.element_bytes());
+    const auto* bytes = reinterpret_cast<const std::byte*>(first);
+    array.levels.emplace_back(bytes, bytes + texels * array.element_bytes());
   }
   return array;
 }
@@ -75,7 +77,8 @@ Array array_of(const Texture& texture) {
 Array as_halves(const Array& floats) {
   Array halves = floats;
   halves.format = Format::rgba16f;
-  for (std::vector<std::byte>& level : halves.levels) {
+  for (Bytes& shared : halves.levels) {
+    std::vector<std::byte>& level = shared.edit();
     const std::size_t n = level.size() / sizeof(float);
     for (std::size_t i = 0; i < n; ++i) {
       float value;

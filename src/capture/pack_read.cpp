@@ -141,11 +141,12 @@ Array Pack::read(const PackArray& array) const {
   Array out = array.shape;
   for (std::size_t level = 0; level < array.levels.size(); ++level) {
     const fs::path path = folder_ / array.levels[level].path;
-    const std::vector<std::byte> file = read_file(array.levels[level]);
+    std::vector<std::byte> file = read_file(array.levels[level]);
     const NpyHeader header = parse_npy_header(file, path.string());
     const std::string why = header_mismatch(header, out, static_cast<int>(level));
     if (!why.empty()) refuse(path, why);
-    out.levels.emplace_back(file.begin() + static_cast<std::ptrdiff_t>(header.data_offset), file.end());
+    file.erase(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(header.data_offset));  // moved, not copied to fresh memory
+    out.levels.emplace_back(std::move(file));
   }
   return out;
 }

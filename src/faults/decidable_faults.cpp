@@ -42,7 +42,7 @@ std::set<std::size_t> usual_pitches(std::size_t row, std::size_t texel) {
 /// Memory whose rows lie `pitch` bytes apart, zeros between, copied as if they followed each other.
 void take_as_tight(Array& a, std::size_t pitch) {
   const std::vector<std::byte> right = a.levels[0];
-  std::vector<std::byte>& out = a.levels[0];
+  std::vector<std::byte>& out = a.levels[0].edit();
   const std::size_t row = static_cast<std::size_t>(a.width) * a.element_bytes();
   std::fill(out.begin(), out.end(), std::byte{0});
   for (std::size_t y = 0; y * pitch < out.size(); ++y)
@@ -51,7 +51,7 @@ void take_as_tight(Array& a, std::size_t pitch) {
 /// Memory without padding, copied as if its rows lay `pitch` bytes apart. Behind its end are zeros.
 void take_as_padded(Array& a, std::size_t pitch) {
   const std::vector<std::byte> right = a.levels[0];
-  std::vector<std::byte>& out = a.levels[0];
+  std::vector<std::byte>& out = a.levels[0].edit();
   const std::size_t row = static_cast<std::size_t>(a.width) * a.element_bytes();
   std::fill(out.begin(), out.end(), std::byte{0});
   for (std::size_t y = 0; y * row < out.size() && y * pitch < right.size(); ++y)
@@ -148,7 +148,7 @@ void add_packed_codes(std::vector<Fault>& out, const capture::PassCase& c, const
           const double code = k == 3 ? 85.0 * (packed >> 30) : (packed >> shift & 1023) * (255.0 / 1023);
           is_same &= std::abs(code - std::to_integer<int>(a.levels[0][t + k])) <= 1.25;
         }
-        if (is_same) std::memcpy(a.levels[0].data() + t, &packed, 4);
+        if (is_same) std::memcpy(a.levels[0].edit().data() + t, &packed, 4);
       }
       return true;
     });
@@ -201,13 +201,15 @@ void add_format_faults(std::vector<Fault>& out, const Probed& p, const std::vect
   add_alpha(out, p, port);
   add_to_images(out, c, port, Kind::without_subnormals, [](Array& a, const Array&) {
     if (info(a.format).kind != FormatInfo::float16) return false;
-    for (std::vector<std::byte>& level : a.levels)
+    for (capture::Bytes& shared : a.levels) {
+      std::vector<std::byte>& level = shared.edit();
       for (std::size_t at = 0; at + 2 <= level.size(); at += 2) {
         Half h;
         std::memcpy(&h, level.data() + at, 2);
         if ((h.bits & 0x7c00u) == 0) h.bits &= 0x8000u;
         std::memcpy(level.data() + at, &h, 2);
       }
+    }
     return true;
   });
 }

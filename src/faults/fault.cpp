@@ -150,12 +150,13 @@ void add_inputs(std::vector<Fault>& out, const PassCase& c, const PassCase* befo
     if (i.array.is_records) {
       add(Kind::input_without_first, [](Array& a) {
         if (a.width == 0) return;
-        a.levels[0].erase(a.levels[0].begin(), a.levels[0].begin() + static_cast<std::ptrdiff_t>(a.record.size));
+        std::vector<std::byte>& records = a.levels[0].edit();
+        records.erase(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(a.record.size));
         --a.width;
       });
       add(Kind::input_without_last, [](Array& a) {
         if (a.width == 0) return;
-        a.levels[0].resize(a.levels[0].size() - a.record.size);
+        a.levels[0].edit().resize(a.levels[0].size() - a.record.size);
         --a.width;
       });
     } else {
@@ -180,9 +181,7 @@ void add_inputs(std::vector<Fault>& out, const PassCase& c, const PassCase* befo
 
 Fault replaced(What what, float value, float by, bool is_asked_by_diagnosis_alone) {
   Fault d(std::move(what), is_asked_by_diagnosis_alone);
-  d.behaviour.fault = perturbed::Fault::constant;
-  d.behaviour.constant = value;
-  d.behaviour.replacement = by;
+  d.behaviour = perturbed::replacing(value, by);
   return d;
 }
 void tell_places_by(Fault& d, std::shared_ptr<const std::vector<float>> known) {
@@ -216,15 +215,13 @@ FaultyPass::FaultyPass(const Fault& fault, const PassCase& c, Bind bind, const c
   }
 }
 
-void FaultyPass::store(Texel at, std::vector<Array>& out) const {
-  if (!finished_.empty()) {
-    for (const Slot& s : slots_) {
-      const std::size_t o = static_cast<std::size_t>(s.output), offset = s.offset(at.x, at.y);
-      std::memcpy(out[o].levels[0].data() + offset, finished_[o].levels[0].data() + offset, static_cast<std::size_t>(s.channel_bytes));
-    }
-    return;
+void FaultyPass::store(Texel at, StoredTexel& out) const {
+  if (finished_.empty()) return store(values(at), mode_, out);
+  out.resize(slots_.size());
+  for (std::size_t v = 0; v < slots_.size(); ++v) {
+    const Slot& s = slots_[v];
+    std::memcpy(out[v].data(), s.at(finished_[static_cast<std::size_t>(s.output)], at.x, at.y), static_cast<std::size_t>(s.channel_bytes));
   }
-  store(values(at), at, mode_, out);
 }
 
 std::vector<perturbed::Perturbed> FaultyPass::values(Texel at) const {
@@ -245,12 +242,12 @@ std::vector<perturbed::Perturbed> FaultyPass::values(Texel at) const {
   return values;
 }
 
-void FaultyPass::store(const std::vector<perturbed::Perturbed>& values, Texel at, HalfMode mode, std::vector<Array>& out) const {
+void FaultyPass::store(const std::vector<perturbed::Perturbed>& values, HalfMode mode, StoredTexel& out) const {
+  out.resize(slots_.size());
   for (std::size_t v = 0; v < slots_.size(); ++v) {
     const Slot& s = slots_[v];
     const float value = fault_.alter_value ? fault_.alter_value(values[v].v, s) : values[v].v;
-    store_value(s, value, rounding_of(s, fault_.stores.value_or(mode)),
-                out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
+    store_value(s, value, rounding_of(s, fault_.stores.value_or(mode)), out[v].data());
   }
 }
 

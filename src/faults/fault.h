@@ -2,6 +2,7 @@
 // `mutate` asks which of them a pack would catch; the diagnosis asks which of them gives a port's failing bits.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -65,6 +66,9 @@ void tell_places_by(Fault& d, std::shared_ptr<const std::vector<float>> known);
 std::vector<Fault> faults_of(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassModel& model,
                              const capture::PassCase* before);
 
+/// What is stored for one invocation: of each slot the bytes of its channel.
+using StoredTexel = std::vector<std::array<std::byte, 4>>;
+
 /// What a fault stores at some texels. Applied once, asked texel by texel.
 class FaultyPass {
  public:
@@ -73,11 +77,11 @@ class FaultyPass {
   FaultyPass(const Fault& fault, const capture::PassCase& c, judge::Bind bind, const capture::PassModel& model, judge::HalfMode mode,
              const std::vector<capture::Array>& finished);
   bool applies() const { return applies_; }
-  /// Writes the texel's stored bytes into `out`, arrays like c.outputs.
-  void store(Texel at, std::vector<capture::Array>& out) const;
+  /// Gives `out` what is stored at a texel.
+  void store(Texel at, StoredTexel& out) const;
   /// What it gives at a texel, and the bytes of that with halves stored by `mode`, unless the fault says how. Of evaluated faults only.
   std::vector<perturbed::Perturbed> values(Texel at) const;
-  void store(const std::vector<perturbed::Perturbed>& values, Texel at, judge::HalfMode mode, std::vector<capture::Array>& out) const;
+  void store(const std::vector<perturbed::Perturbed>& values, judge::HalfMode mode, StoredTexel& out) const;
 
  private:
   const Fault& fault_;

@@ -41,9 +41,10 @@ using Alter = std::function<void(capture::Array&)>;
 inline Alter taking_channel(const capture::Array& source, int from, int to) {
   return [source, from, to](capture::Array& a) {
     const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes);
-    for (std::size_t t = 0; t + a.element_bytes() <= a.levels[0].size(); t += a.element_bytes())
-      std::memcpy(a.levels[0].data() + t + n * static_cast<std::size_t>(to),
-                  source.levels[0].data() + t + n * static_cast<std::size_t>(from), n);
+    std::vector<std::byte>& texels = a.levels[0].edit();
+    for (std::size_t t = 0; t + a.element_bytes() <= texels.size(); t += a.element_bytes())
+      std::memcpy(texels.data() + t + n * static_cast<std::size_t>(to), source.levels[0].data() + t + n * static_cast<std::size_t>(from),
+                  n);
   };
 }
 /// Channel k, of halves or floats, with the other sign.

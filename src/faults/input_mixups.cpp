@@ -28,7 +28,8 @@ template <class Change>
 void recode(Array& a, Change change, bool is_any = false) {
   const FormatInfo f = info(a.format);
   const bool to_floats = f.kind == FormatInfo::unorm8;
-  for (std::vector<std::byte>& level : a.levels) {
+  for (capture::Bytes& shared : a.levels) {
+    std::vector<std::byte>& level = shared.edit();
     std::vector<std::byte> out;
     const std::size_t n = static_cast<std::size_t>(f.channel_bytes);
     for (std::size_t t = 0, k = 0; t + n <= level.size(); t += n, ++k) {
@@ -116,7 +117,7 @@ class InputAdder {
     const scene::UniformBlock& record = c_.inputs[i].array.record;
     const auto keep = [&](Kind kind, std::vector<std::string> more, std::size_t count) {
       array(i, kind, std::move(more), [count, size = record.size](Array& list) {
-        list.levels[0].resize(count * size);
+        list.levels[0].edit().resize(count * size);
         list.width = static_cast<int>(count);
       });
     };
@@ -127,7 +128,7 @@ class InputAdder {
       keep(k == 1 ? Kind::loop_ends_after_one : Kind::loop_ends_early, {std::to_string(k)}, k);
     const auto each = [&](Kind kind, std::vector<std::string> of, std::function<void(std::byte*)> change) {
       add(kind, std::move(of), [i, change, size = record.size](PassCase& altered) {
-        std::vector<std::byte>& all = altered.inputs[i].array.levels[0];
+        std::vector<std::byte>& all = altered.inputs[i].array.levels[0].edit();
         for (std::size_t r = 0; r + size <= all.size(); r += size) change(all.data() + r);
       });
     };
@@ -243,12 +244,13 @@ void coarsen(Array& a, double lod) {
   const int first = static_cast<int>(std::floor(level));
   const Level low = level_of(a, first), high = level_of(a, std::min(first + 1, last));
   const double share = level - first;
-  std::byte* to = a.levels[0].data();
+  std::byte* to = a.levels[0].edit().data();
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x)
       for (int k = 0; k < f.channels; ++k, to += f.channel_bytes) {
         const double u = (x + 0.5) / a.width, v = (y + 0.5) / a.height;
-        const auto value = static_cast<float>(filtered(low, u, v, k) * (1 - share) + filtered(high, u, v, k) * share);
+        const double at_first = filtered(low, u, v, k);
+        const auto value = static_cast<float>(share == 0 ? at_first : at_first * (1 - share) + filtered(high, u, v, k) * share);
         put_channel(f, to, value);
       }
 }

@@ -61,8 +61,9 @@ Records records_of(const Array& list) {
 Array array_of(const Records& records, const Array& like) {
   Array out = like;
   out.width = static_cast<int>(records.size());
-  out.levels.assign(1, {});
-  for (const auto& r : records) out.levels[0].insert(out.levels[0].end(), r.begin(), r.end());
+  std::vector<std::byte> all;
+  for (const auto& r : records) all.insert(all.end(), r.begin(), r.end());
+  out.levels = {std::move(all)};
   return out;
 }
 std::uint32_t id_of(const std::vector<std::byte>& record, const scene::UniformBlock& layout) {

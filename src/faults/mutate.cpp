@@ -48,12 +48,18 @@ std::vector<Texel> spread(const capture::PassModel& model, int most) {
   }
   return all;
 }
-bool differs(const std::vector<Slot>& slots, const std::vector<Array>& stored, const std::vector<Array>& plain, Texel t) {
-  for (const Slot& s : slots) {
-    const std::size_t o = static_cast<std::size_t>(s.output);
-    if (std::memcmp(s.at(stored[o], t.x, t.y), s.at(plain[o], t.x, t.y), static_cast<std::size_t>(s.channel_bytes)) != 0) return true;
+/// Writes what is stored at a texel. False: it is there already.
+bool put(const std::vector<Slot>& slots, const StoredTexel& stored, Texel t, std::vector<Array>& out) {
+  bool differs = false;
+  for (std::size_t v = 0; v < slots.size(); ++v) {
+    const Slot& s = slots[v];
+    Array& array = out[static_cast<std::size_t>(s.output)];
+    const auto size = static_cast<std::size_t>(s.channel_bytes);
+    if (std::memcmp(stored[v].data(), s.at(array, t.x, t.y), size) == 0) continue;
+    std::memcpy(array.levels[0].edit().data() + s.offset(t.x, t.y), stored[v].data(), size);
+    differs = true;
   }
-  return false;
+  return differs;
 }
 
 /// A rounding of half stores that a profile allows, what the reference gives under it, and who judges by it.
@@ -106,14 +112,15 @@ void judge_mutant(const Fault& d, const PassCase& c, Bind bind, const capture::P
     const auto judge = all_stores.size() > 1 ? std::find_if(all_stores.begin(), all_stores.end(), judges) : all_stores.begin();
     all.push_back({*stores, *faulty.back(), (*judge)->judge, stores->finished});
   }
+  StoredTexel stored;
   for (const Texel t : texels) {
     const std::vector<perturbed::Perturbed> values = d.alter_outputs ? std::vector<perturbed::Perturbed>() : faulty.front()->values(t);
     for (Under& u : all) {
       if (d.alter_outputs)
-        u.faulty.store(t, u.stored);
+        u.faulty.store(t, stored);
       else
-        u.faulty.store(values, t, u.stores.mode, u.stored);
-      if (!differs(slots, u.stored, u.stores.finished, t)) continue;
+        u.faulty.store(values, u.stores.mode, stored);
+      if (!put(slots, stored, t, u.stored)) continue;
       ++u.differing;
       const Accepted accepted = u.judge.accepts(t.x, t.y, u.stored);
       u.outside += accepted == Accepted::no;

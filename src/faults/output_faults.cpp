@@ -33,10 +33,11 @@ template <class Change>
 void change_values(Array& a, const Slot& any, Change change) {
   Slot s = any;
   const int channels = info(a.format).channels;
+  std::byte* const texels = a.levels[0].edit().data();
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < a.width; ++x) {
       for (s.channel = 0; s.channel < std::min(channels, 3); ++s.channel) {
-        std::byte* at = a.levels[0].data() + s.offset(x, y);
+        std::byte* at = texels + s.offset(x, y);
         store_value(s, change(stored_value(s, at)), s.store_rounding, at);
       }
     }
@@ -65,17 +66,18 @@ void add_output_faults(std::vector<Fault>& out, const PassCase& c, const PassCas
   each(Kind::one_row_off, [](Array& a) { shift(a, 0, 1); });
   each(Kind::one_row_off_other_way, [](Array& a) { shift(a, 0, -1); });
   each(Kind::last_column_not_written, [](Array& a) {
-    for (int y = 0; y < a.height; ++y) std::memset(a.levels[0].data() + texel_offset(a, a.width - 1, y), 0, a.element_bytes());
+    for (int y = 0; y < a.height; ++y) std::memset(a.levels[0].edit().data() + texel_offset(a, a.width - 1, y), 0, a.element_bytes());
   });
   each(Kind::last_row_not_written, [](Array& a) {
-    std::memset(a.levels[0].data() + texel_offset(a, 0, a.height - 1), 0, a.element_bytes() * static_cast<std::size_t>(a.width));
+    std::memset(a.levels[0].edit().data() + texel_offset(a, 0, a.height - 1), 0, a.element_bytes() * static_cast<std::size_t>(a.width));
   });
   each(Kind::partial_workgroups_not_written, [](Array& a) {
     for (int y = 0; y < a.height; ++y)
       for (int x = 0; x < a.width; ++x)
-        if (x >= a.width / 8 * 8 || y >= a.height / 8 * 8) std::memset(a.levels[0].data() + texel_offset(a, x, y), 0, a.element_bytes());
+        if (x >= a.width / 8 * 8 || y >= a.height / 8 * 8)
+          std::memset(a.levels[0].edit().data() + texel_offset(a, x, y), 0, a.element_bytes());
   });
-  each(Kind::not_written, [](Array& a) { std::fill(a.levels[0].begin(), a.levels[0].end(), std::byte{0}); });
+  each(Kind::not_written, [](Array& a) { std::ranges::fill(a.levels[0].edit(), std::byte{0}); });
 
   for (const int i : images) {
     const capture::CaseOutput& o = c.outputs[static_cast<std::size_t>(i)];

@@ -80,7 +80,7 @@ void add_single_images(std::vector<Fault>& out, const PassCase& c, const PassCas
       add(Kind::image_mirrored, {}, judge::flip_columns);
       for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
         add(dx ? Kind::image_one_column_off : Kind::image_one_row_off, {}, [dx = dx, dy = dy](Array& a) { judge::shift(a, dx, dy); });
-      add(Kind::image_not_written, {}, [](Array& a) { std::fill(a.levels[0].begin(), a.levels[0].end(), std::byte{0}); });
+      add(Kind::image_not_written, {}, [](Array& a) { std::ranges::fill(a.levels[0].edit(), std::byte{0}); });
     }
     for (const std::size_t other : images) {
       const Array &a = c.outputs[o].array, &b = c.outputs[other].array;

@@ -85,7 +85,7 @@ void add_inputs(std::vector<Touched>& out, const PassCase& c) {
         for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k)
           out.push_back({fmt::format("{} of {}", part_name(m, k), c.inputs[i].name), false, std::nullopt,
                          [i, at = offset_of(m, k), size = a.record.size](PassCase& altered) {
-                           std::vector<std::byte>& records = altered.inputs[i].array.levels[0];
+                           std::vector<std::byte>& records = altered.inputs[i].array.levels[0].edit();
                            for (std::size_t r = 0; r + size <= records.size(); r += size) touch_float(records.data() + r + at);
                          }});
       continue;

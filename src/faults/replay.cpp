@@ -317,14 +317,15 @@ capture::PassCase varied(const capture::PackPass& pass, const capture::PassCase&
       vary(out.uniforms.data() + m.offset + 4 * static_cast<std::size_t>(k), number++);
   for (capture::CaseInput& in : out.inputs) {
     if (in.array.is_records) {
-      std::vector<std::byte>& all = in.array.levels[0];
+      std::vector<std::byte>& all = in.array.levels[0].edit();
       for (std::size_t r = 0; r + in.array.record.size <= all.size(); r += in.array.record.size)
         for (const scene::Member& m : in.array.record.members)
           for (int k = 0; m.scalar == scene::Scalar::float32 && !is_padding(m) && k < m.components; ++k)
             vary(all.data() + r + m.offset + 4 * static_cast<std::size_t>(k), number++);
       continue;
     }
-    for (std::vector<std::byte>& level : in.array.levels) {
+    for (capture::Bytes& shared : in.array.levels) {
+      std::vector<std::byte>& level = shared.edit();
       const std::size_t texels = level.size() / in.array.element_bytes(), by = texels / 3 + texels / 7;
       std::rotate(level.begin(), level.begin() + static_cast<std::ptrdiff_t>(by * in.array.element_bytes()), level.end());
     }

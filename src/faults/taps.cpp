@@ -39,13 +39,13 @@ std::vector<float> loads_with(const Probed& p, std::size_t input, Texel at, cons
   PassCase c = p.c;
   Array& a = c.inputs[input].array;
   const FormatInfo& f = info(a.format);
+  std::byte* const texels = a.levels[0].edit().data();
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x)
       for (int k = 0; k < f.channels; ++k)
         write_whole(
             a,
-            a.levels[0].data() +
-                (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * a.element_bytes() +
+            texels + (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * a.element_bytes() +
                 static_cast<std::size_t>(k * f.channel_bytes),
             number(x, y, k));
   const std::unique_ptr<capture::PassModel> model = p.bind(c);

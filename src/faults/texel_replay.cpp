@@ -27,17 +27,30 @@ using judge::stored_value;
 
 namespace {
 
-/// Texels that passed.
-std::vector<Texel> passing_texels(const capture::PassModel& model, const std::vector<Texel>& failing) {
+/// Texels that were judged and passed.
+std::vector<Texel> passing_texels(const capture::PassModel& model, const std::vector<Texel>& failing, const CaseJudgement& j) {
+  const auto judged = std::find_if(j.outputs.begin(), j.outputs.end(), [](const OutputJudgement& o) { return !o.map.empty(); });
+  const auto is_judged = [&](int x, int y) {
+    return !j.is_of_sample || judged->map[static_cast<std::size_t>(y * judged->width + x)] != OutputJudgement::not_judged;
+  };
   std::vector<Texel> out;
   auto next = failing.begin();
   for (int y = 0; y < model.height(); ++y)
     for (int x = 0; x < model.width(); ++x) {
       if (next != failing.end() && next->x == x && next->y == y)
         ++next;
-      else
+      else if (is_judged(x, y))
         out.push_back({x, y});
     }
+  return out;
+}
+
+/// What the reference stores by a rounding of halves. By its own the case has it.
+std::vector<Array> finished_outputs(const capture::PassCase& c, const capture::PassModel& model, const parallel::Executor& executor,
+                                    judge::HalfMode mode) {
+  if (!judge::is_own_rounding(slots_of(c), mode)) return reference_outputs(c, model, executor, mode);
+  std::vector<Array> out;
+  for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
   return out;
 }
 
@@ -92,9 +105,8 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
 }
 
 /// Of texel number k.
-Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& faulty,
-              const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels,
-              std::size_t k) {
+Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const StoredTexel& faulty, const std::vector<Array>& port,
+              const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels, std::size_t k) {
   Match m{true, true, true, true};
   bool nearer = false;
   double off_with = 0, off_before = 0;
@@ -102,7 +114,7 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     if (model.is_free(static_cast<int>(v))) continue;
     const Slot& s = slots[v];
     const std::size_t o = static_cast<std::size_t>(s.output);
-    const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = s.at(faulty[o], texels[k].x, texels[k].y),
+    const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = faulty[v].data(),
                     *base = s.at(reference[o], texels[k].x, texels[k].y);
     // What is not a number has many codes; a machine may give any of them.
     const bool are_no_numbers = judge::is_nan(s.kind, got) && judge::is_nan(s.kind, guess);
@@ -136,7 +148,7 @@ Passing passing_with(const std::vector<Slot>& slots, const capture::PassModel& m
                      const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway,
                      const std::vector<Texel>& passing) {
   constexpr std::int64_t few_codes = 3;
-  std::vector<Array> stored = reference;
+  StoredTexel stored;
   Passing out;
   std::int64_t against = 0;
   for (const Texel t : passing) {
@@ -148,7 +160,7 @@ Passing passing_with(const std::vector<Slot>& slots, const capture::PassModel& m
       const auto code = [&](const std::vector<Array>& a) {
         return enclosed::ordered_code(slots[v].kind, slots[v].at(a[static_cast<std::size_t>(slots[v].output)], t.x, t.y));
       };
-      const std::int64_t with = code(stored), without = code(reference), got = code(port);
+      const std::int64_t with = enclosed::ordered_code(slots[v].kind, stored[v].data()), without = code(reference), got = code(port);
       is_against |= gap(with, got) > 2 * leeway.codes[v] + gap(without, got);
       moved += gap(with, without);
       before += gap(without, got);
@@ -173,8 +185,8 @@ TexelReplay::TexelReplay(const capture::PackPass& pass, const capture::PassCase&
       executor_(executor),
       slots_(slots_of(c)),
       port_(port),
-      reference_(reference_outputs(c, model, executor, mode)) {
-  const std::vector<Texel> failing = failing_texels(judgement), passing = passing_texels(model, failing);
+      reference_(finished_outputs(c, model, executor, mode)) {
+  const std::vector<Texel> failing = failing_texels(judgement), passing = passing_texels(model, failing, judgement);
   failing_ = spread(failing, 400);
   few_passing_ = spread(passing, 400);
   many_passing_ = spread(passing, 20000);
@@ -205,7 +217,7 @@ std::vector<Fault> TexelReplay::solved() {
     };
     for (std::size_t v = 0; v < slots_.size(); ++v) {
       const Slot& s = slots_[v];
-      const float stored = stored_value(s, s.at(port_[static_cast<std::size_t>(s.output)], t.x, t.y));
+      const float stored = judge::middle_value(s, s.at(port_[static_cast<std::size_t>(s.output)], t.x, t.y), mode_);
       // Half a step is the store's own rounding.
       const double step = s.kind == FormatInfo::unorm8    ? 1 / 255.0
                           : s.kind == FormatInfo::float16 ? std::abs(stored) * 0x1p-10 + 0x1p-24
@@ -236,7 +248,7 @@ std::vector<Fault> TexelReplay::of_finished() const {
   add_output_faults(out, probed_.c, before_);
   return out;
 }
-std::vector<Fault> TexelReplay::fitted() { return fits(probed_, constants_, port_, reference_, failing_); }
+std::vector<Fault> TexelReplay::fitted() { return fits(probed_, constants_, port_, reference_, failing_, mode_); }
 
 std::optional<Cause> TexelReplay::alternative_formula(const enclosed::Profile& profile) const {
   if (failing_.empty()) return {};
@@ -252,7 +264,7 @@ Tried TexelReplay::cause(const Fault& given) const {
   Tried cause = untried(d, failing_.size(), false, 1);
   const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
   if (!faulty.applies()) return cause;
-  std::vector<Array> stored = reference_;
+  StoredTexel stored;
   const auto match_at = [&](std::size_t t) {
     faulty.store(failing_[t], stored);
     return compare(slots_, probed_.model, stored, port_, reference_, leeway_, failing_, t);
@@ -318,10 +330,10 @@ std::vector<float> TexelReplay::given(const Fault& d) const {
   try {
     const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
     if (!faulty.applies()) return out;
-    std::vector<Array> stored = reference_;
+    StoredTexel stored;
     for (const Texel t : failing_) {
       faulty.store(t, stored);
-      for (const Slot& s : slots_) out.push_back(stored_value(s, s.at(stored[static_cast<std::size_t>(s.output)], t.x, t.y)));
+      for (std::size_t v = 0; v < slots_.size(); ++v) out.push_back(stored_value(slots_[v], stored[v].data()));
     }
   } catch (const Error&) {
     out.clear();

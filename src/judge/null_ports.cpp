@@ -21,9 +21,9 @@ Array zeros(const Array& like) {
   Array out = like;
   if (out.is_records) {
     out.width = 0;
-    out.levels = {{}};
+    out.levels.assign(1, {});
   }
-  for (std::vector<std::byte>& level : out.levels) std::fill(level.begin(), level.end(), std::byte{0});
+  for (capture::Bytes& level : out.levels) level = capture::Bytes(level.size());
   return out;
 }
 bool is_interchangeable(const Array& in, const Array& out) {

@@ -15,8 +15,8 @@ namespace {
 /// Gives texel (x, y) of a level the bytes of the texel that from(x, y) names.
 template <class From>
 void rearrange(Array& a, From from, int level = 0) {
-  std::vector<std::byte>& texels = a.levels[static_cast<std::size_t>(level)];
-  const std::vector<std::byte> old = texels;
+  const capture::Bytes old = a.levels[static_cast<std::size_t>(level)];
+  std::vector<std::byte> texels(old.size());
   const int width = a.level_width(level), height = a.level_height(level);
   const auto offset = [&](int x, int y) {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * a.element_bytes();
@@ -27,6 +27,7 @@ void rearrange(Array& a, From from, int level = 0) {
       std::memcpy(texels.data() + offset(x, y), old.data() + offset(u, v), a.element_bytes());
     }
   }
+  a.levels[static_cast<std::size_t>(level)] = std::move(texels);
 }
 }  // namespace
 

@@ -12,8 +12,10 @@ namespace rainref::judge {
 template <class Change>
 void each_texel(capture::Array& a, Change change) {
   const std::size_t n = a.element_bytes();
-  for (std::vector<std::byte>& level : a.levels)
-    for (std::size_t t = 0; t + n <= level.size(); t += n) change(level.data() + t);
+  for (capture::Bytes& level : a.levels) {
+    std::vector<std::byte>& texels = level.edit();
+    for (std::size_t t = 0; t + n <= texels.size(); t += n) change(texels.data() + t);
+  }
 }
 // Of an image with all its levels.
 void flip_rows(capture::Array& image);

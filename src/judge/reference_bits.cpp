@@ -13,10 +13,7 @@ ReferenceBits::ReferenceBits(const capture::PassCase& c, const capture::PassMode
                              const std::vector<Slot>& slots, const std::vector<HalfMode>& modes)
     : case_(c), model_(model), port_(port), slots_(slots), modes_(modes) {}
 
-bool ReferenceBits::is_own(HalfMode mode) const {
-  return std::all_of(slots_.begin(), slots_.end(), [&](const Slot& s) { return rounding_of(s, mode) == s.store_rounding; });
-}
-bool ReferenceBits::has_reference(std::size_t mode) const { return is_own(modes_[mode]) || !model_.rounds_inside(); }
+bool ReferenceBits::has_reference(std::size_t mode) const { return is_own_rounding(slots_, modes_[mode]) || !model_.rounds_inside(); }
 
 std::array<bool, 2> ReferenceBits::stores(int x, int y) const {
   thread_local std::vector<scalar::Scalar<float>> values;
@@ -33,7 +30,7 @@ std::array<bool, 2> ReferenceBits::stores(int x, int y) const {
 }
 void ReferenceBits::prepare(const parallel::Executor& executor, std::size_t leading, bool every) {
   for (std::size_t m = 0; m < std::min<std::size_t>(2, modes_.size()); ++m)
-    if ((every || m == leading) && has_reference(m) && !is_own(modes_[m]))
+    if ((every || m == leading) && has_reference(m) && !is_own_rounding(slots_, modes_[m]))
       other_[m] = reference_outputs(case_, model_, executor, modes_[m]);
 }
 
@@ -50,7 +47,7 @@ bool ReferenceBits::has(std::size_t mode, int x, int y) const {
     return !other_[m].empty() && equals([&](std::size_t o) -> const Array& { return other_[m][o]; }, x, y);
   };
   if (modes_[mode] == HalfMode::either) return is_own_stored() || is_other_stored(0) || is_other_stored(1);
-  return is_own(modes_[mode]) ? is_own_stored() : is_other_stored(mode);
+  return is_own_rounding(slots_, modes_[mode]) ? is_own_stored() : is_other_stored(mode);
 }
 
 }  // namespace rainref::judge

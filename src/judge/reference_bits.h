@@ -36,7 +36,6 @@ class ReferenceBits {
   bool has(std::size_t mode, int x, int y) const;
 
  private:
-  bool is_own(HalfMode mode) const;
   template <class ArrayOf>
   bool equals(const ArrayOf& reference, int x, int y) const;
 

@@ -18,7 +18,7 @@ std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, 
     Array& array = out.emplace_back(o.array);
     if (o.array.is_records && is_placed(o)) {
       array.width = model.width();
-      array.levels.assign(1, std::vector<std::byte>(array.element_bytes() * static_cast<std::size_t>(array.width)));
+      array.levels.assign(1, capture::Bytes(array.element_bytes() * static_cast<std::size_t>(array.width)));
     }
     const capture::KeyedModel* keyed = o.judge == capture::Judge::keyed ? model.keyed(o.name) : nullptr;
     const auto records = keyed ? keyed->reference() : std::nullopt;
@@ -27,6 +27,8 @@ std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, 
     array.levels = {*records};
   }
   if (slots.empty()) return out;
+  std::vector<std::byte*> texels;  // of each output
+  for (Array& array : out) texels.push_back(array.levels.empty() ? nullptr : array.levels[0].edit().data());
   executor.for_tiles(model.width(), model.height(), model.width(), 4, [&](const parallel::Tile& tile) {
     std::vector<scalar::Scalar<float>> values(slots.size());
     for (int y = tile.y0; y < tile.y1; ++y) {
@@ -34,7 +36,7 @@ std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, 
         model.evaluate(x, y, values.data());
         for (std::size_t v = 0; v < slots.size(); ++v) {
           const Slot& s = slots[v];
-          store_value(s, values[v].v, rounding_of(s, mode), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+          store_value(s, values[v].v, rounding_of(s, mode), texels[static_cast<std::size_t>(s.output)] + s.offset(x, y));
         }
       }
     }

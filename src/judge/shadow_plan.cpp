@@ -22,7 +22,7 @@ namespace {
 
 /// The array without its values.
 Array shape_of(Array array) {
-  for (std::vector<std::byte>& level : array.levels) level.clear();
+  for (capture::Bytes& level : array.levels) level = {};
   return array;
 }
 

@@ -96,9 +96,10 @@ struct OutputJudgement {
   double rearranged_median_width = -1, rearranged_p99_width = -1;
   std::vector<Failure> worst;  ///< in order of distance, then of place; at most max_failures
   static constexpr std::size_t max_failures = 100;
-  /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical or rearranged), 3 (outside); row 0 first; of records that are judged where
-  /// they stand one row. Empty for others.
+  /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical or rearranged), 3 (outside), not_judged; row 0 first; of records that are
+  /// judged where they stand one row. Empty for others.
   std::vector<std::uint8_t> map;
+  static constexpr std::uint8_t not_judged = 4;
   /// In order of channels, or of fields without the id.
   std::vector<QuantityJudgement> quantities;
 
@@ -127,6 +128,7 @@ struct CaseJudgement {
   /// those of the outputs. 1: all were asked.
   std::int64_t stride = 1;
   double unbounded_margin = 0;  ///< as Sample::margin, of unbounded elements
+  bool is_of_sample = false;    ///< so much of the sample fails that the rest was not judged: every count is of the sample
   std::int64_t with_bits = 0;   ///< how many of some hundreds of invocations short cuts find inside by this rounding
   std::int64_t undecided = 0;   ///< not asked about under this rounding of stores to binary16, which the other one settles
   std::vector<OutputJudgement> outputs;

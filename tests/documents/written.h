@@ -29,7 +29,7 @@ class Given {
         a.levels = {{}};
         a.width = 0;
       } else {
-        for (std::byte& b : a.levels[0]) b = std::byte{0};
+        for (std::byte& b : a.levels[0].edit()) b = std::byte{0};
       }
       arrays.push_back(a);
     }
@@ -50,14 +50,14 @@ class Given {
     const FormatInfo& f = info(a.format);
     const judge::Slot slot{
         static_cast<int>(output), k, f.kind, f.channel_bytes, f.texel_bytes(), a.width, case_.outputs[output].store_rounding, 1};
-    judge::store_value(slot, v, slot.store_rounding, a.levels[0].data() + slot.offset(x, y));
+    judge::store_value(slot, v, slot.store_rounding, a.levels[0].edit().data() + slot.offset(x, y));
   }
   template <class Record>
   void append(std::string_view list, const Record& record) {
     capture::Array& a = arrays[index(list)];
     if (sizeof record != a.record.size) throw std::runtime_error("another record " + a.record.name);
     const auto* bytes = reinterpret_cast<const std::byte*>(&record);
-    a.levels[0].insert(a.levels[0].end(), bytes, bytes + sizeof record);
+    a.levels[0].edit().insert(a.levels[0].end(), bytes, bytes + sizeof record);
     ++a.width;
   }
 

@@ -77,7 +77,7 @@ TEST_F(Craters, ANumberOfTheRecordsRunsTheOtherWay) {
     float v;
     std::memcpy(&v, port.levels[0].data() + at, 4);
     v = static_cast<float>(rows) - v;
-    std::memcpy(port.levels[0].data() + at, &v, 4);
+    std::memcpy(port.levels[0].edit().data() + at, &v, 4);
   }
   EXPECT_EQ(first(port).name, "y taken from rows");
 }

@@ -41,7 +41,8 @@ void read_padded(Array& a, std::size_t pitch, std::byte padding) {
     memory.insert(memory.end(), from, from + static_cast<std::ptrdiff_t>(row));
     if (y + 1 < a.height) memory.resize(memory.size() + pitch - row, padding);  // the last row is short
   }
-  std::copy_n(memory.begin(), a.levels[0].size(), a.levels[0].begin());
+  memory.resize(a.levels[0].size());
+  a.levels[0] = std::move(memory);
 }
 template <class Change>
 void each_half(Array& a, Change change) {
@@ -49,7 +50,7 @@ void each_half(Array& a, Change change) {
     Half h;
     std::memcpy(&h, &a.levels[0][i], 2);
     h = change(h, static_cast<int>(i / 2) % info(a.format).channels);
-    std::memcpy(&a.levels[0][i], &h, 2);
+    std::memcpy(&a.levels[0].edit()[i], &h, 2);
   }
 }
 float held(float v) { return v > 0 ? v < 1 ? v : 1 : 0; }
@@ -65,14 +66,14 @@ std::vector<Made> made() {
          const std::size_t row = static_cast<std::size_t>(a.width) * a.element_bytes();
          for (std::size_t i = 0; i < tight.size(); ++i) {
            const std::size_t from = i / row * 256 + i % row;
-           a.levels[0][i] = from < tight.size() ? tight[from] : std::byte{0};
+           a.levels[0].edit()[i] = from < tight.size() ? tight[from] : std::byte{0};
          }
        }},
       {"HalfATurn", corrected, "shade", "by half a turn",
        [](Array& a) {
          const std::size_t n = a.element_bytes(), texels = a.levels[0].size() / n;
-         for (std::size_t t = 0; t < texels / 2; ++t)
-           std::swap_ranges(&a.levels[0][t * n], &a.levels[0][t * n] + n, &a.levels[0][(texels - 1 - t) * n]);
+         std::byte* const all = a.levels[0].edit().data();
+         for (std::size_t t = 0; t < texels / 2; ++t) std::swap_ranges(all + t * n, all + (t + 1) * n, all + (texels - 1 - t) * n);
        }},
       {"TenBits", corrected, "shade", "through 10 bits",
        [](Array& a) {
@@ -95,7 +96,7 @@ std::vector<Made> made() {
            for (std::size_t k = 0; k < 3; ++k)
              packed |= static_cast<std::uint32_t>(std::to_integer<int>(a.levels[0][i + k]) * 1023 / 255) << 10 * k;
            packed |= static_cast<std::uint32_t>(std::to_integer<int>(a.levels[0][i + 3]) / 85) << 30;
-           std::memcpy(&a.levels[0][i], &packed, 4);
+           std::memcpy(&a.levels[0].edit()[i], &packed, 4);
          }
        }},
       {"NoSubnormalHalves", corrected, "wave_step", "without subnormal halves",
@@ -107,7 +108,7 @@ std::vector<Made> made() {
            Half texel[4];
            std::memcpy(texel, &a.levels[0][i], 8);
            for (int k = 0; k < 3; ++k) texel[k] = to_half(to_float(texel[k]) * to_float(texel[3]), Rounding::rtz);
-           std::memcpy(&a.levels[0][i], texel, 8);
+           std::memcpy(&a.levels[0].edit()[i], texel, 8);
          }
        }},
   };
@@ -166,7 +167,7 @@ void step_texel(const hand::Loop loop, const hand::Run& run, int x, int y, Array
   loop(run, x, y, values);
   for (std::size_t k = 0; k < 2; ++k) {
     const Half h = to_half(values[k]);
-    std::memcpy(&out.levels[0][static_cast<std::size_t>(y * out.width + x) * 4 + 2 * k], &h, 2);
+    std::memcpy(&out.levels[0].edit()[static_cast<std::size_t>(y * out.width + x) * 4 + 2 * k], &h, 2);
   }
 }
 /// In one buffer, group after group of `width` x `height` texels: what a group stores the next one reads.
@@ -207,7 +208,7 @@ TEST(OwnTexel, ItsLevelsExchangedAreNamed) {
     Array& wave = input_of(taken, "wave").array;
     for (int y = 0; y < wave.height; ++y)
       for (int x = 0; x < wave.width; ++x) {
-        std::byte* const own = &wave.levels[0][static_cast<std::size_t>(y * wave.width + x) * 4];
+        std::byte* const own = &wave.levels[0].edit()[static_cast<std::size_t>(y * wave.width + x) * 4];
         std::swap_ranges(own, own + 2, own + 2);
         step_texel(hand::wave_step_corrected, run, x, y, out[0]);
         std::swap_ranges(own, own + 2, own + 2);
@@ -241,7 +242,7 @@ TEST(Hash, InHalfPrecisionIsNamed) {
       const float pulse = hand::fract(t + 0.7f * offset);
       const float drop[4] = {low_fract((q[0] + q[1]) * q[2]).v * r.u("width"), low_fract((q[0] + q[2]) * q[1]).v * r.u("height"),
                              strength * (hand::smoothstep(0, 0.15f, pulse) * hand::smoothstep(0.35f, 0.2f, pulse)), 4};
-      std::memcpy(&out[0].levels[0][static_cast<std::size_t>(i) * sizeof drop], drop, sizeof drop);
+      std::memcpy(&out[0].levels[0].edit()[static_cast<std::size_t>(i) * sizeof drop], drop, sizeof drop);
     }
   });
   EXPECT_EQ(c.name, "hash in half precision") << c.sentence;
@@ -254,7 +255,7 @@ Cause cause_of_dead_records(const char* pack, const char* pass, bool are_zero) {
   return cause_of(pack, pass, [=](PassCase&, const scene::UniformBlock&, std::vector<Array>& out) {
     for (Array& a : out) {
       if (!a.is_records || a.width == 0) continue;
-      std::vector<std::byte>& list = a.levels[0];
+      std::vector<std::byte>& list = a.levels[0].edit();
       const std::vector<std::byte> first(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(a.record.size));
       for (int k = 0; k < 64; ++k) {
         list.resize(list.size() + a.record.size);
@@ -280,7 +281,7 @@ TEST(NotNumbers, AreSaidWithTheFirst) {
   const Cause c = cause_of(corrected, "shade", [](PassCase&, const scene::UniformBlock&, std::vector<Array>& out) {
     for (std::size_t t = 100; t < out[0].levels[0].size() / 8; t += 3) {
       const std::uint16_t none = 0x7e00;
-      std::memcpy(&out[0].levels[0][t * 8 + 2], &none, 2);
+      std::memcpy(&out[0].levels[0].edit()[t * 8 + 2], &none, 2);
     }
   });
   EXPECT_EQ(c.name, "not a number");

@@ -36,7 +36,7 @@ void move_texels(Array& a, From from) {
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x) {
       const auto [u, v] = from(x, y);
-      std::memcpy(a.levels[0].data() + (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) * n,
+      std::memcpy(a.levels[0].edit().data() + (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) * n,
                   old.data() + (static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u)) * n, n);
     }
 }
@@ -87,22 +87,22 @@ std::vector<Mistake> mistakes() {
       {"Bgra", published, "display", "picture as BGRA",
        [](MiniPort& p) {
          each_output(p, "display", [](Array& a) {
-           for (std::size_t i = 0; i < a.levels[0].size(); i += 4) std::swap(a.levels[0][i], a.levels[0][i + 2]);
+           for (std::size_t i = 0; i < a.levels[0].size(); i += 4) std::swap(a.levels[0].edit()[i], a.levels[0].edit()[i + 2]);
          });
        }},
       {"SwappedPingPong", corrected, "wave_step", "wave with its first two channels swapped",
        [](MiniPort& p) {
          each_output(p, "wave_step", [](Array& a) {
-           for (std::size_t i = 0; i < a.levels[0].size(); i += 4)
-             std::swap_ranges(&a.levels[0][i], &a.levels[0][i] + 2, &a.levels[0][i] + 2);
+           std::byte* const all = a.levels[0].edit().data();
+           for (std::size_t i = 0; i < a.levels[0].size(); i += 4) std::swap_ranges(all + i, all + i + 2, all + i + 2);
          });
        }},
       {"SwappedPingPongInput", corrected, "wave_step", "input wave with its first two channels swapped",
        [](MiniPort& p) {
          each_case(p, "wave_step", [](PassCase& c) {
            Array& a = input_of(c, "wave").array;
-           for (std::size_t i = 0; i < a.levels[0].size(); i += 4)
-             std::swap_ranges(&a.levels[0][i], &a.levels[0][i] + 2, &a.levels[0][i] + 2);
+           std::byte* const all = a.levels[0].edit().data();
+           for (std::size_t i = 0; i < a.levels[0].size(); i += 4) std::swap_ranges(all + i, all + i + 2, all + i + 2);
          });
        }},
       {"MissingSwap", corrected, "wave_step", "wave is its own input",
@@ -131,7 +131,7 @@ std::vector<Mistake> mistakes() {
        [](MiniPort& p) {
          each_case(p, "wave_step", [](PassCase& c) {
            Array& drops = input_of(c, "drops").array;
-           drops.levels[0].erase(drops.levels[0].begin(), drops.levels[0].begin() + 16);
+           drops.levels[0].edit().erase(drops.levels[0].begin(), drops.levels[0].begin() + 16);
            --drops.width;
          });
        }},
@@ -142,7 +142,7 @@ std::vector<Mistake> mistakes() {
              if (i % 4 == 3) continue;
              const double v = std::to_integer<int>(a.levels[0][i]) / 255.0,
                           e = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-             a.levels[0][i] = static_cast<std::byte>(e * 255 + 0.5);
+             a.levels[0].edit()[i] = static_cast<std::byte>(e * 255 + 0.5);
            }
          });
        }},
@@ -158,7 +158,7 @@ std::vector<Mistake> mistakes() {
        [](MiniPort& p) {
          each_output(p, "wave_step", [](Array& a) {
            for (int y = 0; y < a.height; ++y)
-             std::memset(a.levels[0].data() + static_cast<std::size_t>(y * a.width + a.width - 1) * a.element_bytes(), 0,
+             std::memset(a.levels[0].edit().data() + static_cast<std::size_t>(y * a.width + a.width - 1) * a.element_bytes(), 0,
                          a.element_bytes());
          });
        }},
@@ -168,7 +168,8 @@ std::vector<Mistake> mistakes() {
            for (int y = 0; y < a.height; ++y)
              for (int x = 0; x < a.width; ++x)
                if (x >= 32 || y >= 16)
-                 std::memset(a.levels[0].data() + static_cast<std::size_t>(y * a.width + x) * a.element_bytes(), 0, a.element_bytes());
+                 std::memset(a.levels[0].edit().data() + static_cast<std::size_t>(y * a.width + x) * a.element_bytes(), 0,
+                             a.element_bytes());
          });
        }},
       {"InputUpsideDown", corrected, "shade", "input hit upside down",
@@ -185,7 +186,7 @@ std::vector<Mistake> mistakes() {
              Half h;
              std::memcpy(&h, &a.levels[0][i], 2);
              h = to_half(to_float(to_unorm8(to_float(h))));
-             std::memcpy(&a.levels[0][i], &h, 2);
+             std::memcpy(&a.levels[0].edit()[i], &h, 2);
            }
          });
        }},
@@ -256,7 +257,7 @@ TEST(Diagnosis, ABufferThatLostALittleIsNotCalledMirrored) {
     if (c.pass != "splat") return;
     Array& height = out[0];
     for (int y = 0; y < height.height; y += 3)
-      std::memset(height.levels[0].data() + static_cast<std::size_t>(y * height.width) * height.element_bytes(), 0,
+      std::memset(height.levels[0].edit().data() + static_cast<std::size_t>(y * height.width) * height.element_bytes(), 0,
                   height.element_bytes() * static_cast<std::size_t>(height.width));
   };
   TemporaryFolder folder;
@@ -273,7 +274,7 @@ TEST(Diagnosis, NoiseHasNoCause) {
   port.after = [](const PassCase& c, std::vector<Array>& out) {
     if (c.pass != "display") return;
     for (std::size_t i = 0; i < out[0].levels[0].size(); ++i)
-      if (i % 4 != 3) out[0].levels[0][i] ^= static_cast<std::byte>((i * 2654435761u >> 7 & 0x78u) | 8u);
+      if (i % 4 != 3) out[0].levels[0].edit()[i] ^= static_cast<std::byte>((i * 2654435761u >> 7 & 0x78u) | 8u);
   };
   TemporaryFolder folder;
   port.run(folder.path());

@@ -40,7 +40,7 @@ std::vector<Array> given(const hand::Pass& p, const capture::Pack& pack, const P
       if (!p.loop(run, x, y, values.data())) continue;
       for (std::size_t v = 0; v < slots.size(); ++v)
         store_value(slots[v], values[v], slots[v].store_rounding,
-                    out[static_cast<std::size_t>(slots[v].output)].levels[0].data() + slots[v].offset(x, y));
+                    out[static_cast<std::size_t>(slots[v].output)].levels[0].edit().data() + slots[v].offset(x, y));
     }
   return out;
 }

@@ -80,10 +80,10 @@ TEST(Mutate, AWrongPassGetsTheNearest) {
 /// Invocations, of those that mutate compares, at which a fault moves some value by more than an envelope may be
 /// wide before it counts as vacuous: 1/16 of the declared range, or of the value beyond it.
 int far_off(const Fault& d, const BoundCase& b, Bind bind) {
-  std::vector<Array> stored = b.expected();
-  const FaultyPass faulty(d, *b.c, bind, *b.model, HalfMode::rne, stored);
+  const FaultyPass faulty(d, *b.c, bind, *b.model, HalfMode::rne, b.expected());
   if (!faulty.applies()) return 0;
   int count = 0;
+  StoredTexel stored;
   const std::int64_t texels = static_cast<std::int64_t>(b.model->width()) * b.model->height();
   for (std::int64_t k = 0; k < invocations; ++k) {
     const std::int64_t i = k * texels / invocations;
@@ -92,8 +92,8 @@ int far_off(const Fault& d, const BoundCase& b, Bind bind) {
     bool far = false;
     for (std::size_t v = 0; v < b.slots.size(); ++v) {
       const Slot& s = b.slots[v];
-      const std::size_t o = static_cast<std::size_t>(s.output);
-      const double got = stored_value(s, s.at(stored[o], x, y)), expected = stored_value(s, s.at(b.c->outputs[o].array, x, y));
+      const double got = stored_value(s, stored[v].data()),
+                   expected = stored_value(s, s.at(b.c->outputs[static_cast<std::size_t>(s.output)].array, x, y));
       far |= !b.model->is_free(static_cast<int>(v)) &&
              std::abs(got - expected) > std::max(s.range, std::max(std::abs(got), std::abs(expected))) / 16;
     }

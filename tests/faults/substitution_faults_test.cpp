@@ -89,7 +89,7 @@ PassJudgement judged(const std::string& name, const hand::Loop loop, const std::
         if (!loop(run, x, y, values.data())) continue;
         for (std::size_t v = 0; v < slots.size(); ++v)
           store_value(slots[v], values[v], slots[v].store_rounding,
-                      out[static_cast<std::size_t>(slots[v].output)].levels[0].data() + slots[v].offset(x, y));
+                      out[static_cast<std::size_t>(slots[v].output)].levels[0].edit().data() + slots[v].offset(x, y));
       }
     for (std::size_t o = 0; o < out.size(); ++o) put_array(folder / c.folder(), "out." + c.outputs[o].name, out[o]);
   }

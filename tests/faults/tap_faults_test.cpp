@@ -1,4 +1,6 @@
 // Texels that a port reads elsewhere than it should: of a surface whose slopes are known.
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -24,7 +26,7 @@ TEST(TapFaults, DifferencesOnOneSideAreThoseOfAParabola) {
       for (int y = 0; y < input.array.height; ++y)
         for (int x = 0; x < input.array.width; ++x) {
           const Half h = to_half(input.name == "height" ? 0x1p-9f * static_cast<float>(x * x) : 0.0f);
-          std::memcpy(input.array.levels[0].data() + static_cast<std::size_t>(y * input.array.width + x) * sizeof h, &h, sizeof h);
+          std::memcpy(input.array.levels[0].edit().data() + static_cast<std::size_t>(y * input.array.width + x) * sizeof h, &h, sizeof h);
         }
     const judge::Bind bind = judge::evaluations_of(c.effect, c.pass)->bind;
     const std::unique_ptr<capture::PassModel> model = bind(c);
@@ -34,10 +36,10 @@ TEST(TapFaults, DifferencesOnOneSideAreThoseOfAParabola) {
     const auto slope = [&](const Fault& d) {
       std::vector<capture::Array> out;
       for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
-      FaultyPass(d, c, bind, *model, judge::HalfMode::rne, out).store({x, y}, out);
-      Half n[4];
-      std::memcpy(n, out[0].levels[0].data() + static_cast<std::size_t>(y * out[0].width + x) * sizeof n, sizeof n);
-      return static_cast<double>(to_float(n[0])) / static_cast<double>(to_float(n[2]));
+      StoredTexel stored;
+      FaultyPass(d, c, bind, *model, judge::HalfMode::rne, out).store({x, y}, stored);
+      const auto component = [&](std::size_t v) { return static_cast<double>(to_float(std::bit_cast<std::array<Half, 2>>(stored[v])[0])); };
+      return component(0) / component(2);
     };
     for (const auto& [name, added] : {std::pair("height differences on one side, twice, to the right and above", 2.0),
                                       std::pair("height differences on one side, twice, to the left and below", -2.0)})

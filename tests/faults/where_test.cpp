@@ -27,7 +27,7 @@ std::string where(const char* pack, const char* pass, const std::string& output,
         for (int x = 0; x < out[o].width; ++x)
           for (int k = 0; k < std::min(f.channels, 3); ++k)
             if (breaks(c, x, y, k))
-              out[o].levels[0][static_cast<std::size_t>((y * out[o].width + x) * f.texel_bytes() + (k + 1) * f.channel_bytes - 1)] ^=
+              out[o].levels[0].edit()[static_cast<std::size_t>((y * out[o].width + x) * f.texel_bytes() + (k + 1) * f.channel_bytes - 1)] ^=
                   std::byte{0x40};
     }
   };

@@ -57,7 +57,7 @@ inline capture::Array& array_of(capture::PassCase& c, Program& p) {
 }
 /// The array in another size, its values cut off, or repeated.
 inline void resize(capture::Array& a, int width, int height) {
-  const std::vector<std::vector<std::byte>> old = a.levels;
+  const std::vector<capture::Bytes> old = a.levels;
   const int old_width = a.width, old_height = std::max(a.is_records ? 1 : a.height, 1);
   a.width = width;
   a.height = height;
@@ -102,7 +102,7 @@ inline void edit_case(capture::PassCase& c, const scene::UniformBlock& block, Pr
     }
     case 3: {  // a value
       capture::Array& a = array_of(c, p);
-      std::vector<std::byte>& bytes = a.levels[p.below(a.levels.size())];
+      std::vector<std::byte>& bytes = a.levels[p.below(a.levels.size())].edit();
       const float number = p.number();
       const std::size_t at = p.below(std::max<std::size_t>(bytes.size() / 4, 1)) * 4;
       // The upper half of a float is much like a half of the same kind.
@@ -120,8 +120,8 @@ inline void edit_case(capture::PassCase& c, const scene::UniformBlock& block, Pr
       a.format = formats[p.below(std::size(formats))];
       for (std::size_t l = 0; l < a.levels.size(); ++l) {
         const int level = static_cast<int>(l);
-        a.levels[l].resize(static_cast<std::size_t>(a.level_width(level)) * static_cast<std::size_t>(a.level_height(level)) *
-                           a.element_bytes());
+        a.levels[l].edit().resize(static_cast<std::size_t>(a.level_width(level)) * static_cast<std::size_t>(a.level_height(level)) *
+                                  a.element_bytes());
       }
       return;
     }
@@ -131,8 +131,8 @@ inline void edit_case(capture::PassCase& c, const scene::UniformBlock& block, Pr
       a.levels.resize(1 + p.below(7));
       for (std::size_t l = 1; l < a.levels.size(); ++l) {
         const int level = static_cast<int>(l);
-        a.levels[l].resize(static_cast<std::size_t>(a.level_width(level)) * static_cast<std::size_t>(a.level_height(level)) *
-                           a.element_bytes());
+        a.levels[l].edit().resize(static_cast<std::size_t>(a.level_width(level)) * static_cast<std::size_t>(a.level_height(level)) *
+                                  a.element_bytes());
       }
       return;
     }

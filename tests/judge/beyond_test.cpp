@@ -38,7 +38,7 @@ struct PublishedDrops {
           faults::hand::screen_drops_published(run, x, y, values);
           for (std::size_t v = 0; v < slots.size(); ++v) {
             const Slot& s = slots[v];
-            store_value(s, values[v], s.store_rounding, out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+            store_value(s, values[v], s.store_rounding, out[static_cast<std::size_t>(s.output)].levels[0].edit().data() + s.offset(x, y));
           }
         }
       for (std::size_t o = 0; o < out.size(); ++o) put_array(folder / c.folder(), "out." + c.outputs[o].name, out[o]);
@@ -104,7 +104,7 @@ CaseJudgement judged_device(const test::BoundCase& b, const enclosed::Profile& r
       for (std::size_t v = 0; v < values.size(); ++v) {
         const Slot& s = b.slots[v];
         test::store_conforming(s, values[v], rules, mode, words,
-                               port[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+                               port[static_cast<std::size_t>(s.output)].levels[0].edit().data() + s.offset(x, y));
       }
     }
   return judge_case(*b.c, b.model.get(), port, {&profile("webgpu"), &profile("typical"), &test_executor(), mode}).judgements[0];

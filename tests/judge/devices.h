@@ -88,7 +88,7 @@ inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const
     for (std::size_t v = 0; v < values.size(); ++v) {
       const Slot& s = b.slots[v];
       Array& to = stored[static_cast<std::size_t>(s.output)];
-      store_conforming(s, values[v], p, mode, words, to.levels[0].data() + s.offset(x, y));
+      store_conforming(s, values[v], p, mode, words, to.levels[0].edit().data() + s.offset(x, y));
     }
     ++tally.judged;
     tally.differing += !is_reference(b, x, y, values);

@@ -55,7 +55,7 @@ Array image(Format format, std::initializer_list<int> bytes) {
   a.width = static_cast<int>(bytes.size()) / info(format).texel_bytes();
   a.height = 1;
   a.levels.emplace_back();
-  for (const int b : bytes) a.levels[0].push_back(static_cast<std::byte>(b));
+  for (const int b : bytes) a.levels[0].edit().push_back(static_cast<std::byte>(b));
   return a;
 }
 TEST(HostValues, ATexelMayBeTheNeighbouringCode) {
@@ -81,8 +81,8 @@ TEST(HostValues, ASetOfRecordsHasNoOrder) {
     out.levels.emplace_back(16);
     std::size_t at = 0;
     for (const auto& [id, mass] : records) {
-      std::memcpy(&out.levels[0][at], &id, 4);
-      std::memcpy(&out.levels[0][at + 4], &mass, 4);
+      std::memcpy(&out.levels[0].edit()[at], &id, 4);
+      std::memcpy(&out.levels[0].edit()[at + 4], &mass, 4);
       at += 8;
     }
     return out;
@@ -92,9 +92,9 @@ TEST(HostValues, ASetOfRecordsHasNoOrder) {
   none.width = 0;
   none.levels = {{}};
   one.width = 1;
-  one.levels[0].resize(8);
+  one.levels[0].edit().resize(8);
   EXPECT_EQ(compare_arrays(none, one), Likeness::same);
-  one.levels[0][4] = std::byte{1};
+  one.levels[0].edit()[4] = std::byte{1};
   EXPECT_EQ(compare_arrays(none, one), Likeness::other);
   EXPECT_EQ(compare_arrays(with({{1, 2.0f}, {2, 3.0f}}), with({{1, 2.0f + 0x1p-18f}, {2, 3.0f}})), Likeness::rounded);
   EXPECT_EQ(compare_arrays(with({{1, 2.0f}, {2, 3.0f}}), with({{1, 2.1f}, {2, 3.0f}})), Likeness::other);

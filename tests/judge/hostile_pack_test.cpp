@@ -157,9 +157,8 @@ TEST(HostilePack, AnotherFormatIsRefused) {
         if (a.is_records) continue;
         a.format = info(a.format).channels == 1 ? Format::rg8 : Format::r8;
         fuzz::resize(a, a.width, a.height);
-        for (std::vector<std::byte>& level : a.levels)
-          level.resize(static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height) * a.element_bytes());
         a.levels.resize(1);
+        a.levels[0].edit().resize(static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height) * a.element_bytes());
         EXPECT_THAT(Hostile(base, c).refusal(), Refuses(c.folder() + (is_input ? ": in." : ": out.")));
       }
     }
@@ -227,7 +226,7 @@ TEST(HostilePack, RecordsThatAreNoNumbersAreRefused) {
     for (capture::CaseInput& input : c.inputs) {
       if (input.name != "drops") continue;
       const float nan = std::numeric_limits<float>::quiet_NaN();
-      std::memcpy(input.array.levels[0].data() + 2 * input.array.record.size, &nan, sizeof nan);
+      std::memcpy(input.array.levels[0].edit().data() + 2 * input.array.record.size, &nan, sizeof nan);
     }
     EXPECT_THAT(Hostile(base, c).refusal(), AllOf(Refuses("in.drops: record 2: "), HasSubstr(" is nan, expected a finite number")));
   }

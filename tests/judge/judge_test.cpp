@@ -63,7 +63,7 @@ struct Made {
   }
   void put(int x, int y, int channel, float value) {
     const Slot s = slots_of(c)[static_cast<std::size_t>(channel)];
-    store_value(s, value, Rounding::rne, port[0].levels[0].data() + s.offset(x, y));
+    store_value(s, value, Rounding::rne, port[0].levels[0].edit().data() + s.offset(x, y));
   }
   ModeJudgements all(const char* name, const char* typical = nullptr) const {
     return judge_case(c, model.get(), port, {&profile(name), typical ? &profile(typical) : nullptr, &executor, std::nullopt});
@@ -122,7 +122,7 @@ TEST(Judge, ADecisionIsOneOrTheOtherNotBetween) {
 /// The sign of a stored zero.
 void negate_zero(Made& m, int x, int y, int channel) {
   const Slot s = slots_of(m.c)[static_cast<std::size_t>(channel)];
-  std::byte* at = m.port[0].levels[0].data() + s.offset(x, y) + s.channel_bytes - 1;
+  std::byte* at = m.port[0].levels[0].edit().data() + s.offset(x, y) + s.channel_bytes - 1;
   ASSERT_EQ(*at, std::byte{0});
   *at = std::byte{0x80};
 }

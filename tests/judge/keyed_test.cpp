@@ -96,7 +96,7 @@ Array array_of(const std::vector<Bead>& beads) {
   a.width = static_cast<int>(beads.size());
   a.height = 1;
   a.levels.emplace_back(beads.size() * sizeof(Bead));
-  if (!beads.empty()) std::memcpy(a.levels[0].data(), beads.data(), a.levels[0].size());
+  if (!beads.empty()) std::memcpy(a.levels[0].edit().data(), beads.data(), a.levels[0].size());
   return a;
 }
 

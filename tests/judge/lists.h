@@ -90,7 +90,7 @@ inline capture::PassCase busy(capture::PassCase c, int count, std::uint64_t seed
       input.array = with_records(input.array, pass::bytes_of(all));
     }
     if (input.name == "film") {
-      auto* texels = reinterpret_cast<float*>(input.array.levels[0].data());
+      auto* texels = reinterpret_cast<float*>(input.array.levels[0].edit().data());
       for (int i = 0; i < input.array.width * input.array.height; ++i) texels[i] = std::floor(uniform(words, 0, 3e5f));
     }
   }

@@ -78,7 +78,7 @@ struct MiniPort {
         for (std::size_t v = 0; v < slots.size(); ++v) {
           const Slot& s = slots[v];
           store_value(s, values[v].v, rounding_of(s, stores_only.empty() || stores_only == c.pass ? stores : HalfMode::either),
-                      out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+                      out[static_cast<std::size_t>(s.output)].levels[0].edit().data() + s.offset(x, y));
         }
       }
     }

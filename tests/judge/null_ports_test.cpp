@@ -61,7 +61,7 @@ struct Made {
     capture::CaseInput in;
     in.name = "from";
     in.array = out.array;
-    std::memcpy(in.array.levels[0].data(), pass.from.data(), 8 * 4 * 4);
+    std::memcpy(in.array.levels[0].edit().data(), pass.from.data(), 8 * 4 * 4);
     c.inputs = {in};
     c.outputs = {out};
     const parallel::Executor executor(1);

@@ -39,7 +39,7 @@ class PlacedList : public testing::Test {
     std::memcpy(&f, a.levels[0].data() + 16 * i + 4 * k, 4);
     return f;
   }
-  static void set_field(Array& a, int i, int k, float f) { std::memcpy(a.levels[0].data() + 16 * i + 4 * k, &f, 4); }
+  static void set_field(Array& a, int i, int k, float f) { std::memcpy(a.levels[0].edit().data() + 16 * i + 4 * k, &f, 4); }
 };
 
 TEST_F(PlacedList, TheReferencePassesUnderEveryProfile) {
@@ -81,7 +81,10 @@ TEST_F(PlacedList, AnEnvelopeHoldsEachField) {
 }
 
 TEST_F(PlacedList, ThePlaceIsTheKey) {
-  change([](Array& a) { std::rotate(a.levels[0].begin(), a.levels[0].begin() + 16, a.levels[0].end()); });
+  change([](Array& a) {
+    std::vector<std::byte>& records = a.levels[0].edit();
+    std::rotate(records.begin(), records.begin() + 16, records.end());
+  });
   const PassJudgement p = judged();
   EXPECT_EQ(p.status, Status::fail);
   ASSERT_FALSE(p.causes.empty());
@@ -92,7 +95,7 @@ TEST_F(PlacedList, AnotherNumberOfRecordsIsRefused) {
   for (const int by : {-1, 1}) {
     change([by](Array& a) {
       a.width += by;
-      a.levels[0].resize(16 * static_cast<std::size_t>(a.width));
+      a.levels[0].edit().resize(16 * static_cast<std::size_t>(a.width));
     });
     const TemporaryFolder folder;
     port.run(folder.path());

@@ -23,13 +23,13 @@ TEST(Races, TheFirstElementAndTheirNumberAreNamed) {
   EXPECT_TRUE(find_races(port.pack, {runs / "1", runs / "2"}, passes_of(port.pack)).found.empty());
 
   port.after = [](const PassCase& c, std::vector<Array>& out) {
-    if (c.folder() == "puddle.display/0012.0") out[0].levels[0][4 * (35 * 2 + 3) + 1] ^= std::byte{1};
+    if (c.folder() == "puddle.display/0012.0") out[0].levels[0].edit()[4 * (35 * 2 + 3) + 1] ^= std::byte{1};
   };
   port.run(runs / "3");
   port.after = [](const PassCase& c, std::vector<Array>& out) {
     if (c.folder() != "puddle.display/0012.0") return;
-    out[0].levels[0][4 * (35 * 2 + 3) + 1] ^= std::byte{2};
-    out[0].levels[0][4 * (35 * 9 + 8) + 2] ^= std::byte{2};
+    out[0].levels[0].edit()[4 * (35 * 2 + 3) + 1] ^= std::byte{2};
+    out[0].levels[0].edit()[4 * (35 * 9 + 8) + 2] ^= std::byte{2};
   };
   port.run(runs / "4");
   const std::vector<std::filesystem::path> folders{runs / "1", runs / "2", runs / "3", runs / "4"};
@@ -55,7 +55,7 @@ TEST(Races, ARunWithoutAFileHidesNoRace) {
   TemporaryFolder runs;
   port.run(runs / "1");
   port.after = [](const PassCase& c, std::vector<Array>& out) {
-    if (c.folder() == "puddle.display/0012.0") out[0].levels[0][5] ^= std::byte{1};
+    if (c.folder() == "puddle.display/0012.0") out[0].levels[0].edit()[5] ^= std::byte{1};
   };
   port.run(runs / "2");
   std::filesystem::remove(runs / "1/puddle.shade/0011.0/out.colour.npy");  // validate's
@@ -73,7 +73,7 @@ TEST(Races, MoreRecordsInOneRunAreOne) {
   port.run(runs / "1");
   port.after = [](const PassCase& c, std::vector<Array>& out) {
     if (c.folder() != "puddle.raindrops/0012.1") return;
-    out[0].levels[0].resize(out[0].levels[0].size() + out[0].record.size);
+    out[0].levels[0].edit().resize(out[0].levels[0].size() + out[0].record.size);
     ++out[0].width;
   };
   port.run(runs / "2");

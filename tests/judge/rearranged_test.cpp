@@ -83,7 +83,7 @@ struct Wave {
         store_value(slot,
                     formula({at(x, y, 0), at(x, y, 1), at(x - 1, y, 0), at(x + 1, y, 0), at(x, y - 1, 0), at(x, y + 1, 0), u.damping,
                              u.courant_sq}),
-                    slot.store_rounding, port[0].levels[0].data() + slot.offset(x, y));
+                    slot.store_rounding, port[0].levels[0].edit().data() + slot.offset(x, y));
     return port;
   }
 };
@@ -239,7 +239,7 @@ struct Squares {
   }
   void put(int x, int y, float value) {
     const Slot slot = slots_of(c)[0];
-    store_value(slot, value, Rounding::rne, port[0].levels[0].data() + slot.offset(x, y));
+    store_value(slot, value, Rounding::rne, port[0].levels[0].edit().data() + slot.offset(x, y));
   }
   CaseJudgement judged(enclosed::Rearrangement how) const {
     enclosed::Profile p = profile("vulkan");
@@ -289,7 +289,7 @@ TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
       if (c.pass != "wave_step") return;
       const Array& before = c.input("wave")->array;
       const std::size_t texel = before.element_bytes(), row = texel * static_cast<std::size_t>(before.width);
-      for (std::size_t y = 0; y < 8; ++y) std::memcpy(&out[0].levels[0][y * row], &before.levels[0][y * row], 8 * texel);
+      for (std::size_t y = 0; y < 8; ++y) std::memcpy(&out[0].levels[0].edit()[y * row], &before.levels[0][y * row], 8 * texel);
     };
   });
   expect_other_reasons("puddle-corrected", "shade", [](MiniPort& port) {
@@ -302,7 +302,7 @@ TEST(RearrangedPort, MistakesOfTheHostAreNotSaidToBeMultipliedOut) {
   expect_other_reasons("windshield-corrected", "splat", [](MiniPort& port) {
     port.after = [](const PassCase& c, std::vector<Array>& out) {
       if (c.pass != "splat") return;
-      std::vector<std::byte>& halves = out[0].levels[0];
+      std::vector<std::byte>& halves = out[0].levels[0].edit();
       for (std::size_t at = 0; at < halves.size(); at += 2) {
         std::uint16_t h;
         std::memcpy(&h, &halves[at], 2);
@@ -344,7 +344,7 @@ TEST(RearrangedPort, RegroupedForcesWarnAndDoNotFail) {
     std::vector<Array> port{c.outputs[0].array};
     std::map<std::uint32_t, drops::Drop> before;
     for (const drops::Drop& d : capture::records_of<drops::Drop>(*c.input("drops"))) before[d.id] = d;
-    auto* moved = reinterpret_cast<drops::Drop*>(port[0].levels[0].data());
+    auto* moved = reinterpret_cast<drops::Drop*>(port[0].levels[0].edit().data());
     for (int k = 0; k < port[0].width; ++k) {
       const drops::Drop& d = before.at(moved[k].id);
       if (!(d.life > 0)) continue;

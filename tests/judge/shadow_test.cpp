@@ -78,7 +78,7 @@ class HostShadowTest : public ShadowTest {
     if (c.pass != "surface_hit") return;
     const auto scale = [](std::byte* at) { change_at<float>(at, [](float value) { return 4 * value; }); };
     for (const char* name : {"surface_top", "surface_slope"}) scale(c.uniforms.data() + uniform_offset(port.pack, "surface_hit", name));
-    std::vector<std::byte>& texels = input_of(c, "bounds").array.levels[0];
+    std::vector<std::byte>& texels = input_of(c, "bounds").array.levels[0].edit();
     for (std::size_t at = 0; at < texels.size(); at += 4) scale(&texels[at]);
   }
   /// Makes of a float of every run of a pass what `change` gives.
@@ -126,7 +126,7 @@ TEST_F(ShadowTest, TheFirstBadRunIsNamedAndWhatFollowsFromItIsNot) {
   port.after = [](const PassCase& c, std::vector<Array>& out) {
     if (c.folder() != "puddle.wave_step/0011.1") return;
     const std::uint16_t height = 0x2c00;  // 1/16 m where the water moves by millimetres
-    std::memcpy(out[0].levels[0].data() + 4 * (9 * 29 + 14), &height, 2);
+    std::memcpy(out[0].levels[0].edit().data() + 4 * (9 * 29 + 14), &height, 2);
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "wave_step") << why(j);
@@ -191,7 +191,7 @@ TEST_F(ShadowTest, APictureOfTheFrameBeforeIsNamed) {
 
 TEST_F(ShadowTest, AHiddenPassIsSeen) {
   port.before = [](PassCase& c) {
-    if (c.folder() == "puddle.shade/0012.0") input_of(c, "hit").array.levels[0][16 * 40] ^= std::byte{1};
+    if (c.folder() == "puddle.shade/0012.0") input_of(c, "hit").array.levels[0].edit()[16 * 40] ^= std::byte{1};
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "shade");
@@ -216,7 +216,7 @@ TEST_F(ShadowTest, AnOutputThatDoesNotFollowFromTheInputsFails) {
 
 TEST_F(ShadowTest, RaindropsAreRecomputedFromThePortsUniforms) {
   port.after = [](const PassCase& c, std::vector<Array>& out) {
-    if (c.folder() == "puddle.raindrops/0012.0") out[0].levels[0][0] ^= std::byte{1};
+    if (c.folder() == "puddle.raindrops/0012.0") out[0].levels[0].edit()[0] ^= std::byte{1};
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "raindrops");
@@ -229,7 +229,7 @@ TEST_F(ShadowTest, BoundsOfAnotherFrameFail) {
     if (c.folder() != "puddle.surface_hit/0012.0") return;
     Array& bounds = input_of(c, "bounds").array;
     const float flat[2] = {1e-4f, 1e-3f};  // of water at rest
-    std::memcpy(bounds.levels[0].data(), flat, sizeof flat);
+    std::memcpy(bounds.levels[0].edit().data(), flat, sizeof flat);
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "surface_hit") << why(j);
@@ -328,7 +328,7 @@ TEST_F(HostShadowTest, AStateThatIsNotResetFails) {
 TEST_F(HostShadowTest, ABufferClearedToZeroFails) {
   mistake = [](PassCase& c) {
     if (c.folder() != "puddle.wave_step/0000.0") return;
-    for (std::byte& b : input_of(c, "wave").array.levels[0]) b = std::byte{0};
+    for (std::byte& b : input_of(c, "wave").array.levels[0].edit()) b = std::byte{0};
   };
   expect_only_foreign("wave_step", "is not the state that the scene begins with", "input wave of wave_step");
 }
@@ -357,7 +357,7 @@ TEST_F(HostShadowTest, APictureRoundedOtherwiseIsANote) {
   const auto scale = [this](float by) {
     mistake = [by](PassCase& c) {
       if (c.pass != "shade") return;
-      std::vector<std::byte>& bytes = input_of(c, "environment").array.levels[0];
+      std::vector<std::byte>& bytes = input_of(c, "environment").array.levels[0].edit();
       for (std::size_t at = 0; at < bytes.size(); at += 4) change_at<float>(&bytes[at], [by](float value) { return value * by; });
     };
   };
@@ -400,7 +400,7 @@ class PublishedShadowTest : public ShadowTest {
 
 TEST_F(PublishedShadowTest, WhatNoGpuReproducesIsTakenAsData) {
   port.after = [](const PassCase& c, std::vector<Array>& out) {
-    if (c.pass == "ground_noise") std::memset(out[0].levels[0].data(), 0, 400);  // another sine
+    if (c.pass == "ground_noise") std::memset(out[0].levels[0].edit().data(), 0, 400);  // another sine
   };
   const PortJudgement j = shadow_of();
   EXPECT_NE(j.status, Status::fail) << why(j);
@@ -456,7 +456,7 @@ TEST_P(FreeRun, OfAConformingDevicePasses) {
 TEST_F(WindshieldShadowTest, ALostDropIsFoundWhereItIsLost) {
   port.after = [](const PassCase& c, std::vector<Array>& out) {
     if (c.folder() != "windshield.merge/0012.0") return;
-    out[0].levels[0].resize(out[0].levels[0].size() - out[0].element_bytes());
+    out[0].levels[0].edit().resize(out[0].levels[0].size() - out[0].element_bytes());
     --out[0].width;
   };
   const PortJudgement j = shadow_of();
@@ -469,7 +469,7 @@ TEST_F(WindshieldShadowTest, ALostDropIsFoundWhereItIsLost) {
 
 TEST_F(WindshieldShadowTest, EachMipLevelMustBeTheOutputOfItsOwnRun) {
   port.before = [](PassCase& c) {
-    if (c.folder() == "windshield.composite/0012.0") std::memset(input_of(c, "blurred").array.levels[2].data(), 0, 64);
+    if (c.folder() == "windshield.composite/0012.0") std::memset(input_of(c, "blurred").array.levels[2].edit().data(), 0, 64);
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "composite") << why(j);
@@ -483,7 +483,7 @@ TEST_F(WindshieldShadowTest, ALevelIsHalvedFromTheOneAbove) {
   port.before = [](PassCase& c) {
     if (c.folder() == "windshield.blur_pyramid/0012.0.L2") {
       Array& above = input_of(c, "blurred").array;
-      above.levels[0][0] = std::byte{1};
+      above.levels[0].edit()[0] = std::byte{1};
     }
   };
   const PortJudgement j = shadow_of();

@@ -184,7 +184,7 @@ TEST_P(ShortCut, PartsLieInTheirEnvelopes) {
           parts.run_part(model, part, x, y, stored.got_values.data(), p);
           const bool takes_ends = parts.count > 0 && words.coin();
           for (std::size_t v = 0; v < slots.size(); ++v) {
-            std::byte* at = port[static_cast<std::size_t>(slots[v].output)].levels[0].data() + slots[v].offset(x, y);
+            std::byte* at = port[static_cast<std::size_t>(slots[v].output)].levels[0].edit().data() + slots[v].offset(x, y);
             if (takes_ends && !stored.free[v])
               store_value(slots[v], words.coin() ? parts.values[0][v].lo : parts.values[0][v].hi, slots[v].store_rounding, at);
             if (!takes_ends && slots[v].channel_bytes == 4)
@@ -255,7 +255,7 @@ std::vector<Array> port_of(const BoundCase& b, HalfMode stores, bool moved, cons
         b.model->evaluate(x, y, values.data());
         for (std::size_t v = 0; v < values.size(); ++v)
           store_value(b.slots[v], values[v].v, rounding_of(b.slots[v], stores),
-                      port[static_cast<std::size_t>(b.slots[v].output)].levels[0].data() + b.slots[v].offset(x, y));
+                      port[static_cast<std::size_t>(b.slots[v].output)].levels[0].edit().data() + b.slots[v].offset(x, y));
       }
   }
   test::Words words(50);
@@ -263,7 +263,7 @@ std::vector<Array> port_of(const BoundCase& b, HalfMode stores, bool moved, cons
     for (int x = 0; x < b.model->width(); ++x) {
       if (words() % 16 != 0) continue;
       const Slot& s = b.slots[words() % b.slots.size()];
-      std::byte* at = port[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y);
+      std::byte* at = port[static_cast<std::size_t>(s.output)].levels[0].edit().data() + s.offset(x, y);
       const int far = 1 << words() % 12;
       if (s.kind == FormatInfo::unorm8)
         change_at<std::uint8_t>(at, [&](std::uint8_t v) { return static_cast<std::uint8_t>(v + far); });

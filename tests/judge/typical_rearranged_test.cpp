@@ -53,7 +53,7 @@ PassJudgement judged(const std::string& profile) {
           float wiped;
           std::memcpy(&wiped, c.input("wiped")->array.levels[0].data() + at, sizeof wiped);
           const float since = time_since_wipe(u, w, wiped, x, y);
-          std::memcpy(to.levels[0].data() + at, &since, sizeof since);
+          std::memcpy(to.levels[0].edit().data() + at, &since, sizeof since);
         }
       }
     }

@@ -53,7 +53,7 @@ class OneElement : public testing::TestWithParam<Moved> {
       if (c.pass != m.pass || done) return;
       for (const Slot& s : slots_of(c)) {
         if (c.outputs[static_cast<std::size_t>(s.output)].name != m.output || s.channel != m.channel) continue;
-        std::byte* at = out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(m.x, m.y);
+        std::byte* at = out[static_cast<std::size_t>(s.output)].levels[0].edit().data() + s.offset(m.x, m.y);
         const std::int64_t infinity = s.kind == FormatInfo::float16 ? 0x7c00 : 0x7f800000;
         put_code(s, bits_of_nan ? infinity + 1 : bits_of_infinity ? infinity : code, at);
         done = true;
@@ -124,7 +124,7 @@ TEST(SurfaceHit, ANormalThatIsNotANumberIsNamed) {
   port.after = [](const PassCase& c, std::vector<Array>& out) {
     if (c.folder() != "puddle.surface_hit/0012.0") return;
     const std::uint16_t nan = 0x7e00;
-    std::memcpy(out[1].levels[0].data() + 8 * (3 * 35 + 30), &nan, 2);
+    std::memcpy(out[1].levels[0].edit().data() + 8 * (3 * 35 + 30), &nan, 2);
   };
   const PortJudgement j = judged(port);
   const OutputJudgement& normal = pass_of(j, "surface_hit").cases.at(1).outputs.at(1);
@@ -137,7 +137,7 @@ TEST(SurfaceHit, StepsThatNoMarchHasFail) {
   for (const float steps : {-7.0f, 1e30f, std::numeric_limits<float>::infinity()}) {
     MiniPort port("puddle-corrected");
     port.after = [&](const PassCase& c, std::vector<Array>& out) {
-      if (c.folder() == "puddle.surface_hit/0012.0") std::memcpy(out[0].levels[0].data() + 16 * (3 * 35 + 30) + 12, &steps, 4);
+      if (c.folder() == "puddle.surface_hit/0012.0") std::memcpy(out[0].levels[0].edit().data() + 16 * (3 * 35 + 30) + 12, &steps, 4);
     };
     const PortJudgement j = judged(port);
     EXPECT_EQ(j.first_bad_pass, "surface_hit") << steps << why(j);
@@ -174,7 +174,7 @@ TEST(Outputs, QuantitiesAddUp) {
       for (std::size_t o = 0; o < out.size(); ++o)
         for (std::size_t i = 0; i < out[o].levels[0].size(); i += 97) {
           const bool is_id = c.outputs[o].judge == capture::Judge::keyed;
-          if (!is_id) out[o].levels[0][i] ^= std::byte{0x55};
+          if (!is_id) out[o].levels[0].edit()[i] ^= std::byte{0x55};
         }
     };
     const PortJudgement j = judged(port);
@@ -382,7 +382,7 @@ TEST(Validate, ACauseIsSoughtOfAWarningToo) {
     for (std::size_t at = 0; at < out[0].levels[0].size(); at += 2) {
       std::uint16_t bits;
       std::memcpy(&bits, &out[0].levels[0][at], 2);
-      if ((bits & 0x7c00u) == 0) std::memset(&out[0].levels[0][at], 0, 2);
+      if ((bits & 0x7c00u) == 0) std::memset(&out[0].levels[0].edit()[at], 0, 2);
     }
   };
   ValidateOptions options;

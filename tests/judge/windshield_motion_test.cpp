@@ -89,7 +89,7 @@ class SharedFilm : public testing::Test {
     for (capture::CaseInput& input : c.inputs) {
       if (input.name == "drops") input.array = with_records(input.array, bytes_of(all));
       if (input.name == "film") {
-        auto* texels = reinterpret_cast<float*>(input.array.levels[0].data());
+        auto* texels = reinterpret_cast<float*>(input.array.levels[0].edit().data());
         std::fill(texels, texels + input.array.width * input.array.height, water);
       }
     }

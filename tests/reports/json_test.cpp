@@ -236,8 +236,8 @@ TEST(ReportJson, TheDocumentNamesEveryKeyAndNoOther) {
   const capture::Pack pack(small_pack("puddle-corrected"));
   write_port(pack, folder.path(), [](const capture::PackCase& c, const std::string&, capture::Array& a) {
     if (c.pass == "shade") flip_rows(a);
-    if (c.pass == "raindrops") a.levels[0][1] ^= std::byte{1};
-    if (c.pass == "wave_step") a.levels[0][1] = std::byte{0x7e};
+    if (c.pass == "raindrops") a.levels[0].edit()[1] ^= std::byte{1};
+    if (c.pass == "wave_step") a.levels[0].edit()[1] = std::byte{0x7e};
   });
   std::filesystem::remove(folder / "puddle.display/0012.0/out.picture.npy");
   put(folder / "port.json", R"({"api": "Vulkan", "device": "none", "driver": "1"})");

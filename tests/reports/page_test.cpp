@@ -111,9 +111,9 @@ TEST_F(ReportPage, OpensOnWhatFailsWorst) {
   write_port(pack, folder.path(), [](const capture::PackCase& c, const std::string& name, Array& a) {
     if (c.id != "puddle.surface_hit/0012.0") return;
     const float y = 0.1f;
-    if (name == "hit") std::memcpy(&a.levels[0][16 * 40 + 4], &y, 4);
+    if (name == "hit") std::memcpy(&a.levels[0].edit()[16 * 40 + 4], &y, 4);
     if (name == "normal")
-      for (std::size_t at = 4; at < a.levels[0].size(); at += 8) a.levels[0][at + 1] ^= std::byte{0x80};
+      for (std::size_t at = 4; at < a.levels[0].size(); at += 8) a.levels[0].edit()[at + 1] ^= std::byte{0x80};
   });
   const std::string text = page(pack, folder.path());
   const Json judgement = part(text, "judgement"), worst = judgement["passes"][2]["worst"], shown = part(text, "buffers")["passes"][2];
@@ -140,7 +140,7 @@ TEST_F(ReportPage, ListsHaveRowsOfFields) {
   const TemporaryFolder folder;
   const capture::Pack pack(small_pack("windshield-corrected"));
   write_port(pack, folder.path(), [](const capture::PackCase& c, const std::string&, Array& a) {
-    if (c.id == "windshield.integrate/0012.0") a.levels[0][6] ^= std::byte{0x10};  // of the first drop's position
+    if (c.id == "windshield.integrate/0012.0") a.levels[0].edit()[6] ^= std::byte{0x10};  // of the first drop's position
   });
   const std::string text = page(pack, folder.path());
   const Json passes = part(text, "judgement")["passes"];

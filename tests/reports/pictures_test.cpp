@@ -31,7 +31,7 @@ Array array_of(Format format, int width, int height) {
 template <class T>
 void set(Array& a, int x, int y, int channel, T value) {
   const FormatInfo& f = info(a.format);
-  std::memcpy(a.levels[0].data() + static_cast<std::size_t>((y * a.width + x) * f.texel_bytes() + channel * f.channel_bytes), &value,
+  std::memcpy(a.levels[0].edit().data() + static_cast<std::size_t>((y * a.width + x) * f.texel_bytes() + channel * f.channel_bytes), &value,
               sizeof value);
 }
 

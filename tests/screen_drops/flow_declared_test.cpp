@@ -148,7 +148,8 @@ TEST(FlowDeclared, EvaluationsGiveWhatThePassesGave) {
       const auto& stored = o.array.levels.at(0);
       if (o.name == "drops") {
         ASSERT_GT(o.array.width, 50);
-        const std::vector<std::byte> again = model ? *model->keyed("drops")->reference() : evaluation->recompute(c).at(0).levels.at(0);
+        const std::vector<std::byte> again =
+            model ? *model->keyed("drops")->reference() : evaluation->recompute(c).at(0).levels.at(0).all();
         EXPECT_EQ(by_id(again), by_id(stored)) << c.folder();
         ++lists;
         continue;

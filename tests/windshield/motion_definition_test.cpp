@@ -85,7 +85,7 @@ capture::CaseInput& input(capture::PassCase& c, const char* name) {
 /// The first record of an input once more behind the last.
 capture::PassCase with_one_twice(capture::PassCase c, const char* name) {
   capture::Array& list = input(c, name).array;
-  std::vector<std::byte>& bytes = list.levels.at(0);
+  std::vector<std::byte>& bytes = list.levels.at(0).edit();
   const std::vector<std::byte> first(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(list.record.size));
   bytes.insert(bytes.end(), first.begin(), first.end());
   ++list.width;
@@ -114,7 +114,7 @@ TEST(MotionDefinition, WhatIsNotAsDeclaredIsRefused) {
     capture::PassCase c = cases_of(true, pass, "", 1).at(0);
     capture::Array& film = input(c, "film").array;
     film.width -= 1;
-    film.levels[0].resize(static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height) * sizeof(float));
+    film.levels[0].edit().resize(static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height) * sizeof(float));
     EXPECT_NE(refusal(c).find("in.film: expected r32f 89x53, found r32f 88x53"), std::string::npos) << refusal(c);
   }
 }
