@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "judge/alternatives.h"
 #include "judge/beyond.h"
 #include "judge/failures.h"
+#include "judge/part.h"
 #include "judge/quantities.h"
 #include "judge/sample.h"
 #include "judge/second_tier.h"
@@ -27,20 +29,8 @@ using capture::PassModel;
 using enclosed::CodeRange;
 using enclosed::Enclosure;
 
-constexpr std::uint8_t beyond_mark = 4;  // of OutputJudgement::map, until the whole case is known
-
-/// Counts of some rows under one rounding.
-struct Part {
-  CaseJudgement counts;
-  std::vector<Widths> widths;                          // of each output
-  std::vector<std::vector<std::uint32_t>> rearranged;  // widths of the sampled invocations
-  // What fails only where there is much of it.
-  struct Gross {
-    std::vector<Failure> worst;
-    Widths farthest;
-  };
-  std::vector<Gross> beyond;  // of each output
-};
+/// Where so many sampled invocations fail under every rounding, the rest would say no more: the search for causes looks at no more.
+constexpr std::int64_t enough_failing = 400;
 
 class CaseJudge {
  public:
@@ -62,33 +52,28 @@ class CaseJudge {
   }
 
   std::vector<CaseJudgement> run() {
-    short_cuts_.prepare(sample_);
-    constexpr int rows = 4;
-    const int tiles = (model_.height() + rows - 1) / rows;
-    std::vector<std::vector<Part>> parts(static_cast<std::size_t>(tiles), std::vector<Part>(modes_.size(), empty_part()));
-    std::vector<CaseJudgement> whole(modes_.size(), empty_part().counts);
+    short_cuts_.find_rounding(sample_);
+    std::vector<CaseJudgement> whole(modes_.size(), Part(case_).counts);
     for (CaseJudgement& j : whole)
       for (OutputJudgement& o : j.outputs) o.map.assign(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
-    options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
-      Scratch scratch(short_cuts_, SecondTier(slots_, model_, *options_.profile),
-                      SecondTier(slots_, model_, options_.typical ? *options_.typical : *options_.profile));
-      if (options_.typical) scratch.coarse.emplace(slots_, model_, *options_.profile);
-      for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x) invocation(x, y, scratch, parts[static_cast<std::size_t>(tile.y0 / rows)], whole);
-    });
+    std::vector<std::vector<Part>> parts;
+    if (!sample_.is_whole()) judge_sample(parts, whole);
+    const bool is_enough = fails_enough(parts);
+    if (is_enough) {
+      leave_rest(whole);
+    } else {
+      short_cuts_.prepare(sample_);
+      judge_rest(parts, whole);
+    }
     for (std::size_t m = 0; m < modes_.size(); ++m) {
-      std::vector<Widths> widths(case_.outputs.size());
-      std::vector<std::vector<std::uint32_t>> rearranged(case_.outputs.size());
-      std::vector<Part::Gross> beyond(case_.outputs.size());
-      for (std::vector<Part>& tile : parts) add(whole[m], tile[m], widths, rearranged, beyond);
-      settle_beyond(whole[m], widths, beyond);
-      for (std::size_t o = 0; o < widths.size(); ++o) {
-        OutputJudgement& out = whole[m].outputs[o];
-        widths[o].summarize(out);
-        if (rearranged[o].empty()) continue;
-        out.rearranged_median_width = quantile(rearranged[o], 0.5);
-        out.rearranged_p99_width = quantile(rearranged[o], 0.99);
-      }
+      Part sum(case_);
+      for (std::size_t o = 0; o < sum.counts.outputs.size(); ++o) sum.counts.outputs[o].map = std::move(whole[m].outputs[o].map);
+      for (const std::vector<Part>& part : parts) sum.add(part[m]);
+      needs_all_ |= !sample_.is_whole() && !is_enough && sum.may_be_gross() != sum.is_gross();
+      sum.settle_beyond();
+      sum.summarize();
+      whole[m] = std::move(sum.counts);
+      whole[m].is_of_sample = is_enough;
       whole[m].with_bits = short_cuts_.counted(m);
       whole[m].stride = sample_.stride();
       whole[m].unbounded_margin = sample_.margin(static_cast<double>(std::count(free_.begin(), free_.end(), 0)));
@@ -111,31 +96,59 @@ class CaseJudge {
     std::optional<Beyond> coarse;  ///< where devices are known
     ShortCuts::Work short_cut;
 
-    Scratch(const ShortCuts& short_cuts, const SecondTier& tier, const SecondTier& other)
-        : second(tier), other_second(other), short_cut(short_cuts) {}
+    explicit Scratch(const CaseJudge& of)
+        : second(of.slots_, of.model_, *of.options_.profile),
+          other_second(of.slots_, of.model_, of.options_.typical ? *of.options_.typical : *of.options_.profile),
+          short_cut(of.short_cuts_) {
+      if (of.options_.typical) coarse.emplace(of.slots_, of.model_, *of.options_.profile);
+    }
   };
 
-  Part empty_part() const {
-    Part p;
-    p.counts.id = case_.folder();
-    for (const capture::CaseOutput& out : case_.outputs) {
-      OutputJudgement o;
-      o.name = out.name;
-      o.format = out.array.format;
-      o.records = out.array.is_records;
-      o.counted = o.records ? Counted::fields : Counted::values;
-      o.width = out.array.width;
-      o.height = out.array.height;
-      p.counts.outputs.push_back(o);
-      p.widths.emplace_back();
-      p.rearranged.emplace_back();
-      p.beyond.emplace_back();
+  /// Judges the invocations of the sample, so many at a time.
+  void judge_sample(std::vector<std::vector<Part>>& parts, std::vector<CaseJudgement>& whole) const {
+    constexpr std::int64_t strata = 64;
+    parts.assign(static_cast<std::size_t>((sample_.size() + strata - 1) / strata), std::vector<Part>(modes_.size(), Part(case_)));
+    options_.executor->for_range(static_cast<std::int64_t>(parts.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+      Scratch s(*this);
+      for (std::int64_t k = begin; k < end; ++k)
+        sample_.each_of(k * strata, std::min((k + 1) * strata, sample_.size()),
+                        [&](int x, int y) { invocation(x, y, true, s, parts[static_cast<std::size_t>(k)], whole); });
+    });
+  }
+  /// Judges what is not in the sample; where that is whole, everything.
+  void judge_rest(std::vector<std::vector<Part>>& parts, std::vector<CaseJudgement>& whole) const {
+    constexpr int rows = 4;
+    const std::size_t before = parts.size();
+    parts.resize(before + static_cast<std::size_t>((model_.height() + rows - 1) / rows), std::vector<Part>(modes_.size(), Part(case_)));
+    options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
+      Scratch s(*this);
+      std::vector<Part>& part = parts[before + static_cast<std::size_t>(tile.y0 / rows)];
+      for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+          if (sample_.is_whole() || !sample_.has(x, y)) invocation(x, y, sample_.is_whole(), s, part, whole);
+    });
+  }
+  /// Whether the sample fails so much, by each rounding that is tried, that nothing hangs on the rest.
+  bool fails_enough(const std::vector<std::vector<Part>>& sampled) const {
+    for (std::size_t m = 0; m < modes_.size(); ++m) {
+      std::int64_t failing = 0;
+      for (const std::vector<Part>& part : sampled) failing += part[m].counts.failing;
+      if (failing < enough_failing) return false;
     }
-    return p;
+    return true;
+  }
+  /// Marks what is not in the sample.
+  void leave_rest(std::vector<CaseJudgement>& whole) const {
+    std::set<int> outputs;
+    for (const Slot& slot : slots_) outputs.insert(slot.output);
+    for (int y = 0; y < model_.height(); ++y)
+      for (int x = 0; x < model_.width(); ++x)
+        for (std::size_t k = 0; !sample_.has(x, y) && k < whole.size(); ++k)
+          for (const int o : outputs) mark(whole[k], o, x, y, OutputJudgement::not_judged);
   }
 
-  void invocation(int x, int y, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
-    s.is_sampled = sample_.has(x, y);
+  void invocation(int x, int y, bool is_sampled, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
+    s.is_sampled = is_sampled;
     if (!s.is_sampled && short_cuts_.lies_inside(x, y, s.stored, s.short_cut)) {
       for (std::size_t m = 0; m < modes_.size(); ++m) without_envelope(x, y, parts[m], whole[m], s.short_cut.is_held[m]);
       return;
@@ -397,66 +410,11 @@ class CaseJudge {
       if (!s.coarse->is_beyond(v)) continue;
       const std::size_t o = static_cast<std::size_t>(slots_[v].output);
       ++counts.outputs[o].beyond;
-      mark(whole, slots_[v].output, x, y, beyond_mark);
+      mark(whole, slots_[v].output, x, y, Part::beyond_mark);
       Part::Gross& to = part.beyond[o];
       to.worst.push_back(failure(x, y, v, &s.coarse->codes(v)));
       to.farthest.add_failing(slots_[v].channel, value_distance(slots_[v].kind, to.worst.back()));
       if (to.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(to.worst);
-    }
-  }
-
-  /// Lets what is beyond every device fail where there is much of it; else it stays a warning.
-  void settle_beyond(CaseJudgement& j, std::vector<Widths>& widths, const std::vector<Part::Gross>& beyond) {
-    std::int64_t count = 0, open = 0, most_open = 0;
-    for (const OutputJudgement& o : j.outputs) count += o.beyond, open += o.open, most_open += o.elements - o.free;
-    const bool fails = is_gross(count, open);
-    needs_all_ |= !sample_.is_whole() && fails != is_gross(count, most_open);
-    if (fails) {
-      j.failing += j.beyond;
-    } else {
-      if (j.undecided > 0) j.undecided += j.beyond;
-      j.beyond = 0;
-    }
-    for (std::size_t o = 0; o < j.outputs.size(); ++o) {
-      OutputJudgement& out = j.outputs[o];
-      for (std::uint8_t& texel : out.map)
-        if (texel == beyond_mark) texel = fails ? 3 : 2;
-      if (!fails) continue;
-      out.failing += out.beyond;
-      out.atypical = std::max<std::int64_t>(0, out.atypical - out.beyond);
-      out.worst.insert(out.worst.end(), beyond[o].worst.begin(), beyond[o].worst.end());
-      keep_worst(out.worst);
-      widths[o].append(beyond[o].farthest);
-    }
-  }
-
-  static void add(CaseJudgement& whole, const Part& part, std::vector<Widths>& widths, std::vector<std::vector<std::uint32_t>>& rearranged,
-                  std::vector<Part::Gross>& beyond) {
-    whole.invocations += part.counts.invocations;
-    whole.failing += part.counts.failing;
-    whole.ambiguous += part.counts.ambiguous;
-    whole.other_branch += part.counts.other_branch;
-    whole.gave_up += part.counts.gave_up;
-    whole.rearranged += part.counts.rearranged;
-    whole.rearranged_distance = std::max(whole.rearranged_distance, part.counts.rearranged_distance);
-    whole.expanded += part.counts.expanded;
-    whole.beyond += part.counts.beyond;
-    whole.undecided += part.counts.undecided;
-    for (std::size_t o = 0; o < whole.outputs.size(); ++o) {
-      OutputJudgement& to = whole.outputs[o];
-      const OutputJudgement& from = part.counts.outputs[o];
-      for (auto counter : {&OutputJudgement::elements, &OutputJudgement::failing, &OutputJudgement::differing, &OutputJudgement::vacuous,
-                           &OutputJudgement::loose, &OutputJudgement::atypical, &OutputJudgement::typical, &OutputJudgement::unbounded,
-                           &OutputJudgement::rearranged, &OutputJudgement::free, &OutputJudgement::open, &OutputJudgement::beyond,
-                           &OutputJudgement::unsampled})
-        to.*counter += from.*counter;
-      to.worst.insert(to.worst.end(), from.worst.begin(), from.worst.end());
-      keep_worst(to.worst);
-      widths[o].append(part.widths[o]);
-      rearranged[o].insert(rearranged[o].end(), part.rearranged[o].begin(), part.rearranged[o].end());
-      beyond[o].worst.insert(beyond[o].worst.end(), part.beyond[o].worst.begin(), part.beyond[o].worst.end());
-      keep_worst(beyond[o].worst);
-      beyond[o].farthest.append(part.beyond[o].farthest);
     }
   }
 

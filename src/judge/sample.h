@@ -44,6 +44,12 @@ class Sample {
     for (std::int64_t k = 0; k * stride_ < count_; k += step)
       if (const std::int64_t at = drawn(k); at < count_) visit(static_cast<int>(at % width_), static_cast<int>(at / width_));
   }
+  /// The same with those of some strata, `first` to `end` - 1; there are size() of them.
+  template <class Visit>
+  void each_of(std::int64_t first, std::int64_t end, Visit visit) const {
+    for (std::int64_t k = first; k < end; ++k)
+      if (const std::int64_t at = drawn(k); at < count_) visit(static_cast<int>(at % width_), static_cast<int>(at / width_));
+  }
   /// stride() times what the sample counts, at most `values` of an invocation, lies on either side no farther from the count over all
   /// invocations than this, but once in 2^40 cases. 0 of a whole sample.
   double margin(double values) const;

@@ -36,8 +36,10 @@ void ShortCuts::count(const Sample& sample) {
   leading_ = counts_[1] > counts_[0] ? 1 : 0;
   if (!bits_.has_reference(leading_)) leading_ = 1 - leading_;
 }
-void ShortCuts::prepare(const Sample& sample) {
+void ShortCuts::find_rounding(const Sample& sample) {
   if (modes_.size() >= 2) count(sample);
+}
+void ShortCuts::prepare(const Sample& sample) {
   if (sample.is_whole()) return;
   bits_.prepare(*options_.executor, leading_, options_.every_rounding);
   std::vector<perturbed::Behaviour> devices = known_devices();

@@ -19,7 +19,10 @@ class ShortCuts {
   /// What is given must outlive it.
   ShortCuts(const capture::PassCase& c, const capture::PassModel& model, const std::vector<capture::Array>& port,
             const JudgeOptions& options, const std::vector<Slot>& slots, const std::vector<HalfMode>& modes);
-  /// Finds the rounding of halves that most of the sample is stored by, and a device that most of it comes from.
+  /// Finds the rounding of halves that most of the sample is stored by. Before all others.
+  void find_rounding(const Sample& sample);
+  /// Computes what the rest is compared with, and finds a device that most of the sample comes from. Before lies_inside() and before any
+  /// Work.
   void prepare(const Sample& sample);
   /// How many of some hundreds of sampled invocations lie inside by a rounding of halves, as far as short cuts tell.
   std::int64_t counted(std::size_t mode) const { return mode < counts_.size() ? counts_[mode] : 0; }

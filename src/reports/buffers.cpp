@@ -134,7 +134,8 @@ Json shown_json(const Shown& shown, const OutputBuffers& buffers, std::size_t& b
   }
   out["is_left_out"] = budget == 0 && !o.map.empty();
   out["verdicts"] = Json::array();
-  for (int verdict = 0; verdict < 4; ++verdict) out["verdicts"].push_back(std::count(o.map.begin(), o.map.end(), verdict));
+  for (int verdict = 0; verdict <= OutputJudgement::not_judged; ++verdict)
+    out["verdicts"].push_back(std::count(o.map.begin(), o.map.end(), verdict));
   out["views"] = Json::array();
   if (budget == 0) return out;
   for (const View& v : views_of(o, buffers.expected, buffers.port)) {
@@ -167,7 +168,7 @@ std::string buffers_json(const PortJudgement& j, const PageSource& source) {
   }
   Json out{{"picture_budget", picture_budget},
            {"pictured_failures", pictured_failures},
-           {"verdict_colours", {verdict_colour(0), verdict_colour(1), verdict_colour(2), verdict_colour(3)}},
+           {"verdict_colours", {verdict_colour(0), verdict_colour(1), verdict_colour(2), verdict_colour(3), verdict_colour(4)}},
            {"passes", passes}};
   return out.dump(0, ' ', false, Json::error_handler_t::replace);  // a line for each picture, which editors and tools can take
 }

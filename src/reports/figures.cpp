@@ -248,8 +248,12 @@ bool is_broken(const PassJudgement& p) {
 }
 bool has_unknown_cause(const PassJudgement& p) { return p.causes_sought && p.causes.empty() && figures_of(p).outside > 0 && !is_broken(p); }
 
+bool fails_by_sample(const PassJudgement& p) {
+  return std::any_of(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.is_of_sample; });
+}
 std::string sample_text(const PassJudgement& p) {
   const Figures f = figures_of(p);
+  if (fails_by_sample(p)) return "it fails by a sample, and only that was judged (--exhaustive judges all)";
   return f.unsampled == 0 ? ""
                           : fmt::format("widths and shares are those of a sample of {} of {} elements (--exhaustive computes all)",
                                         f.sampled(), f.judged());

@@ -109,7 +109,10 @@ bool is_broken(const judge::PassJudgement& pass);
 /// Whether it fails and nothing says why.
 bool has_unknown_cause(const judge::PassJudgement& pass);
 
-/// "widths and shares are those of a sample of 65536 of 8294400 elements (--exhaustive computes all)"; "" where all were computed.
+/// Whether a run of it fails so much by its sample that the rest was not judged.
+bool fails_by_sample(const judge::PassJudgement& pass);
+/// "widths and shares are those of a sample of 65536 of 8294400 elements (--exhaustive computes all)", and of what fails_by_sample() that
+/// all counts are; "" where all were computed.
 std::string sample_text(const judge::PassJudgement& pass);
 /// How stores to half were found to round, as a sentence; "" where the pass stores no half or the profile settles it.
 std::string half_text(const judge::PassJudgement& pass);

@@ -60,7 +60,7 @@ Json quantity_json(const QuantityJudgement& q) {
           {"p99_width", q.p99_width}, {"farthest", q.farthest}};
 }
 
-/// Pairs of a verdict (0 equal, 1 inside, 2 warned of, 3 outside) and how many texels in a row have it, row 0 first.
+/// Pairs of a verdict (0 equal, 1 inside, 2 warned of, 3 outside, 4 not judged) and how many texels in a row have it, row 0 first.
 Json map_json(const std::vector<std::uint8_t>& map) {
   Json runs = Json::array();
   for (std::size_t begin = 0; begin < map.size();) {
@@ -122,6 +122,7 @@ Json case_json(const CaseJudgement& c) {
            {"other_branch", c.other_branch},
            {"gave_up", c.gave_up},
            {"stride", c.stride},
+           {"is_of_sample", c.is_of_sample},
            {"rearranged", c.rearranged},
            {"rearranged_distance", c.rearranged_distance},
            {"expanded", c.expanded},

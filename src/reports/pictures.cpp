@@ -28,7 +28,7 @@ struct Rgb {
   std::uint8_t r, g, b;
 };
 constexpr Rgb nan_colour{255, 0, 255};
-constexpr std::array<Rgb, 4> verdict_colours{{{0x20, 0x26, 0x2d}, {0x2f, 0x7f, 0xc1}, {0xf2, 0xb1, 0x34}, {0xff, 0x2d, 0x6f}}};
+constexpr std::array<Rgb, 5> verdict_colours{{{0x20, 0x26, 0x2d}, {0x2f, 0x7f, 0xc1}, {0xf2, 0xb1, 0x34}, {0xff, 0x2d, 0x6f}, {0, 0, 0}}};
 
 std::string hex(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
@@ -187,17 +187,18 @@ View view_of(const Display& d, const OutputJudgement& o, const Array& expected, 
       set(got, column, row, shown(b, x, y));
       std::int64_t most = 0;
       bool nan = false;
-      std::uint8_t worst = 0;
+      std::uint8_t worst = OutputJudgement::not_judged;
       for (int j = y; j < std::min(y + v.thinned, v.y0 + v.height); ++j) {
         for (int i = x; i < std::min(x + v.thinned, v.x0 + v.width); ++i) {
           const std::optional<std::int64_t> difference_here = difference(a, b, d.channels, i, j);
           nan |= !difference_here;
           if (difference_here && std::abs(*difference_here) > std::abs(most)) most = *difference_here;
-          worst = std::max(worst, o.map[static_cast<std::size_t>(j) * static_cast<std::size_t>(o.width) + static_cast<std::size_t>(i)]);
+          const std::uint8_t one = o.map[static_cast<std::size_t>(j) * static_cast<std::size_t>(o.width) + static_cast<std::size_t>(i)];
+          if (one != OutputJudgement::not_judged) worst = worst == OutputJudgement::not_judged ? one : std::max(worst, one);
         }
       }
       set(differs, column, row, nan ? nan_colour : difference_rgb(most, largest));
-      set(verdict, column, row, verdict_colours[worst & 3]);
+      set(verdict, column, row, verdict_colours.at(worst));
     }
   }
   v.reference = image_io::png_bytes(reference);
@@ -218,7 +219,7 @@ std::uint64_t largest_difference(const Display& d, const Array& expected, const 
 
 }  // namespace
 
-std::string verdict_colour(int verdict) { return hex(verdict_colours[static_cast<std::size_t>(verdict & 3)]); }
+std::string verdict_colour(int verdict) { return hex(verdict_colours.at(static_cast<std::size_t>(verdict))); }
 std::string difference_colour(std::int64_t codes, std::uint64_t largest) { return hex(difference_rgb(codes, largest)); }
 
 std::vector<View> views_of(const OutputJudgement& o, const capture::CaseOutput& output, const Array& port) {

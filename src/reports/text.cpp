@@ -133,8 +133,8 @@ std::string table_text(const PortJudgement& j, bool is_verbose) {
 }
 
 std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
-  std::string out = fmt::format("  {}/out.{} ({}): {} of {} {} outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements,
-                                element_word(o), share_text(o.failing, o.elements));
+  std::string out = fmt::format("  {}/out.{} ({}): {} of {} {}{} outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements,
+                                c.is_of_sample ? "sampled " : "", element_word(o), share_text(o.failing, o.elements));
   const std::size_t shown = std::min(worst_shown, o.worst.size());
   for (std::size_t k = 0; k < shown; ++k) {
     const FailureText t = failure_text(o, o.worst[k]);
@@ -178,11 +178,11 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
   return out;
 }
 
-/// Passes of which not every envelope was asked.
-std::vector<std::string> sampled_passes(const PortJudgement& j) {
+template <class Is>
+std::vector<std::string> passes_with(const PortJudgement& j, Is is) {
   std::vector<std::string> out;
   for (const PassJudgement& p : j.passes)
-    if (!sample_text(p).empty()) out.push_back(p.pass);
+    if (is(p)) out.push_back(p.pass);
   return out;
 }
 
@@ -196,8 +196,11 @@ std::string report_text(const PortJudgement& j, bool is_verbose) {
   if (!j.files.empty()) out += "\nmissing, or cannot be used:\n";
   for (const judge::FileFault& f : j.files) out += wrapped("  " + f.text, 4);
   for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
-  if (const std::vector<std::string> some = sampled_passes(j); !some.empty())
+  if (const std::vector<std::string> some = passes_with(j, [](const PassJudgement& p) { return figures_of(p).unsampled > 0; });
+      !some.empty())
     out += wrapped(fmt::format("note: widths and shares of {} are those of samples; --exhaustive computes all", fmt::join(some, ", ")), 2);
+  if (const std::vector<std::string> some = passes_with(j, fails_by_sample); !some.empty())
+    out += wrapped(fmt::format("note: {} fail by samples, and only these were judged; --exhaustive judges all", fmt::join(some, ", ")), 2);
   out += fmt::format("\n{}: {} against {}, profile {}", name(j.status), j.port, j.pack, j.profile);
   if (!j.device.empty()) out += fmt::format(", {} {}", j.api, j.device);
   if (const std::string counts = count_text(j); !counts.empty()) out += fmt::format(" ({})", counts);

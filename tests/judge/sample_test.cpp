@@ -90,9 +90,9 @@ TEST(Sample, IsDrawnByThePackAndNotByThePort) {
   };
   Made made(0);
   const auto first = drawn(made);
-  made.port[0].levels[0][5] ^= std::byte{1};
+  made.port[0].levels[0].edit()[5] ^= std::byte{1};
   EXPECT_EQ(drawn(made), first);
-  made.c.outputs[0].array.levels[0][5] ^= std::byte{1};
+  made.c.outputs[0].array.levels[0].edit()[5] ^= std::byte{1};
   EXPECT_NE(drawn(made), first);
 }
 TEST(Sample, RunsShareWhatAPassIsAsked) {
@@ -116,7 +116,7 @@ TEST(Sample, TheMarginHoldsForEveryShare) {
 // ---- shares --------------------------------------------------------------------------------------------------------
 TEST(SampledVerdict, SharesAreThoseOfTheSampleAndWhatDiffersIsAllAsked) {
   Made made(15);
-  for (int k = 0; k < 40; ++k) change_at<float>(made.port[0].levels[0].data() + 4 * (8000 + 97 * k), [](float v) { return v + 1; });
+  for (int k = 0; k < 40; ++k) change_at<float>(made.port[0].levels[0].edit().data() + 4 * (8000 + 97 * k), [](float v) { return v + 1; });
   const CaseJudgement all = made.judged(0), some = made.judged(1000);
   EXPECT_EQ(all.failing, 40);
   EXPECT_EQ(all.stride, 1);
@@ -129,6 +129,45 @@ TEST(SampledVerdict, SharesAreThoseOfTheSampleAndWhatDiffersIsAllAsked) {
   EXPECT_NEAR(static_cast<double>(some.gave_up), static_cast<double>(all.gave_up) / 30, 3) << "strata lie in rows: few hold both kinds";
   EXPECT_EQ(some.outputs[0].vacuous, some.gave_up);
   EXPECT_NEAR(some.outputs[0].median_width, all.outputs[0].median_width, 1);
+}
+// If most of 1000 sampled invocations fail, the rest would say no more. If one in 30 fails, the sample has fewer than the 400 that the
+// search for causes wants, so all is judged.
+TEST(SampledVerdict, WhatFailsMuchIsJudgedByItsSampleAlone) {
+  for (const int every : {1, 2, 30}) {
+    Made made(0);
+    for (int k = 0; k < 30000; k += every) change_at<float>(made.port[0].levels[0].edit().data() + 4 * k, [](float v) { return v + 1; });
+    const CaseJudgement all = made.judged(0), some = made.judged(1000);
+    EXPECT_EQ(some.status, all.status) << every;
+    EXPECT_EQ(all.failing, 30000 / every);
+    EXPECT_FALSE(all.is_of_sample);
+    ASSERT_EQ(some.is_of_sample, every < 30);
+    if (every == 30) {
+      EXPECT_EQ(some.failing, all.failing);
+      continue;
+    }
+    EXPECT_EQ(some.invocations, 1000);
+    EXPECT_EQ(some.outputs[0].elements, 1000);
+    EXPECT_EQ(some.outputs[0].sampled(), 1000);
+    EXPECT_EQ(some.outputs[0].worst.size(), OutputJudgement::max_failures);
+    EXPECT_NEAR(static_cast<double>(some.failing) * 30, static_cast<double>(all.failing), Sample(made.c, *made.model, 1000).margin(1));
+    const Sample sample(made.c, *made.model, 1000);
+    for (int y = 0; y < 150; ++y)
+      for (int x = 0; x < 200; ++x) {
+        const auto at = static_cast<std::size_t>(200 * y + x);
+        EXPECT_EQ(some.outputs[0].map[at], sample.has(x, y) ? all.outputs[0].map[at] : OutputJudgement::not_judged) << x << ' ' << y;
+      }
+  }
+}
+// A port that cuts its halves fails much where they are taken as rounded; it passes, and all of it is judged.
+TEST(SampledVerdict, WhatOneRoundingHoldsIsJudgedWhole) {
+  Made made(0, 200, Format::r16f);
+  made.port[0] = reference_outputs(made.c, *made.model, test_executor(), HalfMode::rtz)[0];
+  const ModeJudgements j = judge_case(made.c, made.model.get(), made.port,
+                                      {&profile("vulkan"), &profile("typical"), &test_executor(), std::nullopt, 1000, true});
+  ASSERT_EQ(j.judgements.size(), 3u);
+  for (const CaseJudgement& one : j.judgements) EXPECT_FALSE(one.is_of_sample);
+  EXPECT_GT(j.judgements[0].failing, 9000) << "two thirds of the thirds are no halves, and half of these round up";
+  EXPECT_EQ(j.judgements[1].failing, 0);
 }
 TEST(SampledVerdict, UntestedIsToldByTheSampleWhereItsMarginAllows) {
   const CaseJudgement bounded = Made(15).judged(1000), open = Made(120).judged(1000);
