@@ -22,10 +22,10 @@ inline scene::Config config_of(const std::string& variant, const std::string& to
 }
 
 /// A scene before the car with structure and no street behind it.
-inline Surroundings small_surroundings() {
-  Surroundings s{Image(Format::rgba16f, 37, 23), Image(Format::r32f, 37, 23)};
-  for (int y = 0; y < 23; ++y) {
-    for (int x = 0; x < 37; ++x) {
+inline Surroundings small_surroundings(int width = 37, int height = 23) {
+  Surroundings s{Image(Format::rgba16f, width, height), Image(Format::r32f, width, height)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 4; ++c)
         s.colour.row<Half>(y)[4 * x + c] =
             Half{static_cast<std::uint16_t>(c == 3 ? 0x3c00 : 0x3000 + 64 * ((7 * x + 13 * y + 5 * c) % 17))};
