@@ -25,35 +25,9 @@ TEST(DropsParameters, AreSoundForTwoEffects) {
   for (const std::string prefix : {"windshield", "screen_drops"}) {
     scene::validate(parameters(prefix), variants);
     EXPECT_EQ(settings(prefix, "corrected", {prefix + ".capacity=77", "rain.rate=12"}).capacity, 77);
+    EXPECT_EQ(settings(prefix, "corrected", {}).seed, 5u);
+    EXPECT_EQ(settings(prefix, "as-published", {}).lifetime, 6);
   }
-}
-
-TEST(DropsParameters, DefaultsAreThoseOfTheSettings) {
-  const Settings s = settings("windshield", "corrected", {}), d;
-  EXPECT_TRUE(s.corrected);
-  EXPECT_EQ(s.seed, 5u);
-  EXPECT_EQ(s.capacity, d.capacity);
-  EXPECT_EQ(s.lifetime, d.lifetime);
-  EXPECT_EQ(s.rain_rate, d.rain_rate);
-  EXPECT_EQ(s.smallest_drop, d.smallest_drop);
-  EXPECT_EQ(s.advancing_deg, d.advancing_deg);
-  EXPECT_EQ(s.receding_deg, d.receding_deg);
-  EXPECT_EQ(s.wind_exposure, d.wind_exposure);
-  EXPECT_EQ(s.wind_drag, d.wind_drag);
-  EXPECT_EQ(s.mobility, d.mobility);
-  EXPECT_EQ(s.humidity, d.humidity);
-  EXPECT_EQ(s.margin, d.margin);
-  EXPECT_EQ(s.trail_thickness, d.trail_thickness);
-  EXPECT_EQ(s.film_drying, d.film_drying);
-  const Settings p = settings("windshield", "as-published", {});
-  EXPECT_FALSE(p.corrected);
-  EXPECT_EQ(p.lifetime, 6);
-  EXPECT_EQ(p.spawn_rate, d.spawn_rate);
-  EXPECT_EQ(p.mass_min, d.mass_min);
-  EXPECT_EQ(p.mass_max, d.mass_max);
-  EXPECT_EQ(p.inertia_coupling, d.inertia_coupling);
-  EXPECT_EQ(p.wind_coupling, d.wind_coupling);
-  EXPECT_EQ(p.drag, d.drag);
 }
 
 TEST(DropsParameters, OfAStillGlassAreCorrectedsWithoutTheWindAlongIt) {

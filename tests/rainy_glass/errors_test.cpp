@@ -4,7 +4,6 @@
 #include "image/flipped.h"
 #include "image/images.h"
 #include "rainy_glass/backdrop.h"
-#include "rainy_glass/info.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/support.h"
 #include "scene/test_card.h"
@@ -183,17 +182,5 @@ TEST(RainyGlassBackdrop, HasBarsBeforeAndAStreetBehind) {
   EXPECT_NEAR(sum, 100, 1e-3);
   EXPECT_NEAR(lit, test::pi * 6.5 * 6.5, 6);
 }
-TEST(RainyGlassInfo, DeclaresEveryPassAndBuffer) {
-  const capture::EffectInfo& info = effect_info();
-  EXPECT_EQ(info.pass_names("corrected"), (std::vector<std::string>{"bake_raindrops", "bake_rivulets", "rain_on_glass", "display"}));
-  for (const auto& pass : info.passes) {
-    for (const char* variant : {"as-published", "corrected"}) {
-      EXPECT_NO_THROW(scene::validate(pass.block(variant)));
-      for (const auto& b : pass.writes) EXPECT_NO_THROW(info.buffer(b, variant));
-    }
-  }
-  for (const auto& r : info.records) EXPECT_NO_THROW(scene::validate_record(r));
-}
-
 }  // namespace
 }  // namespace rainref::rainy_glass
