@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error_of.h"
+#include "config_of.h"
 #include "drops/settings.h"
 #include "rainref/error.h"
-#include "scene/effect_table.h"
-#include "scene/toml.h"
 
 namespace rainref::drops {
 namespace {
@@ -13,9 +12,7 @@ namespace {
 const std::vector<std::string> variants{"as-published", "corrected"};
 
 Settings settings(const std::string& prefix, const std::string& variant, const std::vector<std::string>& values) {
-  const std::vector<scene::Parameter> all = parameters(prefix);
-  const scene::EffectTable table{{{prefix, variants, all}}};
-  return settings_from(scene::parse("effect = '" + prefix + "'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table), prefix);
+  return settings_from(rainref::test::config_of(prefix, parameters(prefix), variant, "seed = 5\n", values), prefix);
 }
 std::string refusal(const std::string& variant, const std::vector<std::string>& values) {
   return error_of([&] { settings("windshield", variant, values); });
@@ -37,10 +34,7 @@ TEST(DropsParameters, OfAStillGlassAreCorrectedsWithoutTheWindAlongIt) {
     EXPECT_FALSE(p.used_by("as-published")) << p.key;
     EXPECT_EQ(p.key.find("wind"), std::string::npos) << p.key;
   }
-  const scene::EffectTable table{{{"pane", variants, all}}};
-  const Settings s = still_settings_from(
-                     scene::parse("effect = 'pane'\nvariant = 'corrected'\nseed = 5\n", "scene", {"pane.mobility=0.5"}, table), "pane"),
-                 d;
+  const Settings s = still_settings_from(rainref::test::config_of("pane", all, "corrected", "", {"pane.mobility=0.5"}), "pane"), d;
   EXPECT_EQ(s.lifetime, d.lifetime);  // that of corrected
   EXPECT_EQ(s.mobility, 0.5);
   EXPECT_EQ(s.wind_drag, 0);

@@ -1,9 +1,9 @@
 // What splat declares: scene keys behind a prefix, uniforms.
 #include <gtest/gtest.h>
 
+#include "config_of.h"
 #include "drops/splat/splat.h"
 #include "rainref/error.h"
-#include "scene/toml.h"
 
 namespace rainref {
 namespace {
@@ -13,8 +13,7 @@ const std::vector<scene::Parameter>& keys() {
   return all;
 }
 scene::Config config(const std::string& variant, const std::vector<std::string>& values) {
-  static const scene::EffectTable table{{{"pane", {"as-published", "corrected"}, keys()}}};
-  return scene::parse("effect = 'pane'\nvariant = '" + variant + "'\n", "test", values, table);
+  return test::config_of("pane", keys(), variant, "", values);
 }
 
 TEST(SplatDeclared, ScenesSetWhatTheVariantUses) {

@@ -37,14 +37,8 @@ std::vector<PassCase> cases_of(const Settings& s, int frames) {
     for (int frame = 0; frame < frames; ++frame) puddle.next_frame(&recorder);
   });
 }
-Settings settings_of(Variant variant) {
-  for (const GoldenScene& scene : golden_scenes()) {
-    if (scene.settings.variant == variant) return scene.settings;
-  }
-  return {};
-}
 Settings small(Variant variant) {
-  Settings s = settings_of(variant);
+  Settings s = golden::named(golden_scenes(), fmt::format("puddle/{}/rg16f", name(variant))).settings();
   s.width = 19;
   s.height = 11;
   s.grid = {17, 13};

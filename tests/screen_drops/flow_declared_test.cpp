@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error_of.h"
+#include "config_of.h"
 #include "rainref/error.h"
-#include "scene/effect_table.h"
-#include "scene/toml.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/flow_support.h"
 
@@ -20,10 +19,8 @@ using testing::StartsWith;
 const std::vector<std::string> variants{"as-published", "corrected"};
 
 FlowSettings settings_of(const std::vector<std::string>& values, const std::string& variant = "corrected") {
-  const std::vector<scene::Parameter> all = flow_parameters();
-  const scene::EffectTable table{{{"screen_drops", variants, all}}};
-  return flow_settings(scene::parse("effect = 'screen_drops'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table),
-                       {0.5, 0.25}, Rounding::rtz);
+  return flow_settings(rainref::test::config_of("screen_drops", flow_parameters(), variant, "seed = 5\n", values), {0.5, 0.25},
+                       Rounding::rtz);
 }
 std::string refusal(const std::vector<std::string>& values, const std::string& variant = "corrected") {
   return error_of([&] { settings_of(values, variant); });

@@ -6,19 +6,17 @@
 
 #include <fmt/format.h>
 
+#include "config_of.h"
 #include "golden/lines.h"
 #include "rainref/executor.h"
 #include "rainref/windshield.h"
-#include "scene/effect_table.h"
-#include "scene/toml.h"
 #include "windshield/parameters.h"
 
 namespace rainref::windshield {
 
 /// A scene of this effect from its text, the lines `effect` and `variant` aside.
 inline scene::Config config_of(const std::string& variant, const std::string& toml) {
-  const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, parameters()}}};
-  return scene::parse("effect = 'windshield'\nvariant = '" + variant + "'\n" + toml, "test.toml", {}, table);
+  return rainref::test::config_of("windshield", parameters(), variant, toml);
 }
 
 /// A scene before the car with structure and no street behind it.

@@ -1,8 +1,8 @@
 // The scene keys of wipe_texture and normals, and the host's values.
 #include <gtest/gtest.h>
 
+#include "config_of.h"
 #include "rainref/error.h"
-#include "scene/toml.h"
 #include "windshield/info.h"
 #include "windshield/parameters.h"
 
@@ -10,8 +10,7 @@ namespace rainref::windshield {
 namespace {
 
 Settings read(const std::string& variant, const std::vector<std::string>& values) {
-  const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, parameters()}}};
-  return settings_from(scene::parse("effect = 'windshield'\nvariant = '" + variant + "'\n", "test", values, table));
+  return settings_from(rainref::test::config_of("windshield", parameters(), variant, "", values));
 }
 
 TEST(SurfaceDeclared, ScenesSetWhatTheVariantUses) {
