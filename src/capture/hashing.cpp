@@ -27,25 +27,6 @@ Hash128 hash_of(const BufferView& buffer) {
   return hasher.finish();
 }
 
-std::vector<TileHash> tile_hashes(const BufferView& buffer, int side) {
-  std::vector<TileHash> out;
-  const std::size_t texel = static_cast<std::size_t>(info(buffer.format).texel_bytes());
-  std::vector<std::byte> row(buffer.row_bytes());
-  const int columns = (buffer.width() + side - 1) / side;
-  for (int y0 = 0; y0 < buffer.height(); y0 += side) {
-    std::vector<Hasher> hashers(static_cast<std::size_t>(columns));
-    for (int y = y0; y < std::min(buffer.height(), y0 + side); ++y) {
-      buffer.copy_row(y, row.data());
-      for (int c = 0; c < columns; ++c) {
-        const int x0 = c * side, x1 = std::min(buffer.width(), x0 + side);
-        hashers[static_cast<std::size_t>(c)].add(std::span(row).subspan(x0 * texel, (x1 - x0) * texel));
-      }
-    }
-    for (int c = 0; c < columns; ++c) out.push_back({c * side, y0, hashers[static_cast<std::size_t>(c)].finish()});
-  }
-  return out;
-}
-
 std::string HashLine::text() const { return fmt::format("{} {} {} {}", frame, pass, buffer, hash.text()); }
 
 void HashRecorder::pass(const PassCall& call) {

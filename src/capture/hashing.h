@@ -14,13 +14,6 @@ namespace rainref::capture {
 /// XXH3-128 of the canonical bytes: rows top down without padding.
 Hash128 hash_of(const BufferView& buffer);
 
-struct TileHash {
-  int x, y;  ///< the tile's first texel
-  Hash128 hash;
-};
-/// The hash of each tile of `side` x `side` texels, row by row, so that a difference can be placed.
-std::vector<TileHash> tile_hashes(const BufferView& buffer, int side = 64);
-
 /// "1 wave_step wave 0123...": one line for each frame, pass and buffer. Substeps of a frame run into one hash.
 struct HashLine {
   int frame;

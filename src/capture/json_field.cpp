@@ -1,6 +1,7 @@
 #include "capture/json_field.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,6 +23,8 @@ std::string shown(const Json& value) {
   return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
+constexpr std::size_t longest_word = 80;  // that anybody may have meant as one of ours
+
 }  // namespace
 
 void JsonField::refuse(const std::string& message) const {
@@ -37,7 +40,10 @@ bool JsonField::is_null(std::string_view key) const { return !has(key) || value_
 
 JsonField JsonField::operator[](std::string_view key) const {
   if (!has(key)) refuse(fmt::format("'{}' is missing", key));
-  return {value_.at(std::string(key)), file_, path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key)};
+  return {value_.at(std::string(key)), file_, path_of(key)};
+}
+std::string JsonField::path_of(std::string_view key) const {
+  return fmt::format("{}{}{}", path_, path_.empty() ? "" : ".", key.substr(0, longest_word));
 }
 
 std::vector<JsonField> JsonField::elements() const {
@@ -50,13 +56,32 @@ std::vector<JsonField> JsonField::elements() const {
 std::vector<std::pair<std::string, JsonField>> JsonField::members() const {
   if (!value_.is_object()) fail("an object");
   std::vector<std::pair<std::string, JsonField>> out;
-  for (const auto& [key, value] : value_.items()) out.emplace_back(key, JsonField(value, file_, fmt::format("{}.{}", path_, key)));
+  for (const auto& [key, value] : value_.items()) out.emplace_back(key, JsonField(value, file_, path_of(key)));
   return out;
+}
+
+void JsonField::require_known(std::span<const std::string> keys) const {
+  for (const auto& [key, value] : members()) {
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    if (key.size() > longest_word) refuse(fmt::format("an unknown key of {} bytes", key.size()));
+    const std::string hint = did_you_mean(key, keys);
+    refuse(fmt::format("unknown key '{}'{}", key, hint.empty() ? fmt::format("; known are {}", fmt::join(keys, ", ")) : hint));
+  }
 }
 
 std::string JsonField::text() const {
   if (!value_.is_string()) fail("a text");
   return value_.get<std::string>();
+}
+
+bool JsonField::boolean() const {
+  if (!value_.is_boolean()) fail("true or false");
+  return value_.get<bool>();
+}
+
+std::size_t JsonField::count() const {
+  if (!value_.is_number_unsigned() || !std::in_range<std::size_t>(value_.get<std::uint64_t>())) fail("a whole number, at least 0");
+  return value_.get<std::size_t>();
 }
 
 std::int64_t JsonField::whole(std::int64_t low, std::int64_t high) const {
@@ -80,11 +105,14 @@ std::vector<std::string> JsonField::texts() const {
   return out;
 }
 
-int JsonField::one_of(std::span<const std::string> names) const {
+int JsonField::one_of(std::span<const std::string> names, const Hint& hint) const {
   const std::string found = text();
   const auto at = std::find(names.begin(), names.end(), found);
-  if (at == names.end()) refuse(fmt::format("expected one of {}, found '{}'{}", fmt::join(names, ", "), found, did_you_mean(found, names)));
-  return static_cast<int>(at - names.begin());
+  if (at != names.end()) return static_cast<int>(at - names.begin());
+  const std::string expected = fmt::format("one of {}", fmt::join(names, ", "));
+  if (found.size() > longest_word) fail(expected);
+  const std::string meant = hint ? hint(found) : "";
+  refuse(fmt::format("expected {}, found '{}'{}", expected, found, meant.empty() ? did_you_mean(found, names) : meant));
 }
 
 std::string JsonField::dump() const { return value_.dump(-1, ' ', false, Json::error_handler_t::replace); }

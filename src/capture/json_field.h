@@ -1,7 +1,9 @@
 // Values of a JSON file that someone else may have written, checked one by one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,14 +29,21 @@ class JsonField {
   std::vector<JsonField> elements() const;
   /// Members of an object, in order.
   std::vector<std::pair<std::string, JsonField>> members() const;
+  /// Refuses an object with a member that is not among these, naming the nearest one.
+  void require_known(std::span<const std::string> keys) const;
 
   bool is_number() const;
   std::string text() const;
+  bool boolean() const;
+  /// A whole number of 0 or more.
+  std::size_t count() const;
   std::int64_t whole(std::int64_t low, std::int64_t high) const;
   double number() const;
   std::vector<std::string> texts() const;
-  /// The index of the text among these names.
-  int one_of(std::span<const std::string> names) const;
+  /// What to say of a text that is none of the names: "; did you mean 'x'?", or "" where nothing is near.
+  using Hint = std::function<std::string(const std::string& text)>;
+  /// The index of the text among these names. Without a hint, or where it says nothing, the nearest name is suggested.
+  int one_of(std::span<const std::string> names, const Hint& hint = {}) const;
   /// The value as JSON.
   std::string dump() const;
 
@@ -43,6 +52,8 @@ class JsonField {
   [[noreturn]] void refuse(const std::string& message) const;
 
  private:
+  std::string path_of(std::string_view key) const;
+
   const nlohmann::ordered_json& value_;
   std::string file_, path_;
 };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "effect/run_memory.h"
 #include "image/colour.h"
 #include "image/flipped.h"
 #include "image/seam.h"
@@ -62,6 +63,30 @@ Image depth_in(const PictureSource& depth, int frame, double scale, double far, 
   } catch (const Error& e) {
     throw depth.about(e, picture);
   }
+}
+
+ScenePictures::ScenePictures(const scene::Config& config, bool takes_depth, Inputs& files) {
+  if (takes_depth)
+    refuse_unused_sequence(config, {"scene.image", "scene.depth_image"});
+  else
+    refuse_unused_sequence(config, {"scene.image"});
+  const bool has_depth = takes_depth && is_named(config, "scene.depth_image");
+  if (is_named(config, "scene.image"))
+    colour_.emplace(config, "scene.image", files);
+  else if (has_depth)
+    throw Error(ExitCode::usage, config.entry("scene.depth_image").origin.at,
+                "scene.depth_image: expected scene.image beside it, found none");
+  if (!has_depth) return;
+  depth_.emplace(config, "scene.depth_image", files, &*colour_);
+  depth_scale_ = config.real("scene.depth_scale");
+}
+
+ScenePictures::Shown ScenePictures::shown_in(int frame) const {
+  return {colour_ ? colour_->shown_in(frame) : 0, depth_ ? depth_->shown_in(frame) : 0};
+}
+Image ScenePictures::colour(int frame, Inputs& files) const { return linear_of(colour_->read(colour_->shown_in(frame), files)); }
+Image ScenePictures::depth(int frame, double far, const Image& colour, Inputs& files) const {
+  return depth_in(*depth_, frame, depth_scale_, far, colour, files);
 }
 
 Image read_tile(const scene::Config& config, const std::string& key, bool needs_alpha, Inputs& inputs) {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "image/colour.h"
-#include "image/floor_of.h"
+#include "math/floor_of.h"
 #include "math/half.h"
 #include "math/unorm.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "image/floor_of.h"
+#include "math/floor_of.h"
 
 namespace rainref::enclosed {
 namespace {

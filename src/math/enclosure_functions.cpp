@@ -5,6 +5,7 @@
 
 #include "math/constants.h"
 #include "math/enclosure.h"
+#include "math/floor_of.h"
 #include "math/other_angles.h"
 
 namespace rainref::enclosed {
@@ -15,8 +16,6 @@ using Single = scalar::Scalar<float>;
 Enclosure point(Single x) { return Enclosure::checked(x.v, x.v); }
 // Whether the reference itself answers.
 bool as_reference(const Enclosure& a) { return profile().reference && a.is_point(); }
-
-double floor_of(double x) { return floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v; }
 
 Enclosure not_negative(const Enclosure& a) { return a.is_vacuous() ? a : Enclosure(std::max(a.lo, 0.0f), a.hi); }
 

@@ -12,14 +12,12 @@
 
 #include <cstdint>
 
+#include "math/floor_of.h"
 #include "math/half.h"
-#include "math/scalar.h"
 
 namespace rainref::fixed_point {
 
 inline constexpr int bits = 8;  ///< of the fraction of a coordinate, of a level and of a weight
-
-inline double floor_of(double x) { return floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v; }
 
 /// u size - 1/2 of a filtered lookup within [low, high], u after the address rule. `in_float`, what arithmetic has for it, stands where the
 /// two are more than a step apart.

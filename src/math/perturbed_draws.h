@@ -4,17 +4,13 @@
 #include <bit>
 #include <cstdint>
 
+#include "base/scramble.h"
 #include "math/perturbed.h"
 
 namespace rainref::perturbed {
 
-/// splitmix64 (Steele, Lea, Flood 2014): draws of the variations only.
-inline std::uint64_t draw() {
-  std::uint64_t z = behaviour().random += 0x9e3779b97f4a7c15u;
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-  return z ^ z >> 31;
-}
+/// splitmix64: draws of the variations only.
+inline std::uint64_t draw() { return scramble(behaviour().random += scramble_step); }
 inline bool coin() { return draw() & 1; }
 /// In [-1, 1), or often an end.
 inline double swing() {

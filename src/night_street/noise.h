@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/scramble.h"
 #include "night_street/vec.h"
 
 namespace rainref::night_street {
@@ -64,28 +65,18 @@ enum class Purpose : std::uint32_t {
   walker_size
 };
 
-/// Bijective 64-bit mixer (the finaliser of SplitMix64).
-inline std::uint64_t scramble(std::uint64_t h) {
-  h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
-  h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
-  return h ^ (h >> 31);
-}
-
 inline std::uint64_t random_bits(std::uint64_t seed, std::uint64_t object, Purpose purpose) {
-  const std::uint64_t salted = seed + 0x9e3779b97f4a7c15u * (static_cast<std::uint64_t>(purpose) + 1);
+  const std::uint64_t salted = seed + scramble_step * (static_cast<std::uint64_t>(purpose) + 1);
   return scramble(scramble(salted) ^ (object * 0xd1342543de82ef95u + 0x632be59bd9b4e019u));
 }
 /// Uniform in [0, 1), a multiple of 2^-53.
 inline double random01(std::uint64_t seed, std::uint64_t object, Purpose purpose) {
   return static_cast<double>(random_bits(seed, object, purpose) >> 11) * 0x1p-53;
 }
-inline double random_in(std::uint64_t seed, std::uint64_t object, Purpose purpose, double low, double high) {
-  return low + (high - low) * random01(seed, object, purpose);
-}
 
 /// One key for a pair of integers, order matters.
 inline std::uint64_t pair_key(std::int64_t a, std::int64_t b) {
-  return static_cast<std::uint64_t>(a) * 0x9e3779b97f4a7c15u ^ scramble(static_cast<std::uint64_t>(b) + 0x7f4a7c15u);
+  return static_cast<std::uint64_t>(a) * scramble_step ^ scramble(static_cast<std::uint64_t>(b) + 0x7f4a7c15u);
 }
 
 /// A field of smooth noise. The salt is mixed once, a lattice point costs one 32-bit hash.

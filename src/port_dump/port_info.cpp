@@ -3,10 +3,11 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "capture/json_field.h"
 #include "capture/json_read.h"
 #include "port_dump/dump_file.h"
-#include "port_dump/json_object.h"
 
 namespace rainref::port_dump {
 
@@ -14,17 +15,20 @@ PortInfo parse_port_info(std::string_view text, const std::string& file) {
   static const std::array<std::string, 8> keys{"api", "device", "driver", "half_store", "flush_denormals", "origin", "precise", "notes"};
   static const std::array<std::string, 3> roundings{"rne", "rtz", "unknown"};
   static const std::array<std::string, 2> origins{"top-left", "bottom-left"};
-  const JsonObject object(text, file, keys);
+  const nlohmann::ordered_json json = capture::parse_json(text, file, capture::small_json);
+  const capture::JsonField object(json, file);
+  object.require_known(keys);
+  const auto text_of = [&](const char* key) { return object.has(key) ? object[key].text() : std::string(); };
   PortInfo out;
-  out.api = object.text("api").value_or("");
-  out.device = object.text("device").value_or("");
-  out.driver = object.text("driver").value_or("");
-  out.notes = object.text("notes").value_or("");
-  const std::size_t rounding = object.choice("half_store", roundings).value_or(2);
+  out.api = text_of("api");
+  out.device = text_of("device");
+  out.driver = text_of("driver");
+  out.notes = text_of("notes");
+  const int rounding = object.has("half_store") ? object["half_store"].one_of(roundings) : 2;
   if (rounding < 2) out.half_store = rounding == 0 ? Rounding::rne : Rounding::rtz;
-  out.flush_denormals = object.boolean("flush_denormals");
-  out.origin = static_cast<Origin>(object.choice("origin", origins).value_or(0));
-  out.precise = object.boolean("precise").value_or(false);
+  if (object.has("flush_denormals")) out.flush_denormals = object["flush_denormals"].boolean();
+  if (object.has("origin")) out.origin = static_cast<Origin>(object["origin"].one_of(origins));
+  out.precise = object.has("precise") && object["precise"].boolean();
   return out;
 }
 

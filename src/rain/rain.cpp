@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
@@ -59,17 +58,6 @@ double DropSizes::density(double diameter_mm) const { return number(diameter_mm)
 
 double DropSizes::in_air(double diameter_mm) const {
   return rate_ == 0 ? 0 : drops_of_no_size / lambda_ * exp_real(Real64(-lambda_ * diameter_mm)).v;
-}
-
-double DropSizes::water_mm_per_h() const {
-  if (rate_ == 0) return 0;
-  const double h = (largest_mm - smallest_) / cells;
-  double volume = 0;  // mm^3 / m^2 / s
-  for (int i = 0; i < cells; ++i) {
-    const double d = smallest_ + (i + 0.5) * h;
-    volume += density(d) * h * (pi / 6 * d * d * d);
-  }
-  return volume * 1e-6 * 3600;
 }
 
 std::vector<double> DropSizes::quantiles(int n) const {

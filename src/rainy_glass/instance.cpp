@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "effect/scene_pictures.h"
 #include "parallel/rows.h"
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
@@ -15,38 +14,18 @@
 namespace rainref::rainy_glass {
 namespace {
 
-Image depth_of(const Instance::Sequences& s, const Image& colour, int frame, effect::Inputs& inputs) {
-  return effect::depth_in(*s.depth, frame, s.depth_scale, backdrop_far, colour, inputs);
-}
-Image colour_of(const Instance::Sequences& sequences, int frame, effect::Inputs& inputs) {
-  return effect::linear_of(sequences.colour.read(sequences.colour.shown_in(frame), inputs));
-}
-
-Surroundings surroundings_of(const scene::Config& config, const Settings& settings, std::optional<Instance::Sequences>& sequences,
+Surroundings surroundings_of(const scene::Config& config, const Settings& settings, const effect::ScenePictures& named,
                              const parallel::Executor& executor, effect::Inputs& inputs) {
   const bool corrected = settings.variant == Variant::corrected;
-  const bool own_scene = !config.text("scene.image").empty();
-  if (!own_scene && corrected && !config.text("scene.depth_image").empty())
-    throw Error(ExitCode::usage, "scene.depth_image: expected scene.image beside it, found none");
-  if (own_scene && corrected && config.text("scene.depth_image").empty())
+  if (named.are_named() && corrected && !named.have_depth())
     throw Error(ExitCode::usage, "scene.depth_image: expected a depth beside scene.image, found none");
   if (settings.shape != Shape::image) effect::refuse_unused(config, "glass.normal_image", "glass.shape");
   if (!settings.use_probe) effect::refuse_unused(config, "glass.probe_image", "glass.background");
-  if (corrected)
-    effect::refuse_unused_sequence(config, {"scene.image", "scene.depth_image"});
-  else
-    effect::refuse_unused_sequence(config, {"scene.image"});
   const Image panorama = effect::read_panorama(config, inputs);
   Surroundings s;
-  if (own_scene) {
-    Instance::Sequences seen{effect::PictureSource(config, "scene.image", inputs), {}};
-    if (corrected) {
-      seen.depth.emplace(config, "scene.depth_image", inputs, &seen.colour);
-      seen.depth_scale = config.real("scene.depth_scale");
-    }
-    s.colour = colour_of(seen, 0, inputs);
-    if (corrected) s.depth = depth_of(seen, s.colour, 0, inputs);
-    if (seen.colour.is_sequence() || (seen.depth && seen.depth->is_sequence())) sequences = std::move(seen);
+  if (named.are_named()) {
+    s.colour = named.colour(0, inputs);
+    if (corrected) s.depth = named.depth(0, backdrop_far, s.colour, inputs);
   } else {
     Settings seen = settings;
     seen.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
@@ -90,27 +69,28 @@ effect::RunMemory memory_of(const scene::Config& config) {
 
 std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   const Settings settings = settings_from(config);
-  std::optional<Instance::Sequences> sequences;
-  Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
-  return std::make_unique<Instance>(settings, std::move(around), std::move(sequences), executor);
+  effect::ScenePictures named(config, settings.variant == Variant::corrected, inputs);
+  Surroundings around = surroundings_of(config, settings, named, executor, inputs);
+  return std::make_unique<Instance>(settings, std::move(around), std::move(named), executor);
 }
 
 }  // namespace
 
-Instance::Instance(const Settings& settings, Surroundings surroundings, std::optional<Sequences> sequences,
-                   const parallel::Executor& executor)
+Instance::Instance(const Settings& settings, Surroundings surroundings, effect::ScenePictures named, const parallel::Executor& executor)
     : InstanceOf(settings, surroundings, executor),
-      sequences_(std::move(sequences)),
+      named_(std::move(named)),
+      shown_(named_.shown_in(0)),
       settings_(settings),
       surroundings_(std::move(surroundings)) {}
 
 void Instance::show_pictures_of(int frame) {
-  if (!sequences_ || frame == shown_) return;
+  const effect::ScenePictures::Shown wanted = named_.shown_in(frame);
+  if (wanted == shown_) return;
   effect::Inputs none;
-  surroundings_.colour = colour_of(*sequences_, frame, none);
-  if (sequences_->depth) surroundings_.depth = depth_of(*sequences_, surroundings_.colour, frame, none);
+  surroundings_.colour = named_.colour(frame, none);
+  if (named_.have_depth()) surroundings_.depth = named_.depth(frame, backdrop_far, surroundings_.colour, none);
   changed().show(surroundings_.colour, surroundings_.depth);
-  shown_ = frame;
+  shown_ = wanted;
 }
 
 std::vector<PassOutput> Instance::buffers() {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "effect/effect.h"
-#include "effect/picture_sequence.h"
+#include "effect/scene_pictures.h"
 #include "rainref/rainy_glass.h"
 
 namespace rainref::rainy_glass {
@@ -14,14 +14,8 @@ effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<RainyGlass> {
  public:
-  /// The pictures behind the glass, where one of them is a sequence.
-  struct Sequences {
-    effect::PictureSource colour;
-    std::optional<effect::PictureSource> depth;
-    double depth_scale = 1;
-  };
-  /// `sequences`: its pictures of frame 0 are in `surroundings`; or nothing.
-  Instance(const Settings& settings, Surroundings surroundings, std::optional<Sequences> sequences, const parallel::Executor& executor);
+  /// `named`: its pictures of frame 0 are in `surroundings`.
+  Instance(const Settings& settings, Surroundings surroundings, effect::ScenePictures named, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
   /// Of sequences those of the frame rendered last.
   const Surroundings& surroundings() const { return surroundings_; }
@@ -36,8 +30,8 @@ class Instance final : public effect::InstanceOf<RainyGlass> {
  private:
   void show_pictures_of(int frame) override;
 
-  std::optional<Sequences> sequences_;
-  int shown_ = 0;  ///< frame
+  effect::ScenePictures named_;
+  effect::ScenePictures::Shown shown_;
   Settings settings_;
   Surroundings surroundings_;
 };

@@ -58,7 +58,4 @@ constexpr Block block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std:
 /// A float in [0, 1) with 24 random bits: exact, and equal spacing.
 constexpr float uniform(std::uint32_t word) { return static_cast<float>(word >> 8) * 0x1p-24f; }
 
-/// A point in the unit disc, uniform by area: radius sqrt(u), angle 2 pi v.
-std::array<float, 2> in_disc(std::uint32_t u, std::uint32_t v);
-
 }  // namespace rainref::random

@@ -4,8 +4,11 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "edge_splash/info.h"
 #include "puddle/info.h"
+#include "rainref/error.h"
 #include "rainy_glass/info.h"
 #include "screen_drops/info.h"
 #include "windshield/info.h"
@@ -32,6 +35,9 @@ const Passes& evaluations(std::string_view effect) {
   return found == known().end() ? none : found->second;
 }
 
-void add_evaluations(std::string_view effect, Passes passes) { known().insert_or_assign(std::string(effect), std::move(passes)); }
+void add_evaluations(std::string_view effect, Passes passes) {
+  if (!known().emplace(effect, std::move(passes)).second)
+    throw Error(ExitCode::internal, fmt::format("'{}' has its evaluations already", effect));
+}
 
 }  // namespace rainref::registry

@@ -1,12 +1,12 @@
 #include "windshield/instance.h"
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "effect/scene_pictures.h"
 #include "math/half.h"
 #include "windshield/info.h"
 #include "windshield/scene/street.h"
@@ -31,9 +31,34 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
+/// Of linear radiance, rgba32f, as rgba16f, alpha 1; negative values become 0, those beyond the range of a half its largest value.
+Image opaque_half(const Image& linear) {
+  Image out(Format::rgba16f, linear.width(), linear.height());
+  for (int y = 0; y < out.height(); ++y) {
+    const float* from = linear.row<float>(y);
+    Half* to = out.row<Half>(y);
+    for (int i = 0; i < 4 * out.width(); ++i) to[i] = to_half(i % 4 == 3 ? 1.0f : std::clamp(from[i], 0.0f, 65504.0f));
+  }
+  return out;
+}
+/// Of a frame, as the passes take them; empty where none is named. Without a depth all is as far as the street's sky.
+Surroundings pictures_of(const effect::ScenePictures& named, int frame, effect::Inputs& files) {
+  Surroundings s;
+  if (!named.are_named()) return s;
+  const Image colour = named.colour(frame, files);
+  s.colour = opaque_half(colour);
+  if (named.have_depth()) {
+    s.depth = named.depth(frame, street_far, colour, files);
+  } else {
+    s.depth = Image(Format::r32f, colour.width(), colour.height());
+    for (int y = 0; y < colour.height(); ++y) std::fill_n(s.depth.row<float>(y), colour.width(), static_cast<float>(street_far));
+  }
+  return s;
+}
+
 std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
-  ScenePictures named(config, inputs);
-  Surroundings first = named.read(0, inputs);
+  effect::ScenePictures named(config, true, inputs);
+  Surroundings first = pictures_of(named, 0, inputs);
   if (!named.are_named()) first.street = street_of(settings_from(config), inputs);
   auto instance = std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
   const double fog = instance->settings().blur.fog_density;
@@ -49,17 +74,17 @@ std::shared_ptr<const scene::Scenery> street_of(const Settings& settings, const 
   return effect::street_of(inputs, {settings.seed, settings.clear_lane});
 }
 
-Instance::Instance(const scene::Config& config, Surroundings surroundings, ScenePictures named, const parallel::Executor& executor)
+Instance::Instance(const scene::Config& config, Surroundings surroundings, effect::ScenePictures named, const parallel::Executor& executor)
     : InstanceOf(config, std::move(surroundings), executor),
       settings_(settings_from(config)),
       named_(std::move(named)),
       shown_(named_.shown_in(0)) {}
 
 void Instance::show_pictures_of(int frame) {
-  const ScenePictures::Shown wanted = named_.shown_in(frame);
+  const effect::ScenePictures::Shown wanted = named_.shown_in(frame);
   if (wanted == shown_) return;
   effect::Inputs none;
-  changed().show(named_.read(frame, none));
+  changed().show(pictures_of(named_, frame, none));
   shown_ = wanted;
 }
 

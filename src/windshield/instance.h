@@ -3,9 +3,9 @@
 
 #include "drops/records.h"
 #include "effect/effect.h"
+#include "effect/scene_pictures.h"
 #include "rainref/windshield.h"
 #include "windshield/parameters.h"
-#include "windshield/scene/pictures.h"
 
 namespace rainref::windshield {
 
@@ -17,7 +17,7 @@ std::shared_ptr<const scene::Scenery> street_of(const Settings& settings, const 
 class Instance final : public effect::InstanceOf<Windshield> {
  public:
   /// `surroundings`: the pictures of frame 0, or a street.
-  Instance(const scene::Config& config, Surroundings surroundings, ScenePictures named, const parallel::Executor& executor);
+  Instance(const scene::Config& config, Surroundings surroundings, effect::ScenePictures named, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
   bool has_street() const { return !named_.are_named(); }
   void skip(Recorder* recorder) override { changed().skip(recorder); }
@@ -36,8 +36,8 @@ class Instance final : public effect::InstanceOf<Windshield> {
   void show_pictures_of(int frame) override;
 
   Settings settings_;
-  ScenePictures named_;
-  ScenePictures::Shown shown_;
+  effect::ScenePictures named_;
+  effect::ScenePictures::Shown shown_;
   std::vector<drops::Drop> drops_;  // of frame drops_frame_, as buffers() gave them
   int drops_frame_ = -1;
 };

@@ -1,4 +1,4 @@
-// The blurred pyramid: means, spreads, odd sizes, fog (physics: W17), and its bits on every target.
+// The blurred pyramid: means, spreads, odd sizes, fog (physics: W17). Its bits: tests/windshield/determinism_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +12,6 @@
 #include "image/texture.h"
 #include "math/half.h"
 #include "math/half_array.h"
-#include "math/simd_target.h"
-#include "pass/same_as_definition.h"
 
 namespace rainref::blur_pyramid::sampled {
 using namespace rainref::scalar;
@@ -371,55 +369,12 @@ TEST(BlurPyramid, TheTextureHoldsTheLevels) {
   }
 }
 
-// ---- bits ------------------------------------------------------------------------------------------------------------
 Image noise(int width, int height) {
   std::mt19937 words(static_cast<unsigned>(width));
   return image_of(width, height, [&](int, int) { return words() * 0x1p-30; });
 }
 
-TEST(BlurPyramidDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
-  capture::EffectInfo info;
-  info.name = "blur";
-  info.passes = {blur_info("", "")};
-  info.buffers = blur_buffers();
-  parallel::Executor executors[] = {parallel::Executor(1), parallel::Executor(2), parallel::Executor(3), parallel::Executor(8)};
-  for (int width = 1; width <= 33; ++width) {
-    const int height = 1 + width * 7 % 29;
-    for (const bool corrected : {false, true}) {
-      const BlurSettings s = settings(corrected, width % 2 ? Rounding::rne : Rounding::rtz);
-      const Image depth = make_image(Format::r32f, width, height, [](int x, int y, int) { return static_cast<float>(3 * x + 5 * y); });
-      const Image colour = noise(width, height);
-      for (const std::string& target : simd_targets()) {
-        select_simd_target(target);
-        for (parallel::Executor& executor : executors) {
-          const int threads = executor.threads();
-          executor.shuffle_tiles(static_cast<std::uint64_t>(threads + width));
-          std::vector<Image> levels = make_levels(s, width, height);
-          const auto cases = rainref::test::captured(info, corrected, "", [&](Recorder& recorder) {
-            for (std::size_t l = 0; l < levels.size(); ++l) {
-              const pass::Moment now{&recorder, 0, 0, 0, 0, s.rounding, static_cast<int>(l)};
-              const BlurUniforms u = blur_uniforms(s, width, height, now.level);
-              const auto run = [&](auto level) {
-                level.start(now);
-                level.tiles(executor, tile_rows(levels[l].height()));
-                level.finish(now);
-              };
-              if (l == 0)
-                run(fog_run(u, s.rounding, colour, depth, levels[0]));
-              else
-                run(halve_run(u, corrected, s.rounding, levels[l - 1], levels[l]));
-            }
-          });
-          ASSERT_EQ(cases.size(), levels.size());
-          for (const capture::PassCase& c : cases) ASSERT_TRUE(rainref::test::is_as_defined(c, *bind_blur(c))) << target << " " << width;
-        }
-      }
-    }
-  }
-  select_simd_target("");
-}
-
-TEST(BlurPyramidDeterminism, FloatsAreWithinRoundingOfDoubles) {
+TEST(BlurPyramid, FloatsAreWithinRoundingOfDoubles) {
   for (const bool corrected : {false, true}) {
     const int width = 35, height = 27;
     const Image above = noise(width, height);

@@ -37,27 +37,28 @@ std::set<std::string> matches(const std::string& text, const char* pattern) {
   return found;
 }
 
-template <class Scenes>
-auto settings_of(const Scenes& scenes, const std::string& name) {
-  return std::find_if(scenes.begin(), scenes.end(), [&](const auto& s) { return s.name == name; })->settings;
-}
-
-/// The scenes beside this file with the pictures that their golden twins are handed as images.
+/// Golden scenes as files, with the pictures that these are handed as images; and the scenes beside this file.
 class CLibrary : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     const parallel::Executor executor(2);
     write("panorama.npy", puddle::golden_surroundings(executor).environment);
-    write("window.npy",
-          screen_drops::golden_inputs(settings_of(screen_drops::golden_scenes(), "screen_drops/corrected/still"), executor).colour);
-    const auto garden =
-        rainy_glass::golden_surroundings(settings_of(rainy_glass::golden_scenes(), "rainy_glass/corrected/rgba16f"), executor);
+    write_scene("puddle_corrected", golden::named(puddle::golden_scenes(), "puddle/corrected/rg16f"),
+                "environment.image = 'panorama.npy'\n");
+    const auto window = golden::named(screen_drops::golden_scenes(), "screen_drops/corrected/still");
+    write("window.npy", screen_drops::golden_inputs(window.settings(), executor).colour);
+    write_scene("screen_drops_corrected", window, "scene.image = 'window.npy'\n");
+    const auto glass = golden::named(rainy_glass::golden_scenes(), "rainy_glass/corrected/rgba16f");
+    const rainy_glass::Surroundings garden = rainy_glass::golden_surroundings(glass.settings(), executor);
     write("garden.npy", garden.colour);
     write("garden_depth.npy", garden.depth);
+    write_scene("rainy_glass_corrected", glass, "scene.image = 'garden.npy'\nscene.depth_image = 'garden_depth.npy'\n");
     const windshield::Surroundings before = windshield::small_surroundings();
     write("before.npy", before.colour);
     write("depth.npy", before.depth);
+    write_scene("windshield_corrected", golden::named(windshield::golden_scenes(), "windshield/corrected"),
+                "scene.image = 'before.npy'\nscene.depth_image = 'depth.npy'\n");
     for (const auto& entry : fs::directory_iterator(test::source_folder() + "/tests/c_library/scenes"))
       fs::copy_file(entry.path(), *folder_ / entry.path().filename().string());
   }
@@ -70,6 +71,12 @@ class CLibrary : public testing::Test {
   }
 
  private:
+  template <class Scene>
+  static void write_scene(const std::string& file, const Scene& scene, const std::string& pictures) {
+    std::ofstream(*folder_ / (file + ".toml")) << fmt::format("# {0}\neffect = '{1}'\nvariant = '{2}'\n{3}{4}", scene.name,
+                                                              scene.name.substr(0, scene.name.find('/')), scene.variant, pictures,
+                                                              scene.toml);
+  }
   /// Files have their top row first.
   static void write(const char* name, const Image& image) {
     capture::Array a = capture::array_of(BufferView(image), {"", 0, {}});

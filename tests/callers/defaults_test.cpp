@@ -1,8 +1,7 @@
 // Every effect runs with what its public header says by default, and that is what a scene gives that says nothing.
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
+#include "config_of.h"
 #include "edge_splash/parameters.h"
 #include "image/images.h"
 #include "puddle/parameters.h"
@@ -14,7 +13,6 @@
 #include "rainref/windshield.h"
 #include "rainy_glass/parameters.h"
 #include "scene/test_card.h"
-#include "scene/toml.h"
 #include "screen_drops/parameters.h"
 
 namespace rainref {
@@ -92,8 +90,7 @@ TEST_F(Defaults, Windshield) {
 /// The settings of a scene that names effect and variant and nothing else.
 template <class Read>
 auto silent_scene(const char* effect, Variant variant, std::span<const scene::Parameter> parameters, Read read) {
-  const scene::EffectTable table{{{effect, {"as-published", "corrected"}, parameters}}};
-  return read(scene::parse(fmt::format("effect = '{}'\nvariant = '{}'\n", effect, name(variant)), "silent", {}, table));
+  return read(test::config_of(effect, parameters, name(variant), ""));
 }
 TEST_F(Defaults, AreThoseOfAScene) {
   for (const Variant v : {Variant::as_published, Variant::corrected}) {

@@ -59,39 +59,6 @@ TEST(HashOf, PlanesHashAsTheInterleavedBuffer) {
   EXPECT_EQ(hash_of(BufferView(Format::rg16f, {&a, &a})), hash_of(both));
 }
 
-TEST(TileHashes, CoverTheImageRowByRow) {
-  const Image image = noise(Format::rgba8, 150, 70);
-  const std::vector<TileHash> tiles = tile_hashes(image);
-  ASSERT_EQ(tiles.size(), 6u);
-  for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(tiles[i].x, static_cast<int>(i % 3) * 64);
-    EXPECT_EQ(tiles[i].y, static_cast<int>(i / 3) * 64);
-    std::vector<std::byte> bytes;
-    const int x1 = std::min(150, tiles[i].x + 64), y1 = std::min(70, tiles[i].y + 64);
-    for (int y = tiles[i].y; y < y1; ++y) bytes.insert(bytes.end(), image.row_bytes(y) + tiles[i].x * 4, image.row_bytes(y) + x1 * 4);
-    EXPECT_EQ(tiles[i].hash, hash_of_bytes(bytes)) << i;
-  }
-  EXPECT_EQ(tile_hashes(noise(Format::r8, 10, 10), 64).size(), 1u);
-  EXPECT_EQ(tile_hashes(noise(Format::r8, 10, 10), 1).size(), 100u);
-}
-
-TEST(TileHashes, FindAPlantedDifference) {
-  Image image = noise(Format::rg8, 100, 90);
-  const std::vector<TileHash> before = tile_hashes(image, 16);
-  for (const auto& [x, y] : {std::pair{0, 0}, {99, 89}, {15, 16}, {16, 15}, {50, 70}}) {
-    std::byte& byte = image.row_bytes(y)[2 * x + 1];
-    const std::byte kept = byte;
-    byte = std::byte{255};
-    const std::vector<TileHash> after = tile_hashes(image, 16);
-    byte = kept;
-    ASSERT_EQ(after.size(), before.size());
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      const bool here = after[i].x == x / 16 * 16 && after[i].y == y / 16 * 16;
-      EXPECT_EQ(after[i].hash != before[i].hash, here) << x << ' ' << y << " tile " << after[i].x << ' ' << after[i].y;
-    }
-  }
-}
-
 void record(HashRecorder& recorder, int frame, int step, std::string_view pass, const std::vector<PassOutput>& outputs,
             double seconds = 0.5) {
   recorder.pass({frame, step, pass, outputs, seconds});

@@ -1,5 +1,5 @@
 // The determinism proof of the room: every SIMD target, 1, 2, 3 and 8 threads, shuffled chunks and 1 to 33 drops give the
-// bits of one plain float after another.
+// same bits. Those of one plain float after another: tests/windshield/determinism_test.cpp.
 #include <gtest/gtest.h>
 
 #include "determinism.h"
@@ -9,7 +9,6 @@ namespace rainref::drops {
 namespace {
 
 using rainref::test::expect_one_result;
-using test::F;
 
 GlassFrame glass() {
   GlassFrame g = test::glass_of(0.8, -4.4, 1.5, 9.0);
@@ -77,60 +76,6 @@ TEST_P(DropsDeterminism, ManyChunks) {
   expect_one_result("60000 drops", [&](const parallel::Executor& executor) { return run(start, GetParam(), 4, executor); }, {1, 3});
   const parallel::Executor executor(1);
   EXPECT_NE(run(test::random_drops(60000, 22, 3e4f), GetParam(), 4, executor), run(start, GetParam(), 4, executor));
-}
-
-// + 0: stored zeros are positive.
-Drop record_of(const scalar::DropState<F>& s, const Drop& from, bool mass) {
-  return {{s.u.v + 0.0f, s.v.v + 0.0f},
-          {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f},
-          mass ? s.mass.v : from.mass,
-          s.life.v + 0.0f,
-          from.id,
-          0};
-}
-
-TEST_P(DropsDeterminism, LanesEqualTheScalarEvaluation) {
-  const bool corrected = GetParam();
-  const auto start = test::random_drops(1000, 17, 1.6e7f, 1.5f);
-  const IntegrateUniforms c = integrate(corrected);
-  const MergeUniforms merge = merge_uniforms(settings(corrected), test::frame, 1.0 / 60, 64, 32, 0);
-  const parallel::Executor executor(2);
-  for (const std::string& target : simd_targets()) {
-    select_simd_target(target);
-    DropArrays a = test::arrays_of(start);
-    MassBalance balance = drops::integrate(executor, a, c, glass(), corrected);
-    MassBalance expected;
-    for (std::size_t i = 0; i < start.size(); ++i) {
-      const auto before = test::state_of<F>(start[i]);
-      Drop d;
-      if (corrected) {
-        const auto after = scalar::integrate_corrected(c, glass(), before);
-        d = record_of(after, start[i], true);
-        expected.evaporated += static_cast<std::int64_t>(after.evaporated.v);
-        expected.removed += static_cast<std::int64_t>(after.removed.v);
-      } else {
-        d = record_of(scalar::integrate_as_published(c, glass(), before), start[i], false);
-        expected.removed += start[i].life > 0 && d.life <= 0;
-      }
-      const Drop found = a.get(static_cast<std::int64_t>(i));
-      ASSERT_EQ(std::memcmp(&found, &d, sizeof d), 0) << target << " drop " << i;
-    }
-    EXPECT_EQ(balance, expected) << target;
-    if (!corrected) continue;
-    Image film(Format::r32f, 64, 32), expected_film(Format::r32f, 64, 32);
-    std::vector<Drop> before(start.size());
-    for (std::size_t i = 0; i < before.size(); ++i) before[i] = a.get(static_cast<std::int64_t>(i));
-    leave_trails(executor, a, merge, film);
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      const auto left = scalar::trail(merge, test::state_of<F>(before[i]));
-      ASSERT_EQ(a.mass()[i], before[i].mass - left.mass_units.v) << target << " drop " << i;
-      if (left.mass_units.v > 0)
-        expected_film.row<float>(static_cast<int>(left.v.v * 32))[static_cast<int>(left.u.v * 64)] += left.mass_units.v;
-    }
-    EXPECT_GT(film_water(film), 0);
-    for (int y = 0; y < 32; ++y)
-      ASSERT_EQ(std::memcmp(film.row<float>(y), expected_film.row<float>(y), 64 * sizeof(float)), 0) << target << " row " << y;
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Drops, DropsDeterminism, testing::Bool(),

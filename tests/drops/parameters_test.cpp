@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error_of.h"
+#include "config_of.h"
 #include "drops/settings.h"
 #include "rainref/error.h"
-#include "scene/effect_table.h"
-#include "scene/toml.h"
 
 namespace rainref::drops {
 namespace {
@@ -13,9 +12,7 @@ namespace {
 const std::vector<std::string> variants{"as-published", "corrected"};
 
 Settings settings(const std::string& prefix, const std::string& variant, const std::vector<std::string>& values) {
-  const std::vector<scene::Parameter> all = parameters(prefix);
-  const scene::EffectTable table{{{prefix, variants, all}}};
-  return settings_from(scene::parse("effect = '" + prefix + "'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table), prefix);
+  return settings_from(rainref::test::config_of(prefix, parameters(prefix), variant, "seed = 5\n", values), prefix);
 }
 std::string refusal(const std::string& variant, const std::vector<std::string>& values) {
   return error_of([&] { settings("windshield", variant, values); });
@@ -25,35 +22,9 @@ TEST(DropsParameters, AreSoundForTwoEffects) {
   for (const std::string prefix : {"windshield", "screen_drops"}) {
     scene::validate(parameters(prefix), variants);
     EXPECT_EQ(settings(prefix, "corrected", {prefix + ".capacity=77", "rain.rate=12"}).capacity, 77);
+    EXPECT_EQ(settings(prefix, "corrected", {}).seed, 5u);
+    EXPECT_EQ(settings(prefix, "as-published", {}).lifetime, 6);
   }
-}
-
-TEST(DropsParameters, DefaultsAreThoseOfTheSettings) {
-  const Settings s = settings("windshield", "corrected", {}), d;
-  EXPECT_TRUE(s.corrected);
-  EXPECT_EQ(s.seed, 5u);
-  EXPECT_EQ(s.capacity, d.capacity);
-  EXPECT_EQ(s.lifetime, d.lifetime);
-  EXPECT_EQ(s.rain_rate, d.rain_rate);
-  EXPECT_EQ(s.smallest_drop, d.smallest_drop);
-  EXPECT_EQ(s.advancing_deg, d.advancing_deg);
-  EXPECT_EQ(s.receding_deg, d.receding_deg);
-  EXPECT_EQ(s.wind_exposure, d.wind_exposure);
-  EXPECT_EQ(s.wind_drag, d.wind_drag);
-  EXPECT_EQ(s.mobility, d.mobility);
-  EXPECT_EQ(s.humidity, d.humidity);
-  EXPECT_EQ(s.margin, d.margin);
-  EXPECT_EQ(s.trail_thickness, d.trail_thickness);
-  EXPECT_EQ(s.film_drying, d.film_drying);
-  const Settings p = settings("windshield", "as-published", {});
-  EXPECT_FALSE(p.corrected);
-  EXPECT_EQ(p.lifetime, 6);
-  EXPECT_EQ(p.spawn_rate, d.spawn_rate);
-  EXPECT_EQ(p.mass_min, d.mass_min);
-  EXPECT_EQ(p.mass_max, d.mass_max);
-  EXPECT_EQ(p.inertia_coupling, d.inertia_coupling);
-  EXPECT_EQ(p.wind_coupling, d.wind_coupling);
-  EXPECT_EQ(p.drag, d.drag);
 }
 
 TEST(DropsParameters, OfAStillGlassAreCorrectedsWithoutTheWindAlongIt) {
@@ -63,10 +34,7 @@ TEST(DropsParameters, OfAStillGlassAreCorrectedsWithoutTheWindAlongIt) {
     EXPECT_FALSE(p.used_by("as-published")) << p.key;
     EXPECT_EQ(p.key.find("wind"), std::string::npos) << p.key;
   }
-  const scene::EffectTable table{{{"pane", variants, all}}};
-  const Settings s = still_settings_from(
-                     scene::parse("effect = 'pane'\nvariant = 'corrected'\nseed = 5\n", "scene", {"pane.mobility=0.5"}, table), "pane"),
-                 d;
+  const Settings s = still_settings_from(rainref::test::config_of("pane", all, "corrected", "", {"pane.mobility=0.5"}), "pane"), d;
   EXPECT_EQ(s.lifetime, d.lifetime);  // that of corrected
   EXPECT_EQ(s.mobility, 0.5);
   EXPECT_EQ(s.wind_drag, 0);

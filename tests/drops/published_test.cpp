@@ -87,27 +87,6 @@ TEST(IntegrateAsPublished, TurnsRoundAtTheThresholdSpeed) {
   }
 }
 
-// E0 (1): gravity is multiplied by mass and inertia is not, so braking is no slope.
-TEST(IntegrateAsPublished, BreaksTheEquivalencePrinciple) {
-  const parallel::Executor executor(1);
-  GlassFrame braking{{0, -5}, {}, {0, 3}, 0, 0, {}, {}}, sloped{{0, -8}, {}, {0, 0}, 0, 0, {}, {}};
-  const IntegrateUniforms c = uniforms(1.0 / 60, 3, 0, 1);
-  for (const float m : {1.0f, 1.5f}) {
-    DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, m, 0)}), b = test::arrays_of({test::drop(0.5f, 0.5f, m, 0)});
-    drops::integrate(executor, a, c, braking, false);
-    drops::integrate(executor, b, c, sloped, false);
-    EXPECT_EQ(a.velocity_v()[0] == b.velocity_v()[0], m == 1.0f);
-  }
-}
-
-// E0 (11): without hysteresis the smallest drop never rests.
-TEST(IntegrateAsPublished, NoDropEverRests) {
-  const parallel::Executor executor(1);
-  DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, 0.01f, 0)});
-  for (int n = 0; n < 600; ++n) drops::integrate(executor, a, uniforms(1.0 / 60), test::parked(27 * test::degree), false);
-  EXPECT_LT(a.velocity_v()[0], -0.01f);
-}
-
 TEST(IntegrateAsPublished, LivesEndAndDeadDropsStayAsTheyAre) {
   const parallel::Executor executor(1);
   DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, 1, 0, 0, 0, 0.1f), test::drop(0.5f, 0.5f, 1, 1, 1, 1, -0.25f)});

@@ -1,11 +1,9 @@
-// What splat and blur_pyramid declare: scene keys behind a prefix, uniform blocks, buffers.
+// What splat declares: scene keys behind a prefix, uniforms.
 #include <gtest/gtest.h>
 
-#include "blur_pyramid/blur_pyramid.h"
-#include "drops/info.h"
+#include "config_of.h"
 #include "drops/splat/splat.h"
 #include "rainref/error.h"
-#include "scene/toml.h"
 
 namespace rainref {
 namespace {
@@ -15,8 +13,7 @@ const std::vector<scene::Parameter>& keys() {
   return all;
 }
 scene::Config config(const std::string& variant, const std::vector<std::string>& values) {
-  static const scene::EffectTable table{{{"pane", {"as-published", "corrected"}, keys()}}};
-  return scene::parse("effect = 'pane'\nvariant = '" + variant + "'\n", "test", values, table);
+  return test::config_of("pane", keys(), variant, "", values);
 }
 
 TEST(SplatDeclared, ScenesSetWhatTheVariantUses) {
@@ -55,23 +52,6 @@ TEST(SplatDeclared, TheUniformsSayHowDropsJoin) {
   EXPECT_EQ(blend(false, false, add), add);
   EXPECT_EQ(blend(true, false, add), add);
   EXPECT_EQ(blend(false, true, max), max) << "the largest half is the half of the largest";
-}
-
-TEST(SplatDeclared, PassesAndTheirBuffers) {
-  // Making a block validates it: an error would throw.
-  const capture::PassInfo splat = drops::splat_info({"wipe_drops", "merge"}), blur = blur_pyramid::blur_info("scene", "scene");
-  EXPECT_EQ(splat.block("corrected").size, sizeof(drops::SplatUniforms));
-  EXPECT_EQ(blur.block("as-published").size, sizeof(blur_pyramid::BlurUniforms));
-  capture::EffectInfo effect;
-  effect.buffers = drops::splat_buffers();
-  for (const capture::BufferInfo& b : blur_pyramid::blur_buffers()) effect.buffers.push_back(b);
-  for (const capture::PassInfo& pass : {splat, blur}) {
-    for (const std::string& name : pass.writes) EXPECT_NO_THROW(effect.buffer(name, "corrected"));
-    for (const capture::ReadInfo& read : pass.reads) {
-      if (read.buffer == "drops" || read.buffer == "film" || read.buffer == "necks") continue;  // another's
-      EXPECT_NO_THROW(effect.buffer(read.buffer, read.variant.empty() ? "as-published" : read.variant)) << read.buffer;
-    }
-  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // What the effect takes and what it refuses.
+#include "config_of.h"
 #include "edge_splash/parameters.h"
 #include "edge_splash/support.h"
-#include "scene/toml.h"
 #include "settings.h"
 
 namespace rainref::edge_splash {
@@ -17,11 +17,7 @@ std::string message_of(const Settings& s, const Inputs& in) {
   return error_of([&] { EdgeSplash(s, in, executor()); });
 }
 std::string message_of_scene(const std::string& variant, const std::vector<std::string>& values) {
-  return error_of([&] {
-    const scene::EffectTable table{{{"edge_splash", {"as-published", "corrected"}, parameters()}}};
-    const Settings s = settings_from(scene::parse(fmt::format("effect = 'edge_splash'\nvariant = '{}'\n", variant), "test", values, table));
-    check(s);
-  });
+  return error_of([&] { check(settings_from(rainref::test::config_of("edge_splash", parameters(), variant, "", values))); });
 }
 
 TEST(EdgeSplashInput, DeviceDepthsAndDistancesAreInverse) {

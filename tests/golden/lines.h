@@ -1,9 +1,11 @@
 // The lines of tests/golden/hashes.txt, made of a running effect.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,12 @@
 #include "capture/hashing.h"
 
 namespace rainref::golden {
+
+/// The scene of this name.
+template <class S>
+S named(const std::vector<S>& scenes, std::string_view name) {
+  return *std::ranges::find(scenes, name, &S::name);
+}
 
 /// Makes one public call, so that a test may make it as a hostile caller does. The first of a scene opens the effect; the others advance
 /// and render it.

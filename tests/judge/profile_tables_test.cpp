@@ -10,7 +10,6 @@
 #include "image/code_range.h"
 #include "judge/profiles.h"
 #include "math/half.h"
-#include "math/profiles.h"
 #include "registry/registry.h"
 
 namespace rainref::judge {
@@ -244,13 +243,6 @@ TEST(ProfileTables, EachNumberIsTheSpecifications) {
     }
   }
 }
-TEST(ProfileTables, TestsOfTheRoomsBelowReadTheSameNumbers) {
-  for (const std::string& name : rainref::test::profile_names()) {
-    EXPECT_EQ(profile(name).name, name);
-    EXPECT_EQ(figures(profile(name)), figures(rainref::test::profile_named(name)));
-  }
-}
-
 // What lies outside `coarsest` is to be explained by no rounding that anybody allows.
 TEST(ProfileTables, NothingIsLooserThanTheCoarsest) {
   const Profile most = profile("coarsest");
@@ -278,9 +270,9 @@ TEST(ProfileTables, NothingIsLooserThanTheCoarsest) {
 }
 
 /// The lines of a profile's data file.
-std::vector<std::string> lines_of(const std::string& profile) {
+std::vector<std::string> lines_of(std::string_view profile) {
   std::vector<std::string> out;
-  std::istringstream text{std::string(profile_text(profile))};
+  std::istringstream text{std::string(profile)};
   for (std::string line; std::getline(text, line);) out.push_back(line);
   return out;
 }
@@ -290,9 +282,9 @@ TEST(ProfileTables, EveryKeyIsCompared) {
   const std::map<std::string, double> compared = figures(Profile{});
   const std::set<std::string> words{"name", "rearrangement_remedy", "about", "known_outside"};
   const std::regex key("^(\\w+) = ");
-  for (const std::string& name : rainref::test::profile_names()) {
+  for (const auto& [name, text] : detail::embedded_profiles()) {
     int keys = 0;
-    for (const std::string& line : lines_of(name)) {
+    for (const std::string& line : lines_of(text)) {
       std::smatch found;
       if (!std::regex_search(line, found, key) || words.contains(found[1])) continue;
       ++keys;
@@ -309,10 +301,10 @@ TEST(ProfileTables, EachEntryNamesDocumentVersionAndSection) {
       entry("\\w+ = \\{.*, source = \"(.*)\"\\}"), from("([A-Z0-9]+) ([0-9]+(\\.[0-9]+)*|'[^']+'): .{4,}"),
       choice("choice 20[0-9][0-9]-[01][0-9]-[0-3][0-9]: .{15,}"), unsettled("provisional|convention|not read|TODO");
   int choices = 0;
-  for (const std::string& name : rainref::test::profile_names()) {
+  for (const auto& [name, text] : detail::embedded_profiles()) {
     std::set<std::string> documents, used;
     int entries = 0;
-    for (const std::string& line : lines_of(name)) {
+    for (const std::string& line : lines_of(text)) {
       std::smatch found;
       if (std::regex_match(line, found, declared)) documents.insert(found[1]);
       EXPECT_TRUE(line.starts_with("#") || !std::regex_search(line, unsettled)) << name << ": " << line;

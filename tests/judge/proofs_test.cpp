@@ -8,12 +8,14 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error_of.h"
 #include "base/temporary_folder.h"
 #include "capture/pass_info.h"
 #include "documents/all_written.h"
 #include "judge/keyed.h"
 #include "judge/rewritten_passes.h"
 #include "judge/support.h"
+#include "registry/evaluations.h"
 #include "registry/registry.h"
 
 namespace rainref::judge {
@@ -186,6 +188,13 @@ TEST(Proofs, TheDocumentNamesWhatHasNoSecondTier) {
   }
   EXPECT_THAT(contents(rainref::test::source_folder() + "/docs/conformance.md"),
               testing::HasSubstr(fmt::format("The first tier alone is there for {}.", fmt::join(alone, ", "))));
+}
+
+// Given again, an effect would be judged by other passes than those that the proofs go over.
+TEST(Evaluations, OfAnEffectAreGivenOnce) {
+  const std::size_t passes = registry::evaluations("puddle").size();
+  EXPECT_EQ(error_of([] { registry::add_evaluations("puddle", {}); }), "5 'puddle' has its evaluations already");
+  EXPECT_EQ(registry::evaluations("puddle").size(), passes);
 }
 
 // A pack whose scene is gone, or a pass that a pack's manifest does not have, would be in no proof without a word.

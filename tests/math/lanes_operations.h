@@ -68,6 +68,7 @@
   X(exp2_of, any, exp2(a))                                                                                                   \
   X(log_of, any, log(a))                                                                                                     \
   X(pow_of, any, pow(abs(a), b))                                                                                             \
+  X(pow_any, any, pow(a, b))                                                                                                 \
   X(pow_fixed, any, pow(max(a, N(0.0f)), N(0x1.d1745ep-2f)))                                                                 \
   X(sin_of, any, sin(a))                                                                                                     \
   X(cos_of, any, cos(a))                                                                                                     \

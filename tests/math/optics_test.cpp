@@ -50,6 +50,7 @@ TEST(Fresnel, KnownValuesOfWater) {
   }
   EXPECT_NEAR(evaluations::fresnel_dielectric(D(1.0), 1.333f).v, 0.0203732, 5e-8);
   EXPECT_NEAR(evaluations::fresnel_dielectric(D(0.0), 1.333f).v, 1, 1e-15);
+  EXPECT_NEAR(evaluations::fresnel_dielectric(F(0.0f), 1.333f).v, 1, 1e-6);
 }
 
 TEST(Fresnel, VanishesInParallelLightAtBrewstersAngle) {

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
+#include "math/lanes_kernels.h"
 #include "math/mpfr_oracle.h"
 #include "math/real64.h"
-#include "math/transcendental.h"
 
 namespace rainref::test {
 
@@ -69,30 +69,25 @@ inline float second_argument(const Case& c, std::uint32_t bits) {
 struct Implementation {
   float (*plain)(float a, float b);
   double (*real)(double a, double b);
-  void (*array)(const float* a, const float* b, float* out, std::size_t n);
+  Operation lanes;
 };
 /// In the order of Function.
 inline constexpr Implementation implementations[] = {
-    {[](float a, float) { return exp_float(a); }, [](double a, double) { return exp_real(Real64(a)).v; },
-     [](const float* a, const float*, float* out, std::size_t n) { exp_array(a, out, n); }},
-    {[](float a, float) { return exp2_float(a); }, [](double a, double) { return exp2_real(Real64(a)).v; },
-     [](const float* a, const float*, float* out, std::size_t n) { exp2_array(a, out, n); }},
-    {[](float a, float) { return log_float(a); }, [](double a, double) { return log_real(Real64(a)).v; },
-     [](const float* a, const float*, float* out, std::size_t n) { log_array(a, out, n); }},
-    {[](float a, float) { return sin_float(a); }, [](double a, double) { return sin_real(Real64(a)).v; },
-     [](const float* a, const float*, float* out, std::size_t n) { sin_array(a, out, n); }},
-    {[](float a, float) { return cos_float(a); }, [](double a, double) { return cos_real(Real64(a)).v; },
-     [](const float* a, const float*, float* out, std::size_t n) { cos_array(a, out, n); }},
+    {[](float a, float) { return exp_float(a); }, [](double a, double) { return exp_real(Real64(a)).v; }, Operation::exp_of},
+    {[](float a, float) { return exp2_float(a); }, [](double a, double) { return exp2_real(Real64(a)).v; }, Operation::exp2_of},
+    {[](float a, float) { return log_float(a); }, [](double a, double) { return log_real(Real64(a)).v; }, Operation::log_of},
+    {[](float a, float) { return sin_float(a); }, [](double a, double) { return sin_real(Real64(a)).v; }, Operation::sin_of},
+    {[](float a, float) { return cos_float(a); }, [](double a, double) { return cos_real(Real64(a)).v; }, Operation::cos_of},
     {[](float a, float b) { return pow_float(a, b); }, [](double a, double b) { return pow_real(Real64(a), Real64(b)).v; },
-     [](const float* a, const float* b, float* out, std::size_t n) { pow_array(a, b, out, n); }},
+     Operation::pow_any},
     {[](float a, float b) { return atan2_float(a, b); }, [](double a, double b) { return atan2_real(Real64(a), Real64(b)).v; },
-     [](const float* a, const float* b, float* out, std::size_t n) { atan2_array(a, b, out, n); }},
+     Operation::atan2_of},
 };
 inline const Implementation& implementation(Function f) { return implementations[static_cast<int>(f)]; }
 
-/// A function of each pair on the SIMD target in use.
-inline void run_array(Function f, std::span<const float> a, std::span<const float> b, float* out) {
-  implementation(f).array(a.data(), b.data(), out, a.size());
+/// A function of each pair on the SIMD target in use; a multiple of padded_count of them.
+inline void run_lanes(Function f, std::span<const float> a, std::span<const float> b, float* out) {
+  apply_by_lanes(implementation(f).lanes, a.data(), b.data(), a.data(), out, a.size());
 }
 
 }  // namespace rainref::test

@@ -5,10 +5,7 @@
 //
 // Exits with 1 if some result is more than 1 ULP off, if more results than documented are not correctly rounded, or if
 // some bit differs.
-#include "math/disabled_targets.h"
-
 #include <fmt/format.h>
-#include <hwy/targets.h>
 
 #include <atomic>
 #include <chrono>
@@ -21,6 +18,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "math/simd_target.h"
 #include "math/transcendental_cases.h"
 
 namespace rainref::test {
@@ -81,7 +79,7 @@ std::vector<Hash128> hash_blocks(const Case& c, const Options& options) {
   for_blocks(options, [&] {
     return [&, in = Inputs(), out = std::vector<float>(block_size)](std::uint64_t block, std::uint64_t first) mutable {
       in.fill(c, first, options.stride);
-      run_array(c.function, in.a, in.b, out.data());
+      run_lanes(c.function, in.a, in.b, out.data());
       hashes[block] = hash_of(out);
     };
   });
@@ -113,7 +111,7 @@ Accuracy measure(const Case& c, const Options& options) {
     return [&, in = Inputs(), out = std::vector<float>(block_size), oracle = std::make_unique<MpfrOracle>()](std::uint64_t,
                                                                                                              std::uint64_t first) mutable {
       in.fill(c, first, options.stride);
-      run_array(c.function, in.a, in.b, out.data());
+      run_lanes(c.function, in.a, in.b, out.data());
       for (std::size_t i = 0; i < block_size; ++i) {
         const float reference = oracle->nearest_quickly(c.function, in.a[i], in.b[i]);
         if (std::bit_cast<std::uint32_t>(reference) == std::bit_cast<std::uint32_t>(out[i])) continue;
@@ -153,18 +151,18 @@ bool check_accuracy(const Case& c, const Options& options) {
 /// Whether the best target, the scalar target and plain C++ give the same bits.
 bool check_bits(const Case& c, const Options& options) {
   double best_s = 0, scalar_s = 0, plain_s = 0;
-  const auto targets = hwy::SupportedAndGeneratedTargets();  // best first, scalar last
+  const std::vector<std::string> targets = simd_targets();  // best first, scalar last
   const auto best = timed(best_s, [&] { return hash_blocks(c, options); });
-  hwy::SetSupportedTargetsForTest(targets.back());
+  select_simd_target(targets.back());
   const auto scalar = timed(scalar_s, [&] { return hash_blocks(c, options); });
-  hwy::SetSupportedTargetsForTest(0);
+  select_simd_target("");
   const auto plain = timed(plain_s, [&] { return hash_blocks_plain(c, options); });
 
   Hasher all;
   for (const Hash128& hash : best) all.add(hash.text());
   const bool equal = best == scalar && best == plain;
   fmt::print("{:13} bits: {}, hash {}, {} {:.0f} s, {} {:.0f} s, plain {:.0f} s\n", c.name, equal ? "equal" : "DIFFER", all.finish().text(),
-             hwy::TargetName(targets.front()), best_s, hwy::TargetName(targets.back()), scalar_s, plain_s);
+             targets.front(), best_s, targets.back(), scalar_s, plain_s);
   for (std::size_t i = 0; i < best.size(); ++i) {
     if (best[i] == scalar[i] && best[i] == plain[i]) continue;
     fmt::print("    first difference in block {} of {} floats, stride {}\n", i, block_size, options.stride);

@@ -6,7 +6,6 @@
 #include <random>
 
 #include "base/error_of.h"
-#include "capture/capture_recorder.h"
 #include "capture/check_case.h"
 #include "image/footprint.h"
 #include "image/images.h"
@@ -16,6 +15,7 @@
 #include "pass/info.h"
 #include "pass/model.h"
 #include "pass/run.h"
+#include "pass/same_as_definition.h"
 
 namespace rainref::frost {
 namespace scalar {
@@ -154,11 +154,8 @@ capture::EffectInfo frost() {
 }
 std::vector<capture::PassCase> captured(Pane& p, bool corrected, Rounding rounding = Rounding::rne) {
   static const capture::EffectInfo info = frost();
-  std::vector<capture::PassCase> cases;
-  capture::CaptureRecorder recorder(
-      info, corrected ? "corrected" : "as-published", true, [](int, std::string_view) { return true; },
-      [&](capture::PassCase c) { cases.push_back(std::move(c)); });
-  p.frame(parallel::Executor(2), corrected, rounding, &recorder);
+  const std::vector<capture::PassCase> cases = rainref::test::captured(
+      info, corrected, "", [&](Recorder& recorder) { p.frame(parallel::Executor(2), corrected, rounding, &recorder); });
   for (const capture::PassCase& c : cases) {
     capture::check_case(info, {}, c);
     EXPECT_EQ(capture::uniform_fault(info, c), "");

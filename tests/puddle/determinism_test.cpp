@@ -2,16 +2,12 @@
 // give the bits of one plain float after another.
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cstring>
+#include <algorithm>
 
 #include "determinism.h"
+#include "pass/same_as_definition.h"
+#include "puddle/info.h"
 #include "rainref/executor.h"
-#include "puddle/bounds.h"
-#include "puddle/ground.h"
-#include "puddle/host.h"
-#include "puddle/kernels.h"
-#include "puddle/scalar.h"
 #include "rainref/puddle.h"
 #include "settings.h"
 
@@ -20,7 +16,6 @@ namespace {
 
 using rainref::test::expect_one_result;
 using rainref::test::hash_of_frames;
-using F = scalar::Scalar<float>;
 
 // An environment and a ground with structure, small enough to be made for every case.
 Image pattern(int width, int height, float scale) {
@@ -105,68 +100,22 @@ TEST_P(PuddleDeterminism, OtherSeedOrRainOtherBits) {
   EXPECT_NE(run_of(s)(parallel::Executor(1)), before);
 }
 
-void expect_same(const float found, F expected, const char* what, int x, int y) {
-  ASSERT_EQ(std::bit_cast<std::uint32_t>(found), std::bit_cast<std::uint32_t>(expected.v + 0.0f)) << what << " at " << x << "," << y;
-}
-void expect_same(Half found, F expected, const char* what, int x, int y) {
-  Half stored;
-  store(&stored, expected, Rounding::rne);
-  ASSERT_EQ(found.bits, stored.bits) << what << " at " << x << "," << y;
-}
-
-// Each picture pass of a run against the scalar evaluation of the same text, from the same stored inputs.
 TEST_P(PuddleDeterminism, LanesEqualTheScalarEvaluation) {
   const bool corrected = GetParam() == Variant::corrected;
   Settings s = settings(GetParam(), 37);
   s.height = 23;
   if (corrected) s.grid = {31, 29};
   if (corrected) s.shape = Shape::natural;
-  const Surroundings around = surroundings();
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
     const parallel::Executor executor(2);
-    Puddle puddle(s, around, executor);
-    for (int frame = 0; frame < 6; ++frame) puddle.simulate();
-    puddle.render();
-
-    const Image& shown = corrected ? puddle.newest() : puddle.previous();
-    std::vector<float> decoded(static_cast<std::size_t>(shown.width()) * shown.height());
-    for (int y = 0; y < shown.height(); ++y) {
-      for (int x = 0; x < shown.width(); ++x) decoded[static_cast<std::size_t>(y) * shown.width() + x] = to_float(shown.row<Half>(y)[x]);
-    }
-    SurfaceHitUniforms u = surface_hit_uniforms(s);
-    TextureData bounds;
-    if (corrected) bounds = surface_bounds(s, decoded.data(), executor, u);
-    const Address edge = corrected ? Address::border : Address::clamp;
-    TextureData water(decoded, 1, shown.width(), shown.height(), edge, edge);
-    water.set_border(encoding(s).rest, 0, 0, 0);
-    for (int y = 0; y < s.height; ++y) {
-      for (int x = 0; x < s.width; ++x) {
-        const auto hit = corrected ? scalar::surface_hit_corrected<F>(u, water.view(), bounds.view(), x, y)
-                                   : scalar::surface_hit_as_published<F>(u, water.view(), x, y);
-        const float* stored = puddle.hit().row<float>(y) + 4 * x;
-        expect_same(stored[0], hit.position.x, "hit.x", x, y);
-        expect_same(stored[1], hit.position.y, "hit.y", x, y);
-        expect_same(stored[2], hit.position.z, "hit.z", x, y);
-        expect_same(stored[3], hit.iterations, "iterations", x, y);
-        const Half* normal = puddle.normal().row<Half>(y) + 4 * x;
-        expect_same(normal[0], hit.normal.x, "normal.x", x, y);
-        expect_same(normal[1], hit.normal.y, "normal.y", x, y);
-        expect_same(normal[2], hit.normal.z, "normal.z", x, y);
-        expect_same(normal[3], hit.flag, "flag", x, y);
-
-        // display reads what shade stored.
-        const Half* colour = puddle.colour().row<Half>(y) + 4 * x;
-        const scalar::Vec3<F> linear(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2])));
-        const DisplayUniforms d = display_uniforms(s);
-        const auto shown_colour =
-            corrected ? scalar::display_corrected<F>(d, linear, x, y) : scalar::display_as_published<F>(d, linear, x, y);
-        const Unorm8* code = puddle.picture().row<Unorm8>(y) + 4 * x;
-        ASSERT_EQ(code[0].code, to_unorm8(shown_colour.x.v).code) << target << " " << x << "," << y;
-        ASSERT_EQ(code[1].code, to_unorm8(shown_colour.y.v).code);
-        ASSERT_EQ(code[2].code, to_unorm8(shown_colour.z.v).code);
-      }
-    }
+    Puddle puddle(s, surroundings(), executor);
+    for (int frame = 0; frame < 5; ++frame) puddle.simulate();
+    auto cases = rainref::test::captured(effect_info(), corrected, "", [&](Recorder& recorder) { puddle.next_frame(&recorder); });
+    std::erase_if(cases, [](const auto& c) { return c.pass == "raindrops"; });  // drawn without lanes
+    EXPECT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << target;
+    for (const char* pass : {"wave_step", "surface_hit", "shade", "display"})
+      EXPECT_TRUE(std::any_of(cases.begin(), cases.end(), [&](const auto& c) { return c.pass == pass; })) << pass;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "capture/capture_recorder.h"
+#include "pass/same_as_definition.h"
 #include "puddle/golden_scenes.h"
 #include "puddle/info.h"
 #include "puddle/uniforms.h"
@@ -33,24 +33,12 @@ Surroundings tiny_surroundings() {
 std::vector<PassCase> cases_of(const Settings& s, int frames) {
   const parallel::Executor executor(2);
   Puddle puddle(s, tiny_surroundings(), executor);
-  std::vector<PassCase> cases;
-  capture::CaptureRecorder recorder(
-      effect_info(), s.variant == Variant::corrected ? "corrected" : "as-published", true, [](int, std::string_view) { return true; },
-      [&](PassCase c) { cases.push_back(std::move(c)); });
-  for (int frame = 0; frame < frames; ++frame) {
-    puddle.simulate(&recorder);
-    puddle.render(&recorder);
-  }
-  return cases;
-}
-Settings settings_of(Variant variant) {
-  for (const GoldenScene& scene : golden_scenes()) {
-    if (scene.settings.variant == variant) return scene.settings;
-  }
-  return {};
+  return rainref::test::captured(effect_info(), s.variant == Variant::corrected, "", [&](Recorder& recorder) {
+    for (int frame = 0; frame < frames; ++frame) puddle.next_frame(&recorder);
+  });
 }
 Settings small(Variant variant) {
-  Settings s = settings_of(variant);
+  Settings s = golden::named(golden_scenes(), fmt::format("puddle/{}/rg16f", name(variant))).settings();
   s.width = 19;
   s.height = 11;
   s.grid = {17, 13};
@@ -67,47 +55,6 @@ std::vector<T> values(const std::vector<std::byte>& bytes) {
 }
 
 class RecordedPasses : public testing::TestWithParam<Variant> {};
-
-TEST_P(RecordedPasses, EveryInputIsDeclaredAndEveryDeclaredInputComes) {
-  const std::string variant = GetParam() == Variant::corrected ? "corrected" : "as-published";
-  for (const Shape shape : {Shape::natural, Shape::basin}) {
-    Settings s = small(GetParam());
-    s.shape = shape;
-    for (const PassCase& c : cases_of(s, 1)) {
-      const capture::PassInfo& info = effect_info().pass(c.pass);
-      std::vector<std::string> declared, found, outputs;
-      for (const capture::ReadInfo& r : info.reads) {
-        // A basin has no shore.
-        if ((r.variant.empty() || r.variant == variant) && !(shape == Shape::basin && r.buffer == "shore")) declared.push_back(r.buffer);
-      }
-      for (const CaseInput& input : c.inputs) found.push_back(input.name);
-      EXPECT_EQ(found, declared) << c.folder();
-      for (const auto& output : c.outputs) outputs.push_back(output.name);
-      EXPECT_EQ(outputs, info.writes) << c.folder();
-      EXPECT_EQ(c.uniforms.size(), info.block(variant).size) << c.folder();
-    }
-  }
-}
-
-// Along every edge of the graph an input holds the bits of the output it comes from.
-TEST_P(RecordedPasses, InputsAreTheOutputsThatTheGraphNames) {
-  const std::vector<PassCase> cases = cases_of(small(GetParam()), 3);
-  int edges = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    for (const capture::ReadInfo& read : effect_info().pass(cases[i].pass).reads) {
-      const CaseInput* input = cases[i].input(read.buffer);
-      if (!input || read.from.empty()) continue;
-      // The latest run of that pass; the run before this one is the latest too.
-      std::size_t k = i;
-      while (k > 0 && cases[--k].pass != read.from) {
-      }
-      if (cases[k].pass != read.from) continue;  // before the first step
-      EXPECT_EQ(input->array.levels, cases[k].output(read.buffer)->array.levels) << cases[i].folder() << ' ' << read.buffer;
-      ++edges;
-    }
-  }
-  EXPECT_GT(edges, 15);
-}
 
 TEST_P(RecordedPasses, TheBoundaryIsAnAddressRule) {
   for (const auto& [boundary, address] : {std::pair(Boundary::reflecting, Address::clamp), std::pair(Boundary::periodic, Address::repeat),

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error_of.h"
+#include "config_of.h"
 #include "image/images.h"
 #include "rainref/executor.h"
 #include "puddle/host.h"
@@ -18,7 +19,6 @@
 #include "puddle/parameters.h"
 #include "puddle/scalar.h"
 #include "rainref/puddle.h"
-#include "scene/toml.h"
 
 namespace rainref::puddle::test {
 
@@ -36,12 +36,8 @@ inline const parallel::Executor& executor() {
 }
 
 /// The settings that a scene of this variant has by default.
-inline const scene::EffectTable& effect_table() {
-  static const scene::EffectTable table{{{"puddle", {"as-published", "corrected"}, parameters()}}};
-  return table;
-}
 inline scene::Config config_of(const std::string& variant, const std::vector<std::string>& overrides = {}) {
-  return scene::parse("effect = \"puddle\"\nvariant = \"" + variant + "\"\n", "test.toml", overrides, effect_table());
+  return rainref::test::config_of("puddle", parameters(), variant, "", overrides);
 }
 
 /// As published, float storage, clear air, no vignette, image ground.

@@ -23,7 +23,7 @@ TEST(WaveDefinition, GivesTheBitsOfTheLanes) {
           s.boundary = boundary;
           s.storage = storage;
           s.rounding = width % 2 ? Rounding::rne : Rounding::rtz;
-          s.step = 1 + 0.75 * (width % 5);  // as published whole and fractional
+          s.step = 1 + 1.75 * (width % 5);  // as published whole and fractional, and longer than narrow water
           s.drop_count = 10;
           s.drop_intensity = 1;
           s.rain_speed = 7;

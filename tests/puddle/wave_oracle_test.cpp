@@ -1,8 +1,7 @@
-// The scalar evaluations against the reference: every other test of waves rests on them.
+// The scalar evaluations against the reference: every other test of waves rests on them. Every offset, width and target:
+// wave_definition_test.cpp.
 #include <cstring>
 
-#include "image/images.h"
-#include "math/simd_target.h"
 #include "puddle/support.h"
 
 namespace rainref::puddle {
@@ -84,49 +83,6 @@ TEST(WaveOracle, PlainFloatsGiveTheBitsOfTheReferenceInEveryStorage) {
       s.storage = Format::rg32f;
       expect_reference_bits<float>(s, 60);
     }
-  }
-}
-
-TEST(WaveOracle, PlainFloatsGiveTheBitsOfTheReferenceForEveryOffset) {
-  for (const Boundary boundary : boundaries) {
-    Settings s = rainy(Variant::as_published, boundary);
-    for (const double step : {1.25, 2.0, 2.5, 7.75, 8.0}) {
-      s.step = step;
-      expect_reference_bits<float>(s, 20);
-    }
-  }
-}
-
-// Halves near zero, where a store may leave a zero of either sign.
-TEST(WaveOracle, EveryTargetGivesTheSameBitsUnderRainInHalves) {
-  for (const auto& [rounding, rim_width] : {std::pair{Rounding::rne, 0.0}, {Rounding::rtz, 0.0}, {Rounding::rne, 0.08}}) {
-    Settings s = rainy(Variant::corrected, Boundary::periodic);
-    s.storage = Format::rg16f;
-    s.rounding = rounding;
-    s.rim_width = rim_width;
-    const auto bits_after = [&](const std::string& target) {
-      select_simd_target(target);
-      Puddle puddle = puddle_of(s);
-      std::string bits;
-      for (int frame = 0; frame < 30; ++frame) {
-        puddle.simulate();
-        bits += bytes_of(puddle.previous());
-      }
-      select_simd_target("");
-      return bits;
-    };
-    const auto expected = bits_after("");
-    for (const std::string& target : simd_targets()) EXPECT_TRUE(bits_after(target) == expected) << text(s) << " " << target;
-  }
-}
-
-TEST(WaveOracle, GhostsReachRoundWaterSmallerThanTheOffset) {
-  for (const Boundary boundary : boundaries) {
-    Settings s = rainy(Variant::as_published, boundary);
-    s.width = 3;
-    s.height = 2;
-    s.step = 7.5;
-    expect_reference_bits<float>(s, 40);
   }
 }
 

@@ -4,11 +4,10 @@
 #include "image/flipped.h"
 #include "image/images.h"
 #include "rainy_glass/backdrop.h"
-#include "rainy_glass/info.h"
+#include "rainy_glass/golden_scenes.h"
 #include "rainy_glass/parameters.h"
 #include "rainy_glass/support.h"
 #include "scene/test_card.h"
-#include "scene/toml.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -71,10 +70,7 @@ TEST(RainyGlassErrors, HugeMapsNameTheMemory) {
   EXPECT_THAT(error_with(s, test::surroundings(s)), HasSubstr("maps.size 60000 needs"));
 }
 TEST(RainyGlassErrors, ScenesRefuseWhatTheVariantHasNot) {
-  const scene::EffectTable table{{{"rainy_glass", {"as-published", "corrected"}, parameters()}}};
-  const auto load = [&](const std::string& variant, const std::string& more) {
-    return error_of([&] { scene::parse("effect = \"rainy_glass\"\nvariant = \"" + variant + "\"\n" + more, "t.toml", {}, table); });
-  };
+  const auto load = [&](const std::string& variant, const std::string& more) { return error_of([&] { config_of(variant, more); }); };
   EXPECT_EQ(load("corrected", ""), "none");
   EXPECT_THAT(load("as-published", "[rain]\nwind = 3\n"), HasSubstr("rain.wind"));
   EXPECT_THAT(load("corrected", "[glass]\ndrop_tile = 0\n"), HasSubstr("glass.drop_tile"));
@@ -183,17 +179,5 @@ TEST(RainyGlassBackdrop, HasBarsBeforeAndAStreetBehind) {
   EXPECT_NEAR(sum, 100, 1e-3);
   EXPECT_NEAR(lit, test::pi * 6.5 * 6.5, 6);
 }
-TEST(RainyGlassInfo, DeclaresEveryPassAndBuffer) {
-  const capture::EffectInfo& info = effect_info();
-  EXPECT_EQ(info.pass_names("corrected"), (std::vector<std::string>{"bake_raindrops", "bake_rivulets", "rain_on_glass", "display"}));
-  for (const auto& pass : info.passes) {
-    for (const char* variant : {"as-published", "corrected"}) {
-      EXPECT_NO_THROW(scene::validate(pass.block(variant)));
-      for (const auto& b : pass.writes) EXPECT_NO_THROW(info.buffer(b, variant));
-    }
-  }
-  for (const auto& r : info.records) EXPECT_NO_THROW(scene::validate_record(r));
-}
-
 }  // namespace
 }  // namespace rainref::rainy_glass

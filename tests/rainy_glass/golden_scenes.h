@@ -6,55 +6,57 @@
 
 #include <fmt/format.h>
 
+#include "config_of.h"
 #include "golden/lines.h"
 #include "rainref/executor.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/host.h"
+#include "rainy_glass/parameters.h"
 #include "scene/test_card.h"
-#include "settings.h"
 
 namespace rainref::rainy_glass {
 
+inline scene::Config config_of(const std::string& variant, const std::string& toml) {
+  return rainref::test::config_of("rainy_glass", parameters(), variant, toml);
+}
+
+constexpr const char* small_maps = R"(seed = 11
+run.size = [97, 61]
+glass.drop_tile = 0.25
+glass.rivulet_tile = 0.25
+maps.size = 90
+maps.droplets = 90
+maps.largest_droplet = 0.06
+maps.smallest_droplet = 0.01
+maps.contact_angle = 40
+maps.trails = 8
+maps.trail_half_width = 0.02
+display.exposure = 0
+camera.position = [2.2, 1.7, 12]
+camera.target = [0.6, 1.9, -20]
+)";
+constexpr const char* corrected_rain = R"(rain.amount = 0.8
+rain.drop_period = 6
+rain.flow_strength = 0.02
+)";
+
 struct GoldenScene {
-  std::string name;
-  Settings settings;
+  std::string name, variant, toml;
+  Settings settings() const { return settings_from(config_of(variant, toml)); }
 };
 
 inline std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
-  for (const Variant variant : {Variant::as_published, Variant::corrected}) {
-    const auto add = [&](Format storage, Rounding rounding, Shape shape, bool use_probe, const std::string& what) {
-      Settings s = rainref::test::rainy_glass_settings();
-      s.variant = variant;
-      s.map_storage = storage;
-      s.rounding = rounding;
-      s.shape = shape;
-      s.use_probe = use_probe;
-      s.width = 97;
-      s.height = 61;
-      s.seed = 11;
-      s.map_size = 90;
-      s.droplet_count = 90;
-      s.largest_droplet = 0.06;
-      s.smallest_droplet = 0.01;
-      s.trail_count = 8;
-      s.trail_half_width = 0.02;
-      s.drop_tile = s.rivulet_tile = 0.25;
-      s.camera_position = {2.2, 1.7, 12};
-      s.camera_target = {0.6, 1.9, -20};
-      if (variant == Variant::as_published) {
-        s.rain_amount = 1;
-        s.drop_period = s.flow_period = 1;
-        s.flow_strength = 1;
-        s.flow_cells = 1;
-        s.flow_gain = 0.6;
-      }
-      scenes.push_back({fmt::format("rainy_glass/{}/{}", name(variant), what), s});
+  for (const std::string variant : {"as-published", "corrected"}) {
+    const auto add = [&](const char* what, const std::string& more) {
+      scenes.push_back(
+          {fmt::format("rainy_glass/{}/{}", variant, what), variant, small_maps + (variant == "corrected" ? corrected_rain + more : more)});
     };
-    add(Format::rgba8, Rounding::rne, Shape::pane, false, "rgba8");
-    add(Format::rgba16f, Rounding::rne, Shape::pane, false, "rgba16f");
-    add(Format::rgba16f, Rounding::rtz, Shape::pane, false, "rgba16f/rtz");
-    add(Format::rgba16f, Rounding::rne, Shape::sphere, true, "sphere");
+    const std::string halves = "maps.storage = 'rgba16f'\n";
+    add("rgba8", "maps.storage = 'rgba8'\n");
+    add("rgba16f", halves);
+    add("rgba16f/rtz", halves + "maps.rounding = 'rtz'\n");
+    add("sphere", halves + "glass.shape = 'sphere'\nglass.background = 'probe'\n");
   }
   return scenes;
 }
@@ -73,7 +75,8 @@ inline Surroundings golden_surroundings(const Settings& s, const parallel::Execu
 /// golden/lines.h.
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
                                              const golden::Caller& caller = golden::call_plainly) {
-  return golden::lines_of<RainyGlass>(scene.name, frames, caller, scene.settings, golden_surroundings(scene.settings, executor), executor);
+  const Settings s = scene.settings();
+  return golden::lines_of<RainyGlass>(scene.name, frames, caller, s, golden_surroundings(s, executor), executor);
 }
 
 }  // namespace rainref::rainy_glass

@@ -188,43 +188,5 @@ TEST(PlacesOfDrops, TheFirstIsNotTheCorner) {
   }
 }
 
-// --- Disc ------------------------------------------------------------------------------------------------------------
-
-// Mean radius 2/3 with standard deviation 1 / sqrt(18 n); 5 of them once in 2 million times. Cells of equal area: ten
-// rings by ten sectors, false alarms once in 5000 times.
-TEST(InDisc, IsUniformByArea) {
-  constexpr int n = 200000;
-  double sum = 0, x = 0, y = 0;
-  std::vector<int> cells(100);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Block r = block(3, Purpose::puddle_bed, i, 0);
-    const std::array<float, 2> p = in_disc(r[0], r[1]);
-    const double r2 = double{p[0]} * p[0] + double{p[1]} * p[1];
-    ASSERT_LE(r2, 1.0);
-    sum += std::sqrt(r2);
-    x += p[0];
-    y += p[1];
-    const double turn = std::atan2(p[1], p[0]) / (2 * 3.14159265358979323846) + 0.5;
-    ++cells[cell_of(std::min(r2, 0.999999), std::min(turn, 0.999999))];
-  }
-  EXPECT_NEAR(sum / n, 2.0 / 3, 5 / std::sqrt(18.0 * n));
-  EXPECT_NEAR(x / n, 0, 5 * 0.5 / std::sqrt(n));
-  EXPECT_NEAR(y / n, 0, 5 * 0.5 / std::sqrt(n));
-  EXPECT_LT(chi_square(cells), chi_square_99_high);
-  EXPECT_GT(chi_square(cells), chi_square_99_low);
-}
-
-TEST(InDisc, IsTheRootOfOneNumberAtTheAngleOfTheOther) {
-  EXPECT_EQ(in_disc(0, 12345), (std::array<float, 2>{0, 0}));
-  for (const std::uint32_t u : {256u, 0x40000000u, 0xffffffffu}) {
-    for (std::uint32_t v = 0; v < 16; ++v) {
-      const std::array<float, 2> p = in_disc(u, v << 28);
-      const double radius = std::sqrt((u >> 8) / 16777216.0), angle = v / 16.0 * 2 * 3.14159265358979323846;
-      EXPECT_NEAR(p[0], radius * std::cos(angle), 1e-7);
-      EXPECT_NEAR(p[1], radius * std::sin(angle), 1e-7);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace rainref::random

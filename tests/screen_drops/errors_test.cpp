@@ -1,7 +1,7 @@
 // Bad settings and images: one clear error each, naming key, expected and found.
 #include <gmock/gmock.h>
 
-#include "scene/toml.h"
+#include "screen_drops/golden_scenes.h"
 #include "screen_drops/info.h"
 #include "screen_drops/parameters.h"
 #include "screen_drops/support.h"
@@ -61,10 +61,7 @@ TEST(ScreenDropsErrors, ImagesOfAnotherShape) {
   EXPECT_THAT(error_for(in), HasSubstr("noise.image: expected four channels, found 2"));
 }
 TEST(ScreenDropsErrors, ScenesRefuseWhatTheVariantHasNot) {
-  const scene::EffectTable table{{{"screen_drops", {"as-published", "corrected"}, parameters()}}};
-  const auto load = [&](const std::string& variant, const std::string& more) {
-    return error_of([&] { scene::parse("effect = \"screen_drops\"\nvariant = \"" + variant + "\"\n" + more, "t.toml", {}, table); });
-  };
+  const auto load = [&](const std::string& variant, const std::string& more) { return error_of([&] { config_of(variant, more); }); };
   EXPECT_EQ(load("corrected", ""), "none");
   EXPECT_EQ(load("as-published", ""), "none");
   EXPECT_THAT(load("as-published", "[glass]\nheight = 3\n"), HasSubstr("glass.height"));
@@ -74,16 +71,14 @@ TEST(ScreenDropsErrors, ScenesRefuseWhatTheVariantHasNot) {
   EXPECT_THAT(load("corrected", "[drops]\nrounding = \"rze\"\n"), HasSubstr("rtz"));
 }
 TEST(ScreenDropsErrors, SettingsOfAScene) {
-  const scene::EffectTable table{{{"screen_drops", {"as-published", "corrected"}, parameters()}}};
-  const scene::Config c = scene::parse("effect = 'screen_drops'\nvariant = 'corrected'\n[glass]\nheight = 0.3\n[run]\nsize = [200, 100]\n",
-                                       "t.toml", {}, table);
+  const scene::Config c = config_of("corrected", "[glass]\nheight = 0.3\n[run]\nsize = [200, 100]\n");
   const Settings s = settings_from(c);
   EXPECT_EQ(s.pane_height, 0.3);
   const auto flow = flow_from(c, s);
   ASSERT_TRUE(flow);
   EXPECT_DOUBLE_EQ(flow->pane[0], 0.6);
   EXPECT_DOUBLE_EQ(flow->pane[1], 0.3);
-  const scene::Config still = scene::parse("effect = 'screen_drops'\nvariant = 'corrected'\nflow.on = false\n", "t.toml", {}, table);
+  const scene::Config still = config_of("corrected", "flow.on = false\n");
   EXPECT_FALSE(flow_from(still, settings_from(still)));
 }
 

@@ -1,8 +1,7 @@
-// Drops on an upright pane: what sticks, how fast the rest slides, what merging and trails do with the water, what arrives.
+// Drops on an upright pane: how fast they slide, what trails do with the water, what arrives. What sticks, and merging: tests/drops.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "math/half.h"
 #include "screen_drops/flow_support.h"
@@ -16,48 +15,6 @@ const parallel::Executor& two_threads() {
   static const parallel::Executor executor(2);
   return executor;
 }
-FlowSettings wetted(double advancing, double receding) {
-  FlowSettings s = dry_pane();
-  s.drops.advancing_deg = advancing;
-  s.drops.receding_deg = receding;
-  return s;
-}
-bool slides(const FlowSettings& s, double diameter) { return after(s, mass_of(diameter), 30, two_threads()).position[1] != 0.75f; }
-
-// theta_A, theta_R: critical diameter [mm] on upright glass, printed to 0.01 mm (physics 3).
-TEST(Flow, DropsBelowFurmidgesDiameterStickAndAboveSlide) {
-  const double table[][3] = {{50, 20, 2.56}, {70, 40, 2.79}, {40, 10, 2.34}, {95, 75, 2.24}};
-  for (const auto& [advancing, receding, mm] : table) {
-    const FlowSettings s = wetted(advancing, receding);
-    EXPECT_FALSE(slides(s, (mm - 0.006) * 1e-3)) << advancing;
-    EXPECT_TRUE(slides(s, (mm + 0.006) * 1e-3)) << advancing;
-  }
-}
-
-// At one mean angle, so of one footprint, more hysteresis holds larger drops.
-TEST(Flow, TheCriticalSizeGrowsWithHysteresis) {
-  double before = 0;
-  for (const double half : {5.0, 10.0, 15.0, 20.0}) {
-    const FlowSettings s = wetted(35 + half, 35 - half);
-    double low = 0.5e-3, high = 5e-3;
-    for (int k = 0; k < 14; ++k) (slides(s, (low + high) / 2) ? high : low) = (low + high) / 2;
-    // The bisection ends at 3e-7 m.
-    EXPECT_NEAR(high, drops::critical_diameter(test::gravity, {(35 + half) * degree, (35 - half) * degree}), 4e-7) << half;
-    EXPECT_GT(high, 1.1 * before);
-    before = high;
-  }
-}
-
-TEST(Flow, AStuckDropKeepsItsBits) {
-  const float mass = mass_of(2.5e-3);
-  const Drop d = after(dry_pane(), mass, 600, two_threads());
-  EXPECT_EQ(d.position[0], 0.5f);
-  EXPECT_EQ(d.position[1], 0.75f);
-  EXPECT_EQ(d.velocity[0], 0.0f);
-  EXPECT_EQ(d.velocity[1], 0.0f);
-  EXPECT_EQ(d.mass, mass);
-}
-
 // W4, of a drop that gravity pulls, hysteresis holds and viscosity slows: v = v_inf (1 - e^-kt) and
 // x = v_inf t - v_inf (1 - e^-kt) / k, at every frame rate and number of steps.
 TEST(Flow, ASlidingDropHasTheExactSpeedAndPlace) {
@@ -102,52 +59,6 @@ TEST(Flow, TwoStuckDropsRunAsOne) {
     EXPECT_EQ(left[0].mass, distance < 2 ? 2 * mass : mass);
     EXPECT_EQ(left[0].position[1] < 0.75f, distance < 2);
     EXPECT_EQ(flow.residual(), 0);
-  }
-}
-
-std::vector<Drop> crowd(int count, unsigned seed) {
-  std::mt19937 words(seed);
-  const auto unit = [&] { return static_cast<float>(words() >> 8) * 0x1p-24f; };
-  std::vector<Drop> all;
-  for (int i = 0; i < count; ++i) {
-    const float mass = mass_of(1e-3 + 2.2e-3 * static_cast<double>(unit()));
-    all.push_back(drop_at(0.1f + 0.8f * unit(), 0.6f + 0.35f * unit(), mass, static_cast<std::uint32_t>(i)));
-  }
-  return all;
-}
-
-TEST(Flow, MergingKeepsTheWater) {
-  Flow flow(dry_pane(), two_threads());
-  const std::vector<Drop> all = crowd(500, 1);
-  flow.set_drops(all);
-  std::int64_t water = 0, water_left = 0;
-  for (const Drop& d : all) water += static_cast<std::int64_t>(d.mass);
-  for (int n = 0; n < 12; ++n) flow.simulate();  // none has run out below yet
-  const std::vector<Drop> left = flow.drops();
-  for (const Drop& d : left) water_left += static_cast<std::int64_t>(d.mass);
-  EXPECT_EQ(water_left, water);
-  EXPECT_LT(left.size(), 300u);
-  EXPECT_EQ(flow.mass_balance().removed, 0);
-}
-
-TEST(Flow, NothingDependsOnTheOrderOfTheSlots) {
-  FlowSettings s = wet_pane();
-  s.wind = 0;
-  std::vector<Drop> all = crowd(500, 2);
-  const auto run = [&] {
-    Flow flow(s, two_threads());
-    flow.set_drops(all);
-    for (int n = 0; n < 40; ++n) flow.simulate();
-    std::vector<Drop> left = flow.drops();
-    std::sort(left.begin(), left.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
-    EXPECT_GT(flow.mass_balance().to_film, 0);
-    EXPECT_LT(left.size(), 400u);
-    return bytes_of(left) + bytes_of(flow.film());
-  };
-  const std::string expected = run();
-  for (unsigned k = 0; k < 4; ++k) {
-    std::shuffle(all.begin(), all.end(), std::mt19937(k));
-    EXPECT_EQ(run(), expected);
   }
 }
 

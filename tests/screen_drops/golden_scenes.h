@@ -7,61 +7,62 @@
 
 #include <fmt/format.h>
 
+#include "config_of.h"
 #include "golden/lines.h"
 #include "rainref/executor.h"
 #include "scene/test_card.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
-#include "settings.h"
+#include "screen_drops/parameters.h"
 
 namespace rainref::screen_drops {
 
+inline scene::Config config_of(const std::string& variant, const std::string& toml) {
+  return rainref::test::config_of("screen_drops", parameters(), variant, toml);
+}
+
+constexpr const char* window_scene = R"(seed = 11
+run.size = [97, 61]
+display.exposure = 0
+camera.position = [2.2, 1.7, 12]
+camera.target = [0.6, 1.9, -20]
+camera.vertical_fov_deg = 40
+)";
+constexpr const char* published_drops = R"(drops.grid = 0.04
+drops.keep = 0.15
+noise.size = 32
+)";
+constexpr const char* corrected_drops = R"(glass.height = 0.04
+drops.shortest_cycle = 0.3
+drops.longest_cycle = 2
+)";
+constexpr const char* golden_flow = R"(flow.warm_up = 1
+flow.substeps = 2
+flow.capacity = 2000
+flow.height_size = [90, 70]
+rain.wind = 20
+rain.rate = 60
+)";
+
 struct GoldenScene {
-  std::string name;
-  Settings settings;
-  std::optional<FlowSettings> flow;
+  std::string name, variant, toml;
+  Settings settings() const { return settings_from(config_of(variant, toml)); }
+  std::optional<FlowSettings> flow() const { return flow_from(config_of(variant, toml), settings()); }
 };
 
 inline std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
-  for (const Variant variant : {Variant::as_published, Variant::corrected}) {
-    const auto add = [&](Rounding rounding, bool other, const std::string& what) {
-      Settings s = rainref::test::screen_drops_settings();
-      s.variant = variant;
-      s.rounding = rounding;
-      s.width = 97;
-      s.height = 61;
-      s.seed = 11;
-      s.grid = 0.04;
-      s.keep = 0.15;
-      s.noise_size = 32;
-      s.printed_misprint = other;
-      s.pane_height = 0.04;
-      s.shortest_cycle = 0.3;
-      s.longest_cycle = 2;
-      s.camera_position = {2.2, 1.7, 12};
-      s.camera_target = {0.6, 1.9, -20};
-      std::optional<FlowSettings> flow;
-      if (variant == Variant::corrected && other) {
-        flow.emplace();
-        flow->pane = {s.pane_height * s.width / s.height, s.pane_height};
-        flow->wind = 20;
-        flow->warm_up = 1;
-        flow->substeps = 2;
-        flow->drops.capacity = 2000;
-        flow->drops.seed = 11;
-        flow->drops.rain_rate = 60;
-        flow->splat.width = 90;
-        flow->splat.height = 70;
-        flow->splat.rounding = rounding;
-      }
-      scenes.push_back({fmt::format("screen_drops/{}/{}", name(variant), what), s, flow});
-    };
-    const char* other = variant == Variant::corrected ? "flow" : "misprint";
-    add(Rounding::rne, false, "still");
-    add(Rounding::rtz, false, "still/rtz");
-    add(Rounding::rne, true, other);
-  }
+  const auto add = [&](const std::string& variant, const char* what, const std::string& more) {
+    scenes.push_back({fmt::format("screen_drops/{}/{}", variant, what), variant,
+                      std::string(window_scene) + (variant == "corrected" ? corrected_drops : published_drops) + more});
+  };
+  const std::string truncated = "drops.rounding = 'rtz'\n", still = "flow.on = false\n";
+  add("as-published", "still", "");
+  add("as-published", "still/rtz", truncated);
+  add("as-published", "misprint", "drops.printed_misprint = true\n");
+  add("corrected", "still", still);
+  add("corrected", "still/rtz", still + truncated);
+  add("corrected", "flow", golden_flow);
   return scenes;
 }
 
@@ -75,8 +76,9 @@ inline Inputs golden_inputs(const Settings& s, const parallel::Executor& executo
 /// golden/lines.h.
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
                                              const golden::Caller& caller = golden::call_plainly) {
-  return golden::lines_of<ScreenDrops>(scene.name, frames, caller, scene.settings, golden_inputs(scene.settings, executor), executor,
-                                       scene.flow ? &*scene.flow : nullptr);
+  const Settings s = scene.settings();
+  const std::optional<FlowSettings> flow = scene.flow();
+  return golden::lines_of<ScreenDrops>(scene.name, frames, caller, s, golden_inputs(s, executor), executor, flow ? &*flow : nullptr);
 }
 
 }  // namespace rainref::screen_drops

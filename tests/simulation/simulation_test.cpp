@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "base/error_of.h"
 #include "capture/hashing.h"
@@ -13,6 +14,7 @@
 #include "rainref/error.h"
 #include "rainref/windshield.h"
 #include "registry/registry.h"
+#include "scene/uniform_block.h"
 #include "simulation/small_scenes.h"
 #include "source_folder.h"
 #include "base/temporary_folder.h"
@@ -64,6 +66,27 @@ TEST_P(EveryEffect, HoldsWhatItsPassesGave) {
   }
   EXPECT_GE(compared, 3);
   EXPECT_EQ(Given::bytes_of(scene.picture()), given.last["picture"]);
+}
+
+// Buffers that passes name are declared, once in a variant, and every layout is one in each language.
+TEST_P(EveryEffect, DeclaresWhatItsPassesName) {
+  const auto& [effect, variant] = GetParam();
+  const capture::EffectInfo& info = *registry::find(effect)->info;
+  std::set<std::string> declared;
+  for (const capture::BufferInfo& buffer : info.buffers) {
+    if (!buffer.variant.empty() && buffer.variant != variant) continue;
+    EXPECT_TRUE(declared.insert(buffer.name).second) << buffer.name << " is declared twice";
+    if (buffer.format == "records") {
+      EXPECT_NO_THROW(scene::validate_record(info.record(buffer.record))) << buffer.name;
+    }
+  }
+  for (const std::string& name : info.pass_names(variant)) {
+    const capture::PassInfo& pass = info.pass(name);
+    EXPECT_NO_THROW(scene::validate(pass.block(variant))) << name;
+    EXPECT_FALSE(info.writes(pass, variant).empty()) << name;
+    for (const capture::ReadInfo& read : pass.reads)
+      EXPECT_TRUE((!read.variant.empty() && read.variant != variant) || declared.contains(read.buffer)) << name << ' ' << read.buffer;
+  }
 }
 
 // What has no past shows the same whether the frames before were rendered or not.

@@ -75,35 +75,29 @@ vertical_fov_deg = 8
 /// The room's own golden scene, corrected, with flowing water.
 inline GoldenScene golden_window() {
   return {"compositor/screen_drops/flow", 2, [](const parallel::Executor& executor, const TracerOptions& tracer) {
-            for (const screen_drops::GoldenScene& scene : screen_drops::golden_scenes()) {
-              if (!scene.flow) continue;
-              const screen_drops::Settings& s = scene.settings;
-              const screen_drops::Inputs in = screen_drops::golden_inputs(s, executor);
-              screen_drops::ScreenDrops drops(s, in, executor, &*scene.flow);
-              for (int frame = 0; frame < 3; ++frame) drops.next_frame();
-              const ScreenDropsView view(s, in.colour, 4e-3, tracer, executor);
-              return trace_picture(*view.scene(drops), view.camera(), s.width, s.height, {{}, 4}, executor);
-            }
-            return Picture{};
+            const auto scene = golden::named(screen_drops::golden_scenes(), "screen_drops/corrected/flow");
+            const screen_drops::Settings s = scene.settings();
+            const screen_drops::FlowSettings flow = scene.flow().value();
+            const screen_drops::Inputs in = screen_drops::golden_inputs(s, executor);
+            screen_drops::ScreenDrops drops(s, in, executor, &flow);
+            for (int frame = 0; frame < 3; ++frame) drops.next_frame();
+            const ScreenDropsView view(s, in.colour, 4e-3, tracer, executor);
+            return trace_picture(*view.scene(drops), view.camera(), s.width, s.height, {{}, 4}, executor);
           }};
 }
 
 /// The same, turned about the vertical.
 inline GoldenScene golden_glass() {
   return {"compositor/rainy_glass/pane", 2, [](const parallel::Executor& executor, const TracerOptions& tracer) {
-            for (const rainy_glass::GoldenScene& scene : rainy_glass::golden_scenes()) {
-              if (scene.name != "rainy_glass/corrected/rgba16f") continue;
-              rainy_glass::Settings s = scene.settings;
-              s.yaw_deg = 20;
-              const auto card = scene::TestCard::make();
-              const rainy_glass::Surroundings around = rainy_glass::make_backdrop(s, {0.02, 0.3, 0.03}, *card, executor);
-              rainy_glass::RainyGlass glass(s, around, executor);
-              for (int frame = 0; frame < 3; ++frame) glass.next_frame();
-              const RainyGlassView view(
-                  s, around, RainyGlassView::Street{card, rainy_glass::make_backdrop(s, {0.02, 0, 0.03}, *card, executor)}, 4e-3, tracer);
-              return trace_picture(*view.scene(glass), view.camera(), s.width, s.height, {{}, 4}, executor);
-            }
-            return Picture{};
+            rainy_glass::Settings s = golden::named(rainy_glass::golden_scenes(), "rainy_glass/corrected/rgba16f").settings();
+            s.yaw_deg = 20;
+            const auto card = scene::TestCard::make();
+            const rainy_glass::Surroundings around = rainy_glass::make_backdrop(s, {0.02, 0.3, 0.03}, *card, executor);
+            rainy_glass::RainyGlass glass(s, around, executor);
+            for (int frame = 0; frame < 3; ++frame) glass.next_frame();
+            const RainyGlassView view(
+                s, around, RainyGlassView::Street{card, rainy_glass::make_backdrop(s, {0.02, 0, 0.03}, *card, executor)}, 4e-3, tracer);
+            return trace_picture(*view.scene(glass), view.camera(), s.width, s.height, {{}, 4}, executor);
           }};
 }
 

@@ -1,10 +1,8 @@
 // The mist of condensed water on the glass: how it grows and what clears it.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 
-#include "math/simd_target.h"
 #include "windshield/surface/surface.h"
 #include "windshield/surface_support.h"
 
@@ -151,60 +149,6 @@ TEST(Condensation, ABladeClearsItsArc) {
   }
   EXPECT_EQ(mist.wiped.row<float>(100)[140], 16);
   EXPECT_NEAR(mist.time(140, 100), 20 - 0.25, 0.1);
-}
-
-using F = scalar::Scalar<float>;
-/// A texel as the text of the pass takes it.
-struct Texel {
-  F of_height, of_wiped, of_clear_time;
-  mutable F condensed{0.0f}, since{0.0f};
-  F height() const { return of_height; }
-  F wiped() const { return of_wiped; }
-  F clear_time() const { return of_clear_time; }
-  void condensation(F x) const { condensed = x; }
-  void new_clear_time(F x) const { since = x; }
-};
-/// Dry and wet texels, wiped ones and others, misty and clear.
-void fill(Mist& mist) {
-  for (int y = 0; y < 9; ++y) {
-    for (int x = 0; x < mist.wiped.width(); ++x) {
-      const int k = (x + 5 * y) % 23;
-      mist.height.row<Half>(y)[x] = to_half(k < 12 ? 0.0f : 0.003f * static_cast<float>(k - 12));
-      mist.wiped.row<float>(y)[x] = k % 3 ? 0.25f * static_cast<float>(k) : wiped_limit(mist.surface.mask_tau);
-      mist.clear_time.row<float>(y)[x] = k % 5 ? 0.125f * static_cast<float>(k) : wiped_limit(3);
-    }
-  }
-}
-TEST(Condensation, EveryTargetThreadCountAndWidthGivesThePlainBits) {
-  for (int width = 1; width <= 33; ++width) {
-    for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
-      for (const std::string& target : simd_targets()) {
-        select_simd_target(target);
-        for (const int threads : {1, 2, 3, 8}) {
-          parallel::Executor executor(threads);
-          executor.shuffle_tiles(static_cast<std::uint64_t>(width));
-          Mist mist(width, 9, 60, 3);
-          mist.surface.rounding = rounding;
-          fill(mist);
-          Mist before(width, 9, 60, 3);
-          fill(before);
-          mist.frame(3, executor);
-          const CondenseUniforms u = condense_uniforms(mist.settings, mist.surface, 3);
-          for (int y = 0; y < 9; ++y) {
-            for (int x = 0; x < width; ++x) {
-              Texel texel{F::load(before.height.row<Half>(y) + x), F(before.wiped.row<float>(y)[x]), F(before.clear_time.row<float>(y)[x])};
-              scalar::CondensePassText::run<F, true>(u, texel, x, y);
-              Half stored;
-              store(&stored, texel.condensed, rounding);
-              ASSERT_EQ(mist.condensation.row<Half>(y)[x].bits, stored.bits) << target << ' ' << width;
-              ASSERT_EQ(std::bit_cast<std::uint32_t>(mist.clear_time.row<float>(y)[x]), std::bit_cast<std::uint32_t>(texel.since.v + 0.0f));
-            }
-          }
-        }
-      }
-      select_simd_target("");
-    }
-  }
 }
 
 }  // namespace

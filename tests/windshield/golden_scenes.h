@@ -6,26 +6,24 @@
 
 #include <fmt/format.h>
 
+#include "config_of.h"
 #include "golden/lines.h"
 #include "rainref/executor.h"
 #include "rainref/windshield.h"
-#include "scene/effect_table.h"
-#include "scene/toml.h"
 #include "windshield/parameters.h"
 
 namespace rainref::windshield {
 
 /// A scene of this effect from its text, the lines `effect` and `variant` aside.
 inline scene::Config config_of(const std::string& variant, const std::string& toml) {
-  const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, parameters()}}};
-  return scene::parse("effect = 'windshield'\nvariant = '" + variant + "'\n" + toml, "test.toml", {}, table);
+  return rainref::test::config_of("windshield", parameters(), variant, toml);
 }
 
 /// A scene before the car with structure and no street behind it.
-inline Surroundings small_surroundings() {
-  Surroundings s{Image(Format::rgba16f, 37, 23), Image(Format::r32f, 37, 23)};
-  for (int y = 0; y < 23; ++y) {
-    for (int x = 0; x < 37; ++x) {
+inline Surroundings small_surroundings(int width = 37, int height = 23) {
+  Surroundings s{Image(Format::rgba16f, width, height), Image(Format::r32f, width, height)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 4; ++c)
         s.colour.row<Half>(y)[4 * x + c] =
             Half{static_cast<std::uint16_t>(c == 3 ? 0x3c00 : 0x3000 + 64 * ((7 * x + 13 * y + 5 * c) % 17))};

@@ -7,7 +7,6 @@
 
 #include "image/images.h"
 #include "math/half.h"
-#include "math/simd_target.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/scalar.h"
 
@@ -120,60 +119,6 @@ TEST(Interior, SameBitsForAnyThreads) {
   }
 }
 
-// ---- the pass
-using F = scalar::Scalar<float>;
-struct Texel {
-  struct Four {
-    const Half* at;
-    void load(F (&c)[4]) const {
-      for (int k = 0; k < 4; ++k) c[k] = F::load(at + k);
-    }
-    scalar::Vec3<F> rgb() const { return {F::load(at), F::load(at + 1), F::load(at + 2)}; }
-  };
-  Four interior, colour;
-  mutable float stored[4]{};
-  void seen(const scalar::Vec3<F>& c, F a) const {
-    stored[0] = c.x.v;
-    stored[1] = c.y.v;
-    stored[2] = c.z.v;
-    stored[3] = a.v;
-  }
-};
-Image any_picture(int columns, int seed) {
-  return make_image(Format::rgba16f, columns, 9,
-                    [=](int x, int y, int c) { return to_half(static_cast<float>(((4 * x + c) * 37 + y * 101 + seed) % 97) / 96.0f); });
-}
-TEST(Interior, EveryTargetThreadCountAndWidthGivesThePlainBits) {
-  InteriorSettings s;
-  const InteriorUniforms u = interior_uniforms(s);
-  for (int columns = 1; columns <= 33; ++columns) {
-    const Image inside = any_picture(columns, 1), before = any_picture(columns, 50);
-    for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
-      for (const std::string& target : simd_targets()) {
-        select_simd_target(target);
-        for (const int threads : {1, 2, 3, 8}) {
-          parallel::Executor executor(threads);
-          executor.shuffle_tiles(static_cast<std::uint64_t>(columns));
-          Image colour = any_picture(columns, 50);
-          pass::HostIo<InteriorPass> io;
-          io.interior = inside;
-          io.colour = colour;
-          io.seen = colour;
-          pass::Run<InteriorPass>(u, true, rounding, io).tiles(executor, 4);
-          for (int y = 0; y < 9; ++y) {
-            for (int x = 0; x < columns; ++x) {
-              const Texel texel{{inside.row<Half>(y) + 4 * x}, {before.row<Half>(y) + 4 * x}};
-              scalar::InteriorPassText::run<F, true>(u, texel, x, y);
-              for (int k = 0; k < 4; ++k)
-                ASSERT_EQ(colour.row<Half>(y)[4 * x + k].bits, to_half(texel.stored[k], rounding).bits) << target << ' ' << columns;
-            }
-          }
-        }
-      }
-    }
-  }
-  select_simd_target("");
-}
 const std::string wide_rain = std::string(wet_drive) + "[camera]\nvertical_fov_deg = 44\n[rain]\nrate = 120\n";
 // What stands there has its own light alone; what is open is what it was, with what the glass mirrors added; water does not hear of it.
 TEST(Interior, HidesWhatIsBehindAndNothingElse) {

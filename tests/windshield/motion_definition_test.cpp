@@ -23,25 +23,6 @@ std::vector<capture::PassCase> cases_of(bool corrected, std::string_view pass, c
   });
 }
 
-TEST(MotionDefinition, ListsAreThoseOfTheDefinitionOnEveryTarget) {
-  for (const std::string& target : simd_targets()) {
-    select_simd_target(target);
-    for (const bool corrected : {false, true}) {
-      for (const char* pass : {"windshield_frame", "integrate", "wipe_drops"}) {
-        const std::vector<capture::PassCase> cases = cases_of(corrected, pass, "", 2);
-        ASSERT_EQ(cases.size(), 2u);
-        EXPECT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << target;
-        const capture::CaseOutput& list = cases.back().outputs.front();
-        EXPECT_GE(list.array.width, pass == std::string("windshield_frame") ? 1 : 30) << pass;
-        if (const capture::CaseInput* before = cases.back().input("drops"); before) {
-          EXPECT_NE(before->array.levels, list.array.levels) << pass << " does something";
-        }
-      }
-    }
-  }
-  select_simd_target("");
-}
-
 TEST(MotionDefinition, SplatIsThatOfTheDefinition) {
   const std::vector<std::string> targets = simd_targets();
   std::size_t number = 0;

@@ -1,11 +1,7 @@
-// The scene keys of glass, vehicle and wipers, as a scene file gives them; and the declarations of the two passes.
+// The scene keys of glass, vehicle and wipers, as a scene file gives them.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "pass/info.h"
 #include "scene/toml.h"
-#include "windshield/info.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {
@@ -69,18 +65,6 @@ TEST(MotionParameters, WhatCannotBeIsNamed) {
   EXPECT_THAT(message("wipers.arrangement = \"parallel\"\n"), HasSubstr("tandem"));
   EXPECT_THAT(message("wipers.follow = 0.5\n"), HasSubstr("wipers.follow"));  // published only
   EXPECT_THAT(message("wipers.half_width = 0.1\n"), HasSubstr("wipers.inner_radius_0"));
-}
-
-TEST(MotionParameters, ThePassesAreDeclared) {
-  // Blocks and records validate themselves; every output and input has its buffer, drops and film aside.
-  const capture::PassInfo frame = pass::info_of<WindshieldFramePass>(), wipe = pass::info_of<WipeDropsPass>();
-  EXPECT_EQ(frame.block("corrected").size, 128u);
-  EXPECT_EQ(wipe.block("as-published").size, 64u);
-  const std::vector<scene::UniformBlock>& records = effect_info().records;
-  const std::string& record = effect_info().buffer("wipers", "corrected").record;
-  const auto wiper = std::find_if(records.begin(), records.end(), [&](const scene::UniformBlock& r) { return r.name == record; });
-  ASSERT_NE(wiper, records.end());
-  EXPECT_EQ(wiper->size, 80u);
 }
 
 }  // namespace

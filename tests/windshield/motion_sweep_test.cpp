@@ -51,22 +51,6 @@ TEST(MotionSweep, SweptAreasAreThoseOfGeometry) {
   }
 }
 
-// At 65 cycles, 100 degrees, 0.65 m and 60 frames the chord loses 1.6e-3 of the area at the fastest step.
-TEST(MotionSweep, TheQuadLosesWhatTheChordCuts) {
-  const double turn = 5.94 / 60;
-  EXPECT_NEAR(1 - std::sin(turn) / turn, 1.6e-3, 0.05e-3);
-  EXPECT_NEAR(0.65 * turn * turn / 8, 0.8e-3, 0.005e-3);
-  // A point under the arc and beyond the chord: the corrected sweep has it, the quad does not.
-  WiperSettings s;
-  s.blades = {{{0.7, 0.0}, 0.16, 0.65, 90 * degree - turn / 2, turn, 0}};
-  s.half_width = 1e-4;
-  s.cycles_per_minute = 30;
-  const std::vector<Wiper> records = wipers_between(s, default_glass().plane(), 0, 1, corrected);
-  const N x(0.7f), y(0.65f - 0.4e-3f);
-  EXPECT_TRUE(scalar::in_sweep(records[0], x, y));
-  EXPECT_FALSE(scalar::in_quad(uniforms_of(records, false), records[0], x, y));
-}
-
 // A move too small for the axes' floats: its sector is no wider than the blade, and does not reach through the pivot.
 TEST(MotionSweep, ATinyMoveSweepsOneSideOfThePivot) {
   Wiper w{};

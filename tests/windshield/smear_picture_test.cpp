@@ -6,10 +6,7 @@
 
 #include "image/images.h"
 #include "math/half.h"
-#include "math/simd_target.h"
-#include "pass/same_as_definition.h"
 #include "windshield/golden_scenes.h"
-#include "windshield/info.h"
 #include "windshield/surface/surface.h"
 
 namespace rainref::windshield {
@@ -117,37 +114,6 @@ TEST(Smear, ALampIsDrawnOutAcrossTheArcs) {
   EXPECT_NEAR(yy / sum, 0.1 * (21.5 * 17 / 16) * (21.5 * 17 / 16), 4);
   // tan 3.5 degrees of the image plane, whose half is tan 20 degrees, is 21.5 pixels; then a texel or two of the level.
   EXPECT_GT(within, 0.999 * sum);
-}
-
-std::string smeared_drive(int width, const std::string& rounding) {
-  return fmt::format(
-      "seed = 5\n[run]\nsize = [{}, 21]\nfps = 30\n[wipers]\ncycles_per_minute = 90\n[smear]\non = true\nwear = 0.8\ndrying = 1\n"
-      "[camera]\nvertical_fov_deg = 50\n[rain]\nrate = 150\nsmallest_drop = 0.8\n[windshield]\nheight_size = [{}, 23]\nrounding = '{}'\n",
-      width, width + 8, rounding);
-}
-TEST(Smear, EveryTargetThreadCountAndWidthGivesTheDefinitionsBits) {
-  std::size_t number = 0;
-  const std::vector<std::string> targets = simd_targets();
-  for (int width = 1; width <= 33; ++width) {
-    for (const char* rounding : {"rne", "rtz"}) {
-      for (const int threads : {1, 2, 3, 8}) {
-        select_simd_target(targets[number++ % targets.size()]);
-        parallel::Executor executor(threads);
-        executor.shuffle_tiles(static_cast<std::uint64_t>(width));
-        Windshield w(config_of("corrected", smeared_drive(width, rounding)), small_surroundings(), executor);
-        for (int frame = 0; frame < 6; ++frame) w.simulate(), w.render();
-        for (const char* pass : {"smear", "soften"}) {
-          const std::vector<capture::PassCase> cases = rainref::test::captured(effect_info(), true, pass, [&](Recorder& recorder) {
-            w.simulate(&recorder);
-            w.render(&recorder);
-          });
-          ASSERT_EQ(cases.size(), 1u);
-          EXPECT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << width << ' ' << threads;
-        }
-      }
-    }
-  }
-  select_simd_target("");
 }
 
 }  // namespace

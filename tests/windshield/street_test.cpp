@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "determinism.h"
+#include "image/images.h"
 #include "math/half.h"
 #include "night_street/night_street.h"
 #include "windshield/support.h"
@@ -98,6 +100,26 @@ TEST(StreetDrive, ALevelRoadKeepsItsTextureFromRowToRow) {
       EXPECT_NEAR(shown, depth, 2 * r * r / (4 * there) + 2 * there * 0x1p-11) << y << ": rows are " << r << " m apart";
     }
   }
+}
+
+// The views are an input of passes: their bits are compared between targets.
+TEST(StreetDrive, EveryTargetThreadCountOrderAndWidthGivesTheSameViews) {
+  const auto keyframe = [](float shift) {
+    return Keyframe{
+        make_image(Format::rgba16f, 19, 13,
+                   [=](int x, int y, int c) { return to_half(shift + 0.0625f * static_cast<float>((7 * x + 13 * y + 5 * c) % 17)); }),
+        make_image(Format::r32f, 19, 13, [=](int x, int y, int) { return 40 * shift + static_cast<float>((3 * x + 11 * y) % 31); })};
+  };
+  const Keyframe behind = keyframe(0), ahead = keyframe(0.25f);
+  const ReprojectUniforms u{{0.6f, 0.3f}, {0.05f, 0.05f}, {0.01f, -0.02f, 0.99f}, 2.5f, -5.5f, 0.4f};
+  for (int columns = 1; columns <= 33; ++columns) {
+    rainref::test::expect_one_result(fmt::format("width {}", columns), [&](const parallel::Executor& executor) {
+      SceneView view{Image(Format::rgba16f, columns, 11), Image(Format::r32f, columns, 11)};
+      executor.for_tiles(columns, 11, columns, 2, [&](const parallel::Tile& tile) { reproject_rows(u, behind, ahead, view, tile); });
+      return capture::hash_of(view.colour).text() + capture::hash_of(view.depth).text();
+    });
+  }
+  select_simd_target("");
 }
 
 // The street begins again after 396 m, with any number of keyframes.

@@ -1,9 +1,8 @@
-// What wipe_texture and normals declare: scene keys, uniform blocks, buffers; and the host's values.
+// The scene keys of wipe_texture and normals, and the host's values.
 #include <gtest/gtest.h>
 
+#include "config_of.h"
 #include "rainref/error.h"
-#include "scene/toml.h"
-#include "pass/info.h"
 #include "windshield/info.h"
 #include "windshield/parameters.h"
 
@@ -11,8 +10,7 @@ namespace rainref::windshield {
 namespace {
 
 Settings read(const std::string& variant, const std::vector<std::string>& values) {
-  const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, parameters()}}};
-  return settings_from(scene::parse("effect = 'windshield'\nvariant = '" + variant + "'\n", "test", values, table));
+  return settings_from(rainref::test::config_of("windshield", parameters(), variant, "", values));
 }
 
 TEST(SurfaceDeclared, ScenesSetWhatTheVariantUses) {
@@ -30,41 +28,6 @@ TEST(SurfaceDeclared, ScenesSetWhatTheVariantUses) {
   EXPECT_EQ(blur.fog_density, 0.5);
   EXPECT_EQ(blur.fog_colour[2], 3);
   EXPECT_EQ(blur.rounding, Rounding::rtz);
-}
-
-TEST(SurfaceDeclared, PassesAndTheirBuffers) {
-  // Making a block validates it: an error would throw.
-  const capture::PassInfo wipe = pass::info_of<WipeTexturePass>(), normal = pass::info_of<NormalsPass>();
-  EXPECT_EQ(wipe.block("corrected").size, sizeof(WipeTextureUniforms));
-  EXPECT_EQ(normal.block("as-published").size, sizeof(NormalsUniforms));
-  capture::EffectInfo effect;
-  effect.buffers = pass::buffers_of<WipeTexturePass>();
-  for (const char* name : {"mask", "wiped"}) EXPECT_NO_THROW(effect.buffer(name, "corrected")) << name;
-  EXPECT_NO_THROW(effect.buffer("mask", "as-published"));
-}
-
-TEST(SurfaceDeclared, PassesNameOnlyBuffersThatTheVariantHas) {
-  const capture::EffectInfo& effect = effect_info();
-  for (const std::string variant : {"as-published", "corrected"}) {
-    for (const std::string& name : effect.pass_names(variant)) {
-      const capture::PassInfo& pass = effect.pass(name);
-      for (const capture::ReadInfo& read : pass.reads)
-        if (read.variant.empty() || read.variant == variant) {
-          EXPECT_NO_THROW(effect.buffer(read.buffer, variant)) << name << ' ' << variant;
-        }
-      EXPECT_FALSE(effect.writes(pass, variant).empty()) << name;
-    }
-    for (std::size_t i = 0; i < effect.buffers.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k) {
-        const capture::BufferInfo &a = effect.buffers[i], &b = effect.buffers[k];
-        EXPECT_FALSE(a.name == b.name && (a.variant.empty() || b.variant.empty() || a.variant == b.variant))
-            << a.name << " is declared twice";
-      }
-  }
-  const std::vector<std::string> published{"height", "mask"}, correct{"height", "mask", "wiped"};
-  EXPECT_EQ(effect.writes(effect.pass("wipe_texture"), "as-published"), published);
-  EXPECT_EQ(effect.writes(effect.pass("wipe_texture"), "corrected"), correct);
-  EXPECT_EQ(effect.writes(effect.pass("wipe_drops"), "as-published"), std::vector<std::string>{"drops"});
 }
 
 // The declared range holds what the largest time constant lets `wiped` grow to.
