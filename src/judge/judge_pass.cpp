@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "judge/conclude.h"
 #include "judge/coverage.h"
@@ -11,6 +12,7 @@
 #include "judge/keyed.h"
 #include "judge/null_ports.h"
 #include "judge/sample.h"
+#include "judge/sampled_votes.h"
 
 namespace rainref::judge {
 namespace {
@@ -92,7 +94,8 @@ Asked asked(const PassTask& task, std::size_t k) {
 }
 
 /// Asks about the run with the most failures, which says most, and the next.
-Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options, bool is_warned = false) {
+Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options, double share = 1,
+                      bool is_warned = false) {
   std::vector<std::size_t> failing;
   for (std::size_t k = 0; k < judged.cases.size(); ++k)
     if (judged.cases[k].failing > 0) failing.push_back(k);
@@ -111,6 +114,7 @@ Explanation explained(const PassTask& task, const PassJudgement& judged, const J
             judged.half_mode,
             options,
             other,
+            share,
             is_warned};
   };
   if (failing.size() == 1) return task.runs.explain(failed(worst, failing[0], nullptr));
@@ -139,9 +143,34 @@ std::vector<Cause> causes_of_warning(const PassTask& task, const PassJudgement& 
   // What a known device would do tells what is near; but for rearrangements, which the profile alone allows.
   const bool is_rearranged = std::any_of(judged.cases.begin(), judged.cases.end(), [](const CaseJudgement& c) { return c.rearranged > 0; });
   if (options.typical && !is_rearranged) how.profile = options.typical;
-  std::vector<Cause> causes = explained(task, as_failing(judged), how, true).causes;
+  std::vector<Cause> causes = explained(task, as_failing(judged), how, 1, true).causes;
   std::erase_if(causes, [](const Cause& c) { return !c.is_likely; });
   return causes;
+}
+
+/// How much of what fails the first cause explains, bits and nearness alike; and whether it is likely.
+std::pair<double, bool> worth(const Explanation& why) {
+  if (why.causes.empty()) return {-1, false};
+  const Cause& first = why.causes.front();
+  return {static_cast<double>(first.explained + first.inside) / static_cast<double>(std::max<std::int64_t>(first.of, 1)), first.is_likely};
+}
+/// Asks under either rounding of halves, where nothing else tells which is the port's, and leaves `judged` by that of the better answer.
+/// `cases`: every run under each rounding.
+Explanation explained_by_each(const PassTask& task, std::vector<ModeJudgements> cases, PassJudgement& judged, const JudgeOptions& options) {
+  judged.half_mode_is_open = true;
+  PassJudgement other = judged;
+  other.cases.clear();
+  other.reason.clear();
+  for (ModeJudgements& c : cases) {
+    const std::size_t mode = c.modes.empty() || c.modes[0] != judged.half_mode ? 0 : 1;
+    if (!c.modes.empty()) other.half_mode = c.modes[mode];
+    other.cases.push_back(std::move(c.judgements[mode]));
+  }
+  conclude(other, *options.profile);
+  Explanation why = explained(task, judged, options, 0.5), second = explained(task, other, options, 0.5);
+  if (worth(second) <= worth(why)) return why;
+  judged = std::move(other);
+  return second;
 }
 
 /// A port that does nothing and passes all of these runs, which were settled before; "": none.
@@ -203,18 +232,12 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
   // What one rounding settles is asked under the others where how the port rounds may hang on it.
   JudgeOptions every = options;
   every.every_rounding = true;
-  const auto ask_undecided = [&] {
-    while (const auto k = first_undecided(votes, half_mode_of(*options.profile), !voters.empty())) {
-      cases[*k] = judge_runs(tasks[*k], every, nullptr);
-      votes[*k] = votes_of(tasks[*k].pass->name, cases[*k]);
-    }
-  };
-  ask_undecided();
-  for (const PassTask& voter : voters) {
-    if (!is_rounding_open(votes)) break;
-    votes.push_back(votes_of(voter.pass->name, judge_runs(voter, every, nullptr)));
+  if (std::any_of(votes.begin(), votes.end(), [](const HalfVotes& v) { return v.modes.size() >= 2; }))
+    for (const PassTask& voter : voters) votes.push_back(sampled_votes(voter, options));
+  while (const auto k = first_undecided(votes, half_mode_of(*options.profile))) {
+    cases[*k] = judge_runs(tasks[*k], every, nullptr);
+    votes[*k] = votes_of(tasks[*k].pass->name, cases[*k]);
   }
-  ask_undecided();
   std::vector<PassJudgement> all;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const PassTask& task = tasks[k];
@@ -223,6 +246,9 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     judged.formula = task.pass->formula;
     judged.causes_sought = static_cast<bool>(task.runs.explain);
     judged.coverage = summary(coverage[k], task.pass->unexercised);
+    const bool is_open = task.runs.explain && fails_by_each(votes[k]) && is_rounding_open(votes);
+    std::vector<ModeJudgements> by_each;
+    if (is_open) by_each = votes[k].is_whole() ? cases[k] : judge_runs(task, every, nullptr);
     choose_mode(judged, cases[k], votes[k], votes, options);
     conclude(judged, *options.profile);
     if (task.runs.tries_null_ports && (judged.status == Status::pass || judged.status == Status::warn)) {
@@ -235,7 +261,7 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     if (!task.runs.explain) continue;
     if (judged.status == Status::warn) judged.causes = causes_of_warning(task, judged, options);
     if (judged.status != Status::fail) continue;
-    Explanation why = explained(task, judged, options);
+    Explanation why = is_open ? explained_by_each(task, std::move(by_each), judged, options) : explained(task, judged, options);
     judged.causes = std::move(why.causes);
     judged.where = std::move(why.where);
   }

@@ -41,6 +41,7 @@ struct FailedRun {
   HalfMode half_mode;           ///< that the pass was judged by
   const JudgeOptions& options;
   const FailedRun* other = nullptr;  ///< the failing run that says next most; null: none
+  double share = 1;                  ///< of the time that there is for its pass, which is asked about under each rounding of halves
   /// What is asked about is warned of and does not fail: `judgement` has it as failing. What is plain is tried alone, which bounds the
   /// time.
   bool is_warned = false;
@@ -68,7 +69,7 @@ struct PassTask {
   PassRuns runs;
 };
 /// The passes of one port, in this order. How its stores to binary16 round is one choice for all of them. `voters`: other passes of it,
-/// asked in this order how stores round until one of them tells, where the tasks do not.
+/// which are asked by a sample how stores round.
 std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options,
                                         const std::vector<PassTask>& voters = {});
 
