@@ -13,18 +13,13 @@
 #include "judge/null_ports.h"
 #include "judge/sample.h"
 #include "judge/sampled_votes.h"
+#include "judge/slots.h"
+#include "rainref/error.h"
 
 namespace rainref::judge {
 namespace {
 
 using capture::PassModel;
-
-/// Binds and settles a run.
-std::unique_ptr<PassModel> prepare(const capture::PackPass& pass, Bind bind, const PassRuns& runs, PortRun& run) {
-  std::unique_ptr<PassModel> model = bound(pass.name, bind, run.c);
-  if (runs.settle) runs.settle(run, model.get());
-  return model;
-}
 
 /// A run that was not judged counts under every rounding.
 ModeJudgements not_judged(const PortRun& run) {
@@ -83,13 +78,11 @@ struct Asked {
 };
 Asked asked(const PassTask& task, std::size_t k) {
   Asked a{task.runs.load(k), nullptr, {}};
-  a.model = prepare(*task.pass, task.bind, task.runs, a.run);
+  a.model = prepare(task, a.run);
   if (k == 0) return a;
   a.before = task.runs.load(k - 1);
-  if (a.before->untested.empty())
-    prepare(*task.pass, task.bind, task.runs, *a.before);
-  else
-    a.before.reset();
+  if (a.before->untested.empty()) prepare(task, *a.before);
+  if (!a.before->untested.empty()) a.before.reset();
   return a;
 }
 
@@ -199,7 +192,7 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
   for (std::size_t k = 0; k < runs.count; ++k) {
     PortRun run = runs.load(k);
     std::unique_ptr<PassModel> model;
-    if (run.untested.empty()) model = prepare(*task.pass, task.bind, runs, run);
+    if (run.untested.empty()) model = prepare(task, run);
     if (!run.untested.empty()) {
       cases.push_back(not_judged(run));
     } else {
@@ -219,6 +212,20 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
 }
 
 }  // namespace
+
+std::unique_ptr<PassModel> prepare(const PassTask& task, PortRun& run) {
+  std::unique_ptr<PassModel> model;
+  try {
+    model = bound(task.pass->name, task.bind, run.c);
+    if (task.runs.settle) task.runs.settle(run, model.get());
+  } catch (const Error& e) {
+    if (!task.runs.takes_inputs_of_port || e.code() != ExitCode::port_files) throw;
+    run.broken = run.untested = e.what();
+  }
+  if (!run.untested.empty()) return model;
+  if (const std::string fault = length_fault(run.c, run.stored); !fault.empty()) run.broken = run.untested = fault;
+  return model;
+}
 
 std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options,
                                         const std::vector<PassTask>& voters) {

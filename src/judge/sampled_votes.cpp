@@ -4,7 +4,6 @@
 #include <array>
 #include <memory>
 
-#include "judge/evaluations.h"
 #include "judge/invocation_judge.h"
 #include "judge/reference_bits.h"
 #include "judge/sample.h"
@@ -47,14 +46,16 @@ void ask(const PortRun& run, const capture::PassModel& model, const std::vector<
 
 }  // namespace
 
-HalfVotes sampled_votes(const PassTask& task, const JudgeOptions& options) {
+HalfVotes sampled_votes(PassTask task, const JudgeOptions& options) {
+  task.runs.settle = nullptr;
   HalfVotes votes{task.pass->name, {}, {}};
   Counts counts;
   const std::size_t runs = std::min(task.runs.count, most_runs);
   for (std::size_t k = 0; k < runs && !counts.is_wrong() && !counts.tells(); ++k) {
-    const PortRun run = task.runs.load(k * task.runs.count / runs);
+    PortRun run = task.runs.load(k * task.runs.count / runs);
     if (!run.untested.empty()) continue;
-    const std::unique_ptr<capture::PassModel> model = bound(task.pass->name, task.bind, run.c);
+    const std::unique_ptr<capture::PassModel> model = prepare(task, run);
+    if (!run.untested.empty()) continue;
     const std::vector<HalfMode> modes = modes_of(run.c, options);
     if (!model || model->rounds_inside() || modes.size() < 2) return votes;
     votes.modes = modes;

@@ -10,6 +10,6 @@ namespace rainref::judge {
 /// What HalfVotes says of a pass, by some hundreds of invocations of a few of its runs; its counts are theirs. No modes where the pass
 /// tells nothing: it has no output of halves that an envelope judges, it rounds inside, or its runs cannot be judged. Equal counts where it
 /// fails by both. PassRuns::settle is not called.
-HalfVotes sampled_votes(const PassTask& task, const JudgeOptions& options);
+HalfVotes sampled_votes(PassTask task, const JudgeOptions& options);
 
 }  // namespace rainref::judge
