@@ -16,8 +16,8 @@ die() { say "$*"; exit 1; }
 
 # RAINREF_NO_BUILD=1 takes build/ as it is: for a machine that has a GPU and no compiler, where it was copied to.
 
-# apt LOG ARGUMENT...: apt-get as root, quietly. While another program holds a lock of apt, this waits for up to ten minutes.
-apt() {
+# run_apt LOG ARGUMENT...: apt-get as root, quietly. While another program holds a lock of apt, this waits for up to ten minutes.
+run_apt() {
   local log=$1 as_root=() result try
   shift
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
@@ -43,7 +43,7 @@ need() {
   say "Installing ${#missing[@]} packages: ${missing[*]}"
   local log
   log=$(mktemp)
-  if ! { apt "$log" update && apt "$log" install -y --no-install-recommends "${missing[@]}"; }; then
+  if ! { run_apt "$log" update && run_apt "$log" install -y --no-install-recommends "${missing[@]}"; }; then
     tail -n 5 "$log" >&2
     die "Could not install: ${missing[*]} (whole log: $log)"
   fi
