@@ -150,7 +150,6 @@ std::pair<double, bool> worth(const Explanation& why) {
 /// Asks under either rounding of halves, where nothing else tells which is the port's, and leaves `judged` by that of the better answer.
 /// `cases`: every run under each rounding.
 Explanation explained_by_each(const PassTask& task, std::vector<ModeJudgements> cases, PassJudgement& judged, const JudgeOptions& options) {
-  judged.half_mode_is_open = true;
   PassJudgement other = judged;
   other.cases.clear();
   other.reason.clear();
@@ -253,9 +252,9 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     judged.formula = task.pass->formula;
     judged.causes_sought = static_cast<bool>(task.runs.explain);
     judged.coverage = summary(coverage[k], task.pass->unexercised);
-    const bool is_open = task.runs.explain && fails_by_each(votes[k]) && is_rounding_open(votes);
+    judged.half_mode_is_open = fails_by_each(votes[k]) && is_rounding_open(votes);
     std::vector<ModeJudgements> by_each;
-    if (is_open) by_each = votes[k].is_whole() ? cases[k] : judge_runs(task, every, nullptr);
+    if (judged.half_mode_is_open && task.runs.explain) by_each = votes[k].is_whole() ? cases[k] : judge_runs(task, every, nullptr);
     choose_mode(judged, cases[k], votes[k], votes, options);
     conclude(judged, *options.profile);
     if (task.runs.tries_null_ports && (judged.status == Status::pass || judged.status == Status::warn)) {
@@ -268,7 +267,8 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     if (!task.runs.explain) continue;
     if (judged.status == Status::warn) judged.causes = causes_of_warning(task, judged, options);
     if (judged.status != Status::fail) continue;
-    Explanation why = is_open ? explained_by_each(task, std::move(by_each), judged, options) : explained(task, judged, options);
+    Explanation why =
+        judged.half_mode_is_open ? explained_by_each(task, std::move(by_each), judged, options) : explained(task, judged, options);
     judged.causes = std::move(why.causes);
     judged.where = std::move(why.where);
   }

@@ -183,23 +183,6 @@ TEST_P(ListFaults, MutateCountsThemAlikeForEveryNumberOfThreads) {
 
 INSTANTIATE_TEST_SUITE_P(Packs, ListFaults, testing::ValuesIn(packs_with_lists()), name_of_pack_test);
 
-// A step of milliseconds ends every drop. That its list stays empty was called likely, and the search was over.
-TEST(ListCauses, AnEmptyListIsSeenAndNoCause) {
-  MiniPort port("windshield-corrected");
-  const std::size_t dt = uniform_offset(port.pack, "integrate", "dt");
-  port.before = [&](PassCase& c) {
-    if (c.pass == "integrate") change_at<float>(c.uniforms.data() + dt, [](float seconds) { return 1000 * seconds; });
-  };
-  ValidateOptions options;
-  options.only = {"integrate"};
-  options.explain = diagnose;
-  const PassJudgement j = pass_of(judged(port, options), "integrate");
-  EXPECT_EQ(j.status, Status::fail);
-  for (const Cause& c : j.causes) EXPECT_FALSE(c.is_likely && c.name == "drops not written") << c.sentence;
-  ASSERT_FALSE(j.causes.empty());
-  EXPECT_NE(j.causes[0].name, "drops not written");
-}
-
 /// What port writers really do to the merge of the windshield, where it matters: events, and the cause that is named.
 struct Expected {
   const char *fault, *events;
