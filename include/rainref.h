@@ -229,7 +229,7 @@ RR_API int rr_get_expected(const rr_cases* cases, size_t index, size_t output, r
 RR_API const char* rr_get_judge(const rr_cases* cases, size_t index, size_t output);
 
 /// What a port gave for an output; a copy is taken. Of an image `count` is its height, `row_bytes` from one of its rows to the next; of
-/// records their number and their size. Where the list's length is a key's, another number of records is refused.
+/// records their number and their size. Where the list's length is a key's, another number of records is a FAIL.
 RR_API int rr_give(rr_cases* cases, size_t index, size_t output, const void* data, size_t row_bytes, size_t count);
 /// The same of an image that says itself what it is: type, channels, width, height, planes (1), texel_bytes, row_bytes and plane[0] of
 /// `image` count. As of files (docs/dumps.md) channels beyond the output's are left out, which the report notes. Floats may also be given

@@ -16,6 +16,20 @@ die() { say "$*"; exit 1; }
 
 # RAINREF_NO_BUILD=1 takes build/ as it is: for a machine that has a GPU and no compiler, where it was copied to.
 
+# run_apt LOG ARGUMENT...: apt-get as root, quietly. While another program holds a lock of apt, this waits for up to ten minutes.
+run_apt() {
+  local log=$1 as_root=() result try
+  shift
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+  for try in {1..120}; do
+    result=0
+    "${as_root[@]}" env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -qq "$@" >"$log" 2>&1 || result=$?
+    [ "$result" -ne 0 ] && grep -q 'Could not get lock' "$log" || return "$result"
+    [ "$try" -ne 1 ] || say "Waiting for another program that holds the lock of apt"
+    sleep 5
+  done
+  return "$result"
+}
 # Installs the named Debian packages that are not there yet. Quick when nothing is missing.
 need() {
   [ -z "${RAINREF_NO_BUILD-}" ] || return 0
@@ -25,15 +39,11 @@ need() {
   done
   [ ${#missing[@]} -eq 0 ] && return 0
   command -v apt-get >/dev/null || die "Missing: ${missing[*]} (this machine has no apt-get; install them and run again)"
-  local as_root=()
-  if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || die "Missing: ${missing[*]} (install them as root and run again; there is no sudo)"
-    as_root=(sudo)
-  fi
+  [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null || die "Missing: ${missing[*]} (install them as root and run again; there is no sudo)"
   say "Installing ${#missing[@]} packages: ${missing[*]}"
   local log
   log=$(mktemp)
-  if ! { "${as_root[@]}" apt-get update -qq && DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  if ! { run_apt "$log" update && run_apt "$log" install -y --no-install-recommends "${missing[@]}"; }; then
     tail -n 5 "$log" >&2
     die "Could not install: ${missing[*]} (whole log: $log)"
   fi

@@ -171,7 +171,7 @@ class Cases {
   CaseArray expected(std::size_t index, std::string_view output) const;
 
   /// What a port gave for an output; a copy is taken. Of an image `count` is its height, `row_bytes` from one of its rows to the next; of
-  /// records their number and their size. Where the list's length is a key's, another number of records is refused.
+  /// records their number and their size. Where the list's length is a key's, another number of records is a FAIL.
   void give(std::size_t index, std::string_view output, const void* data, std::size_t row_bytes, std::size_t count);
 
   /// Judges every pass that anything was given for, and says why one fails. A run with an output that was not given is NOT JUDGED.

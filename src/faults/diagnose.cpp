@@ -218,6 +218,8 @@ std::vector<Tried> best_causes(std::vector<Tried> causes) {
   // Where a list is left as it was, whatever keeps a pass from doing anything is the cause as well.
   if (std::any_of(causes.begin(), causes.end(), [](const Tried& c) { return c.of_records && c.what.is(trait::late) && c.inside == c.of; }))
     for (Tried& c : out) c.is_likely = false;
+  // That a list stays empty is what is seen, and not why.
+  for (Tried& c : out) c.is_likely &= !(c.of_records && c.what.is(trait::empty));
   for (Tried& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;
 }

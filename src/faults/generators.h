@@ -38,7 +38,8 @@ void add_scaled_inputs(std::vector<Fault>& out, const Probed& p);
 /// Texels loaded by integers, read from elsewhere: farther or diagonal neighbours, exchanged axes, another channel, another
 /// rule at the border.
 void add_tap_faults(std::vector<Fault>& out, const Probed& p);
-/// Each literal, or each uniform, by its name, as what is often written for it: left out, with the other sign, doubled.
+/// Each literal, or each uniform, by its name, as what is often written for it: left out, with the other sign, doubled. A guard
+/// against a division by zero is left out at most.
 void add_named_constants(std::vector<Fault>& out, const Constants& constants, bool literals);
 /// Each constant as what is rarely written for it: one more, times pi, in degrees.
 void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants& constants);

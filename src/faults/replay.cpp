@@ -24,7 +24,9 @@ bool is_explained(const std::vector<Tried>& causes) {
   // What is fitted to the records that a port lost, or says that nothing was done, may have a reason in the text; and so has a
   // number that is not set, of which a few records say little.
   constexpr std::int64_t few = 8;
-  const auto is_symptom = [](const Tried& c) { return c.what.is(trait::lost | trait::late) || (c.what.is(trait::unset) && c.of < few); };
+  const auto is_symptom = [](const Tried& c) {
+    return c.what.is(trait::lost | trait::late) || (c.of_records && c.what.is(trait::empty)) || (c.what.is(trait::unset) && c.of < few);
+  };
   return std::any_of(causes.begin(), causes.end(),
                      [&](const Tried& c) { return c.is_likely && score(c) >= 1.9 && !is_symptom(c) && !is_fitted(c); });
 }

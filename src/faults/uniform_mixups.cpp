@@ -217,6 +217,13 @@ class Replacer {
   const Constant& of_;
 };
 
+/// A small literal that keeps a division or a root from zero. No power of two, which is a scale: it is left out at most, as nobody writes
+/// it otherwise.
+bool is_guard(const Constant& constant) {
+  int exponent = 0;
+  return constant.begins_as_literal && std::abs(constant.value) <= 1e-4f && std::abs(std::frexp(constant.value, &exponent)) != 0.5f;
+}
+
 }  // namespace
 
 void add_named_constants(std::vector<Fault>& out, const Constants& constants, bool literals) {
@@ -224,8 +231,9 @@ void add_named_constants(std::vector<Fault>& out, const Constants& constants, bo
     const float value = constant.value;
     if (value == 0 || constant.is_literal != literals || constant.is_made) continue;  // a made number is rarely left out by itself
     const Replacer as(out, constant);
-    as(1, Kind::number_left_out_of_product);
     as(0, Kind::number_left_out);
+    if (is_guard(constant)) continue;
+    as(1, Kind::number_left_out_of_product);
     as(-value, Kind::number_of_other_sign);
     as(value * 2, Kind::number_doubled);
     as(value / 2, Kind::number_halved);
@@ -240,7 +248,7 @@ void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants
   using Number = scalar::Scalar<float>;
   for (const Constant& constant : constants) {
     const float value = constant.value;
-    if (value == 0) continue;
+    if (value == 0 || is_guard(constant)) continue;
     const Replacer as(out, constant);
     if (value > 0) as(std::sqrt(value), Kind::number_without_square);
     as(value * aspect, Kind::number_times_aspect);

@@ -1,6 +1,7 @@
 #include "judge/half_votes.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -15,6 +16,18 @@ const char* words(HalfMode mode) { return mode == HalfMode::rne ? "to nearest" :
 std::size_t place(const HalfVotes& pass, HalfMode mode) { return pass.modes[0] == mode ? 0 : 1; }
 
 bool has_vote(const HalfVotes& pass) { return pass.modes.size() >= 2 && !pass.rounds_inside; }
+
+/// The place of the rounding by which clearly more of what was asked has the reference's bits: by far more than a wrong formula meets by
+/// chance. Nothing: neither.
+std::optional<std::size_t> place_by_bits(const std::vector<HalfVotes>& passes) {
+  constexpr std::int64_t least = 16, share = 8;
+  std::array<std::int64_t, 2> bits{};
+  for (const HalfVotes& p : passes)
+    for (std::size_t k = 0; has_vote(p) && !p.with_bits.empty() && k < 2; ++k) bits[k] += p.with_bits[k];
+  const auto [few, many] = std::minmax(bits[0], bits[1]);
+  if (many - few < least || (many - few) * share < many) return std::nullopt;
+  return bits[1] > bits[0] ? 1 : 0;
+}
 
 /// Passes that can be stored by this rounding alone.
 std::vector<std::string> only_under(HalfMode mode, const std::vector<HalfVotes>& passes) {
@@ -68,14 +81,16 @@ HalfMode port_rounding(const std::vector<HalfVotes>& passes) {
   const auto [passes_0, failing_0, bits_0] = against(0);
   const auto [passes_1, failing_1, bits_1] = against(1);
   if (failing_0 + failing_1 == 0) return voter->modes[bits_1 > bits_0 ? 1 : 0];
+  const std::optional<std::size_t> by_bits = place_by_bits(passes);
+  if (passes_1 == passes_0 && by_bits) return voter->modes[*by_bits];
   const bool is_second = passes_1 != passes_0 ? passes_1 < passes_0 : 10 * failing_1 <= 9 * failing_0 && failing_1 < failing_0;
   return voter->modes[is_second ? 1 : 0];
 }
 
+bool fails_by_each(const HalfVotes& pass) { return pass.modes.size() >= 2 && pass.failing[0] > 0 && pass.failing[1] > 0; }
 bool is_rounding_open(const std::vector<HalfVotes>& passes) {
-  const bool fails = std::any_of(passes.begin(), passes.end(),
-                                 [](const HalfVotes& p) { return p.modes.size() >= 2 && p.failing[0] > 0 && p.failing[1] > 0; });
-  return fails && only_under(HalfMode::rne, passes).empty() && only_under(HalfMode::rtz, passes).empty();
+  return std::any_of(passes.begin(), passes.end(), fails_by_each) && !place_by_bits(passes) && only_under(HalfMode::rne, passes).empty() &&
+         only_under(HalfMode::rtz, passes).empty();
 }
 
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile) {
@@ -100,7 +115,7 @@ FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>&
   return {found, fmt::format("{}", fmt::join(doubts, "; "))};
 }
 
-std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes, HalfMode asked, bool others) {
+std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes, HalfMode asked) {
   const auto first = [&](const auto& counts) -> std::optional<std::size_t> {
     for (std::size_t k = 0; k < passes.size(); ++k)
       if (passes[k].modes.size() >= 2 && !passes[k].is_whole() && counts(passes[k])) return k;
@@ -110,14 +125,12 @@ std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes,
   // More failures under a rounding never speak for it, so the extremes tell.
   const HalfMode port = extreme_rounding(passes, 0);
   if (port != extreme_rounding(passes, 1)) return first(has_vote);
-  if (others) {
-    const bool may_fail =
-        std::any_of(passes.begin(), passes.end(), [](const HalfVotes& p) { return p.modes.size() >= 2 && p.most(0) > 0 && p.most(1) > 0; });
-    const bool tells = std::any_of(passes.begin(), passes.end(), [](const HalfVotes& p) {
-      return has_vote(p) && ((p.most(0) == 0 && p.failing[1] > 0) || (p.most(1) == 0 && p.failing[0] > 0));
-    });
-    if (may_fail && !tells && unsettled()) return unsettled();
-  }
+  const bool may_fail =
+      std::any_of(passes.begin(), passes.end(), [](const HalfVotes& p) { return p.modes.size() >= 2 && p.most(0) > 0 && p.most(1) > 0; });
+  const bool tells = place_by_bits(passes) || std::any_of(passes.begin(), passes.end(), [](const HalfVotes& p) {
+                       return has_vote(p) && ((p.most(0) == 0 && p.failing[1] > 0) || (p.most(1) == 0 && p.failing[0] > 0));
+                     });
+  if (may_fail && !tells && unsettled()) return unsettled();
   if (const auto open = first([&](const HalfVotes& p) { return is_pass_open(p, port, asked); })) return open;
   // A pass that fits the other rounding alone is doubted beside the passes that fit the port's alone.
   const bool names_others = std::any_of(passes.begin(), passes.end(), [&](const HalfVotes& p) {

@@ -33,11 +33,14 @@ struct HalfVotes {
   bool is_whole() const;
 };
 
-/// The rounding under which fewest passes fail; of equals the first, unless the second has a tenth fewer failing invocations. Where
-/// nothing fails under either, the one with more HalfVotes::with_bits.
+/// The rounding under which fewest passes fail. Of equals the one that clearly has more HalfVotes::with_bits; else the first, unless the
+/// second has a tenth fewer failing invocations. Where nothing fails under either, the one with more of these bits.
 HalfMode port_rounding(const std::vector<HalfVotes>& passes);
 
-/// Whether a pass fails under every rounding and none of these can be stored by one of them alone: other passes of the port may tell.
+/// Whether a pass fails under both roundings.
+bool fails_by_each(const HalfVotes& pass);
+/// Whether a pass fails under every rounding and nothing tells which one is the port's: none of these passes can be stored by one of them
+/// alone, and neither clearly has more HalfVotes::with_bits.
 bool is_rounding_open(const std::vector<HalfVotes>& passes);
 
 /// The rounding that a pass is judged by, and what is to be said of it.
@@ -51,7 +54,7 @@ struct FoundRounding {
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile);
 
 /// A pass whose undecided invocations could change what the functions above give for any of these passes, or the number of its failures by
-/// the rounding that is found. Nothing: what they give holds. `others`: is_rounding_open is asked too.
-std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes, HalfMode asked, bool others);
+/// the rounding that is found. Nothing: what they give holds.
+std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes, HalfMode asked);
 
 }  // namespace rainref::judge

@@ -24,9 +24,6 @@ HalfMode half_mode_of(const enclosed::Profile& profile) {
                                                               : HalfMode::either;
 }
 
-namespace {
-
-/// The roundings that a case is judged by.
 std::vector<HalfMode> modes_of(const PassCase& c, const JudgeOptions& options) {
   const bool has_half = std::any_of(c.outputs.begin(), c.outputs.end(), [](const capture::CaseOutput& o) {
     return o.judge == capture::Judge::envelope && !o.array.is_records && info(o.array.format).kind == FormatInfo::float16;
@@ -38,6 +35,8 @@ std::vector<HalfMode> modes_of(const PassCase& c, const JudgeOptions& options) {
   if (options.half_mode) return {*options.half_mode};
   return {HalfMode::rne, HalfMode::rtz, HalfMode::either};
 }
+
+namespace {
 
 /// Adds what is judged by bits and by ids to what was judged by envelope, and concludes.
 void settle(const PassCase& c, const PassModel* model, const std::vector<Array>& port, const JudgeOptions& options, bool enveloped,

@@ -26,9 +26,12 @@ struct JudgeOptions {
 /// What a profile asks of stores to binary16.
 HalfMode half_mode_of(const enclosed::Profile& profile);
 
-/// The ways in which stores to binary16 may have been rounded, each judged. Where the profile leaves it open these are rne,
-/// rtz and either, or the one that the port declares. Where it asks for one, that one and then the other, because drivers
-/// do not all obey; only that one where the port declares the same.
+/// The ways in which stores to binary16 may have been rounded. Where the profile leaves it open these are rne, rtz and either, or the one
+/// that the port declares. Where it asks for one, that one and then the other, because drivers do not all obey; only that one where the
+/// port declares the same. One where a case has no halves that an envelope judges.
+std::vector<HalfMode> modes_of(const capture::PassCase& c, const JudgeOptions& options);
+
+/// Each of modes_of(), judged.
 struct ModeJudgements {
   std::vector<HalfMode> modes;
   std::vector<CaseJudgement> judgements;  ///< one for each mode

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "judge/conclude.h"
 #include "judge/coverage.h"
@@ -11,18 +12,14 @@
 #include "judge/keyed.h"
 #include "judge/null_ports.h"
 #include "judge/sample.h"
+#include "judge/sampled_votes.h"
+#include "judge/slots.h"
+#include "rainref/error.h"
 
 namespace rainref::judge {
 namespace {
 
 using capture::PassModel;
-
-/// Binds and settles a run.
-std::unique_ptr<PassModel> prepare(const capture::PackPass& pass, Bind bind, const PassRuns& runs, PortRun& run) {
-  std::unique_ptr<PassModel> model = bound(pass.name, bind, run.c);
-  if (runs.settle) runs.settle(run, model.get());
-  return model;
-}
 
 /// A run that was not judged counts under every rounding.
 ModeJudgements not_judged(const PortRun& run) {
@@ -81,18 +78,17 @@ struct Asked {
 };
 Asked asked(const PassTask& task, std::size_t k) {
   Asked a{task.runs.load(k), nullptr, {}};
-  a.model = prepare(*task.pass, task.bind, task.runs, a.run);
+  a.model = prepare(task, a.run);
   if (k == 0) return a;
   a.before = task.runs.load(k - 1);
-  if (a.before->untested.empty())
-    prepare(*task.pass, task.bind, task.runs, *a.before);
-  else
-    a.before.reset();
+  if (a.before->untested.empty()) prepare(task, *a.before);
+  if (!a.before->untested.empty()) a.before.reset();
   return a;
 }
 
 /// Asks about the run with the most failures, which says most, and the next.
-Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options, bool is_warned = false) {
+Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options, double share = 1,
+                      bool is_warned = false) {
   std::vector<std::size_t> failing;
   for (std::size_t k = 0; k < judged.cases.size(); ++k)
     if (judged.cases[k].failing > 0) failing.push_back(k);
@@ -111,6 +107,7 @@ Explanation explained(const PassTask& task, const PassJudgement& judged, const J
             judged.half_mode,
             options,
             other,
+            share,
             is_warned};
   };
   if (failing.size() == 1) return task.runs.explain(failed(worst, failing[0], nullptr));
@@ -139,9 +136,33 @@ std::vector<Cause> causes_of_warning(const PassTask& task, const PassJudgement& 
   // What a known device would do tells what is near; but for rearrangements, which the profile alone allows.
   const bool is_rearranged = std::any_of(judged.cases.begin(), judged.cases.end(), [](const CaseJudgement& c) { return c.rearranged > 0; });
   if (options.typical && !is_rearranged) how.profile = options.typical;
-  std::vector<Cause> causes = explained(task, as_failing(judged), how, true).causes;
+  std::vector<Cause> causes = explained(task, as_failing(judged), how, 1, true).causes;
   std::erase_if(causes, [](const Cause& c) { return !c.is_likely; });
   return causes;
+}
+
+/// How much of what fails the first cause explains, bits and nearness alike; and whether it is likely.
+std::pair<double, bool> worth(const Explanation& why) {
+  if (why.causes.empty()) return {-1, false};
+  const Cause& first = why.causes.front();
+  return {static_cast<double>(first.explained + first.inside) / static_cast<double>(std::max<std::int64_t>(first.of, 1)), first.is_likely};
+}
+/// Asks under either rounding of halves, where nothing else tells which is the port's, and leaves `judged` by that of the better answer.
+/// `cases`: every run under each rounding.
+Explanation explained_by_each(const PassTask& task, std::vector<ModeJudgements> cases, PassJudgement& judged, const JudgeOptions& options) {
+  PassJudgement other = judged;
+  other.cases.clear();
+  other.reason.clear();
+  for (ModeJudgements& c : cases) {
+    const std::size_t mode = c.modes.empty() || c.modes[0] != judged.half_mode ? 0 : 1;
+    if (!c.modes.empty()) other.half_mode = c.modes[mode];
+    other.cases.push_back(std::move(c.judgements[mode]));
+  }
+  conclude(other, *options.profile);
+  Explanation why = explained(task, judged, options, 0.5), second = explained(task, other, options, 0.5);
+  if (worth(second) <= worth(why)) return why;
+  judged = std::move(other);
+  return second;
 }
 
 /// A port that does nothing and passes all of these runs, which were settled before; "": none.
@@ -170,7 +191,7 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
   for (std::size_t k = 0; k < runs.count; ++k) {
     PortRun run = runs.load(k);
     std::unique_ptr<PassModel> model;
-    if (run.untested.empty()) model = prepare(*task.pass, task.bind, runs, run);
+    if (run.untested.empty()) model = prepare(task, run);
     if (!run.untested.empty()) {
       cases.push_back(not_judged(run));
     } else {
@@ -191,6 +212,20 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
 
 }  // namespace
 
+std::unique_ptr<PassModel> prepare(const PassTask& task, PortRun& run) {
+  std::unique_ptr<PassModel> model;
+  try {
+    model = bound(task.pass->name, task.bind, run.c);
+    if (task.runs.settle) task.runs.settle(run, model.get());
+  } catch (const Error& e) {
+    if (!task.runs.takes_inputs_of_port || e.code() != ExitCode::port_files) throw;
+    run.broken = run.untested = e.what();
+  }
+  if (!run.untested.empty()) return model;
+  if (const std::string fault = length_fault(run.c, run.stored); !fault.empty()) run.broken = run.untested = fault;
+  return model;
+}
+
 std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options,
                                         const std::vector<PassTask>& voters) {
   std::vector<std::vector<ModeJudgements>> cases;
@@ -203,18 +238,12 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
   // What one rounding settles is asked under the others where how the port rounds may hang on it.
   JudgeOptions every = options;
   every.every_rounding = true;
-  const auto ask_undecided = [&] {
-    while (const auto k = first_undecided(votes, half_mode_of(*options.profile), !voters.empty())) {
-      cases[*k] = judge_runs(tasks[*k], every, nullptr);
-      votes[*k] = votes_of(tasks[*k].pass->name, cases[*k]);
-    }
-  };
-  ask_undecided();
-  for (const PassTask& voter : voters) {
-    if (!is_rounding_open(votes)) break;
-    votes.push_back(votes_of(voter.pass->name, judge_runs(voter, every, nullptr)));
+  if (std::any_of(votes.begin(), votes.end(), [](const HalfVotes& v) { return v.modes.size() >= 2; }))
+    for (const PassTask& voter : voters) votes.push_back(sampled_votes(voter, options));
+  while (const auto k = first_undecided(votes, half_mode_of(*options.profile))) {
+    cases[*k] = judge_runs(tasks[*k], every, nullptr);
+    votes[*k] = votes_of(tasks[*k].pass->name, cases[*k]);
   }
-  ask_undecided();
   std::vector<PassJudgement> all;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const PassTask& task = tasks[k];
@@ -223,6 +252,9 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     judged.formula = task.pass->formula;
     judged.causes_sought = static_cast<bool>(task.runs.explain);
     judged.coverage = summary(coverage[k], task.pass->unexercised);
+    judged.half_mode_is_open = fails_by_each(votes[k]) && is_rounding_open(votes);
+    std::vector<ModeJudgements> by_each;
+    if (judged.half_mode_is_open && task.runs.explain) by_each = votes[k].is_whole() ? cases[k] : judge_runs(task, every, nullptr);
     choose_mode(judged, cases[k], votes[k], votes, options);
     conclude(judged, *options.profile);
     if (task.runs.tries_null_ports && (judged.status == Status::pass || judged.status == Status::warn)) {
@@ -235,7 +267,8 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     if (!task.runs.explain) continue;
     if (judged.status == Status::warn) judged.causes = causes_of_warning(task, judged, options);
     if (judged.status != Status::fail) continue;
-    Explanation why = explained(task, judged, options);
+    Explanation why =
+        judged.half_mode_is_open ? explained_by_each(task, std::move(by_each), judged, options) : explained(task, judged, options);
     judged.causes = std::move(why.causes);
     judged.where = std::move(why.where);
   }

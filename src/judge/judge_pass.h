@@ -41,6 +41,7 @@ struct FailedRun {
   HalfMode half_mode;           ///< that the pass was judged by
   const JudgeOptions& options;
   const FailedRun* other = nullptr;  ///< the failing run that says next most; null: none
+  double share = 1;                  ///< of the time that there is for its pass, which is asked about under each rounding of halves
   /// What is asked about is warned of and does not fail: `judgement` has it as failing. What is plain is tried alone, which bounds the
   /// time.
   bool is_warned = false;
@@ -58,6 +59,8 @@ struct PassRuns {
   /// A pass that a port passes which does nothing is UNTESTED. What `settle` leaves of c.outputs is then what `load` gives.
   bool tries_null_ports = false;
   bool counts_coverage = false;  ///< PassJudgement::coverage is wanted
+  /// What a run takes is the port's own: where nothing can be computed with it, the run fails.
+  bool takes_inputs_of_port = false;
 };
 
 /// A pass and what the port has of it. `bind` may be null when no output of the pass is judged by envelope; keyed records
@@ -67,8 +70,12 @@ struct PassTask {
   Bind bind;
   PassRuns runs;
 };
+/// Binds and settles a run that can be judged. Its model, as bound() gives it. run.untested says why it cannot be judged after all: a list
+/// has another length, or nothing can be computed with what the port took.
+std::unique_ptr<capture::PassModel> prepare(const PassTask& task, PortRun& run);
+
 /// The passes of one port, in this order. How its stores to binary16 round is one choice for all of them. `voters`: other passes of it,
-/// asked in this order how stores round until one of them tells, where the tasks do not.
+/// which are asked by a sample how stores round.
 std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options,
                                         const std::vector<PassTask>& voters = {});
 

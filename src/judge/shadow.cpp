@@ -59,8 +59,7 @@ class Shadow {
     if (found == runs_.end()) throw Error(ExitCode::internal, fmt::format("no run {}", id));
     PortRun out = load(*found);
     if (!out.untested.empty()) return out;
-    const std::unique_ptr<capture::PassModel> model = bound(found->pass, binder(plan_.effect, found->pass), out.c);
-    settle(pass_of(*found), out, model.get());
+    prepare(task_of(pass_of(*found)), out);
     return out;
   }
 
@@ -212,6 +211,7 @@ class Shadow {
     }
     std::stable_sort(own.begin(), own.end(), [](const Run* a, const Run* b) { return a->order() < b->order(); });
     PassRuns runs;
+    runs.takes_inputs_of_port = true;
     runs.count = any ? own.size() : 0;
     for (const Run* run : own)
       if (run->is_dumped)

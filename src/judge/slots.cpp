@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include <fmt/format.h>
+
 #include "image/colour.h"
 #include "judge/keyed.h"
 #include "math/scalar.h"
@@ -24,6 +26,15 @@ T loaded(const std::byte* at) {
 bool is_placed(const capture::CaseOutput& output) {
   if (!output.array.is_records) return output.judge == capture::Judge::envelope;
   return output.judge == capture::Judge::keyed && !has_key(output.array.record);
+}
+
+std::string length_fault(const capture::PassCase& c, const std::vector<capture::Array>& stored) {
+  for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+    const capture::CaseOutput& expected = c.outputs[o];
+    if (expected.array.is_records && is_placed(expected) && stored[o].width != expected.array.width)
+      return fmt::format("out.{}: expected {} records, found {}", expected.name, expected.array.width, stored[o].width);
+  }
+  return "";
 }
 
 std::vector<Slot> slots_of(const capture::PassCase& c, const capture::PassModel& model) {

@@ -1,6 +1,7 @@
 // Where the values of an invocation lie in the outputs of a case.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "capture/pass_model.h"
@@ -35,6 +36,10 @@ std::vector<Slot> slots_of(const capture::PassCase& c, const capture::PassModel&
 /// Whether an output is judged value by value where it stands: an image by envelope, or a keyed list whose records have no id, so that
 /// their place is the key. Such a list is a row of texels.
 bool is_placed(const capture::CaseOutput& output);
+
+/// Why a list whose records stand at their places cannot be judged, or "": "out.drops: expected 10 records, found 0". `stored`: in the
+/// order of c.outputs.
+std::string length_fault(const capture::PassCase& c, const std::vector<capture::Array>& stored);
 
 /// A stored value as a shader reads it.
 float stored_value(const Slot& slot, const std::byte* at);

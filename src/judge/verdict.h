@@ -167,6 +167,9 @@ struct PassJudgement {
   std::array<std::int64_t, 3> half_votes{};  ///< failing invocations under rne, rtz, either
   std::array<bool, 3> half_is_least{};       ///< of these only the least: not every invocation had to be asked
   bool half_mode_voted = false;
+  /// It fails by each rounding and nothing of the port tells which is its own. Causes were sought under both: half_mode is that of the
+  /// better.
+  bool half_mode_is_open = false;
   std::vector<CaseJudgement> cases;
   std::vector<Cause> causes;  ///< best first; empty: unknown. Of a WARN the likely one alone
   bool causes_sought = true;  ///< false: nobody asked for causes

@@ -8,7 +8,6 @@
 #include "capture/capture_recorder.h"
 #include "judge/check_pack.h"
 #include "judge/shadow_plan.h"
-#include "judge/slots.h"
 #include "judging/given_image.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
@@ -43,10 +42,8 @@ Array given_array(const capture::CaseOutput& output, const std::string& id, cons
   if (array.is_records ? row_bytes != own_row : row_bytes < own_row)
     throw Error(ExitCode::usage, fmt::format("{}: expected {}{} bytes for each {}, found {}", place, array.is_records ? "" : "at least ",
                                              own_row, array.is_records ? "record" : "row", row_bytes));
-  const auto expected = static_cast<std::size_t>(array.is_records ? array.width : array.height);
-  if (array.is_records ? judge::is_placed(output) && count != expected : count != expected)
-    throw Error(ExitCode::usage,
-                fmt::format("{}: expected {} {}, found {}", place, expected, array.is_records ? "records" : "rows", count));
+  if (!array.is_records && count != static_cast<std::size_t>(array.height))
+    throw Error(ExitCode::usage, fmt::format("{}: expected {} rows, found {}", place, array.height, count));
   constexpr std::size_t most_records = std::size_t{1} << 28;
   if (count > most_records)
     throw Error(ExitCode::usage, fmt::format("{}: expected at most {} records, found {}", place, most_records, count));

@@ -20,9 +20,9 @@ class JudgeCall {
     if (!o.seeks_causes) return;
     options.explain = [this, &o](const judge::FailedRun& failed) {
       if (o.at_cause) o.at_cause(failed.pass.name);
-      const faults::SearchLimit limit(o.causes_within);
+      const faults::SearchLimit limit(o.causes_within * failed.share);
       judge::Explanation why = faults::diagnose_within(limit, failed);
-      if (limit.was_met()) cut_short_.push_back(failed.pass.name);
+      if (limit.was_met() && (cut_short_.empty() || cut_short_.back() != failed.pass.name)) cut_short_.push_back(failed.pass.name);
       return why;
     };
   }

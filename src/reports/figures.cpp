@@ -260,6 +260,7 @@ std::string sample_text(const PassJudgement& p) {
 }
 
 std::string half_text(const PassJudgement& p) {
+  if (p.half_mode_is_open) return "nothing tells how stores to half round: name it in port.json, as half_store";
   if (!p.half_mode_voted) return "";
   const auto [rne, rtz, either] = p.half_votes;
   const char* found = p.half_mode == HalfMode::rne   ? "to nearest"

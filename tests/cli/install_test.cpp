@@ -92,7 +92,7 @@ int main() try {
 }
 )");
     put(folder / "broken.exr", std::string("\x76\x2f\x31\x01\2\0\0\0channels", 16));
-    output(fmt::format(RAINREF_CMAKE " -S consumer -B built -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
+    output(fmt::format(RAINREF_CMAKE " -G '" RAINREF_GENERATOR "' -S consumer -B built -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
                                      " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR,
                        where));
     output(RAINREF_CMAKE " --build built");
@@ -154,11 +154,14 @@ TEST_F(Installation, EachHeaderStandsAlone) {
 TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   installed();
   const std::string by_cmake = fmt::format(
-      RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/examples -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
+      RAINREF_CMAKE " -G '" RAINREF_GENERATOR "' -S " RAINREF_SOURCE_DIR "/examples -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
                     " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' '-DCMAKE_C_FLAGS=" RAINREF_C_FLAGS "' '-DCMAKE_PREFIX_PATH={}'",
       (folder / "moved").string());
   output(by_cmake);
   output(RAINREF_CMAKE " --build outside");
+  if (std::string_view(RAINREF_GENERATOR) != "Unix Makefiles") {
+    EXPECT_FALSE(std::filesystem::exists(folder / "outside/Makefile")) << "make need not be installed";
+  }
   const std::string said = output("outside/every_effect");
   EXPECT_THAT(lines_of(said), testing::ElementsAre(MatchesRegex("puddle 32x18 .{8}"), MatchesRegex("windshield 32x18 .{8}"),
                                                    MatchesRegex("edge_splash 32x18 .{8}"), MatchesRegex("screen_drops 32x18 .{8}"),

@@ -21,10 +21,11 @@ inline const Written* written(const std::string& pack, const std::string& pass) 
   return nullptr;
 }
 
-inline std::vector<capture::Array> given(const Written& w, const Pack& pack, const PassCase& c, const std::string& mistake) {
+inline std::vector<capture::Array> given(const Written& w, const Pack& pack, const PassCase& c, const std::string& mistake,
+                                         HalfMode stores = HalfMode::either) {
   const scene::UniformBlock& block = pack.pass(c.pass).block;
   const Run run(c, block, mistake);
-  Given out(c);
+  Given out(c, stores);
   if (w.loop)
     give_texels(w.loop, run, out);
   else

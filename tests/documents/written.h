@@ -22,7 +22,8 @@ using faults::hand::dot, faults::hand::length, faults::hand::mix;  // beside tho
 /// What a pass gives for a case: images of zeros, empty lists.
 class Given {
  public:
-  explicit Given(const capture::PassCase& c) : case_(c) {
+  /// `stores`: how halves are rounded; either: as the reference does.
+  explicit Given(const capture::PassCase& c, judge::HalfMode stores = judge::HalfMode::either) : case_(c), stores_(stores) {
     for (const capture::CaseOutput& o : c.outputs) {
       capture::Array a = o.array;
       if (a.is_records) {
@@ -50,7 +51,7 @@ class Given {
     const FormatInfo& f = info(a.format);
     const judge::Slot slot{
         static_cast<int>(output), k, f.kind, f.channel_bytes, f.texel_bytes(), a.width, case_.outputs[output].store_rounding, 1};
-    judge::store_value(slot, v, slot.store_rounding, a.levels[0].edit().data() + slot.offset(x, y));
+    judge::store_value(slot, v, judge::rounding_of(slot, stores_), a.levels[0].edit().data() + slot.offset(x, y));
   }
   template <class Record>
   void append(std::string_view list, const Record& record) {
@@ -63,6 +64,7 @@ class Given {
 
  private:
   const capture::PassCase& case_;
+  judge::HalfMode stores_;
 };
 
 /// Every texel of the images by one loop, whose values lie in the order of outputs and channels.

@@ -1,16 +1,9 @@
 // How often the diagnosis is right, measured with mistakes that it does not know: passes written by hand, wrong in one thing.
-#include <cstdlib>
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "documents/judged_written.h"
-#include "faults/mistakes_drops_and_maps.h"
+#include "faults/hand_port.h"
 #include "faults/mistakes_kept_aside.h"
-#include "faults/mistakes_pictures.h"
-#include "faults/mistakes_puddle.h"
-#include "faults/mistakes_rainy_glass.h"
-#include "faults/mistakes_windshield.h"
 
 namespace rainref::faults {
 namespace {
@@ -18,32 +11,7 @@ namespace {
 using namespace judge;
 using capture::Array;
 using capture::PassCase;
-
-/// The passes whose mistakes the diagnosis was improved with, and those that it met when it was finished.
-std::vector<hand::Pass> known_passes() {
-  std::vector<hand::Pass> all = hand::puddle_passes();
-  for (const auto& more : {hand::windshield_passes(), hand::picture_passes(), hand::rainy_glass_passes(), hand::drops_and_maps_passes()})
-    all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
-/// What the hand-made pass stores, or that of tests/documents.
-std::vector<Array> given(const hand::Pass& p, const capture::Pack& pack, const PassCase& c, const std::string& mistake) {
-  if (!p.loop) return documents::given(*documents::written(p.pack, p.pass), pack, c, mistake);
-  std::vector<Array> out;
-  for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
-  const std::vector<Slot> slots = slots_of(c);
-  const hand::Run run(c, pack.pass(p.pass).block, mistake);
-  std::vector<float> values(slots.size());
-  for (int y = 0; y < out[0].height; ++y)
-    for (int x = 0; x < out[0].width; ++x) {
-      if (!p.loop(run, x, y, values.data())) continue;
-      for (std::size_t v = 0; v < slots.size(); ++v)
-        store_value(slots[v], values[v], slots[v].store_rounding,
-                    out[static_cast<std::size_t>(slots[v].output)].levels[0].edit().data() + slots[v].offset(x, y));
-    }
-  return out;
-}
+using hand::given, hand::known_passes, hand::measures_all;
 
 /// It, judged.
 PassJudgement judged(const hand::Pass& p, const std::string& mistake) {
@@ -90,8 +58,7 @@ TEST(HandMade, AnOffsetThatDoesNotFadeWithTheDropFailsWhereRefractionIsStrong) {
 struct Tally {
   int count = 0, right = 0, right_and_likely = 0, wrong_likely = 0, unknown = 0;
 };
-/// Every mistake, with a table, where RAINREF_MISTAKES is set (scripts/full/mistakes); else every thirtieth.
-bool measures_all() { return std::getenv("RAINREF_MISTAKES") != nullptr; }
+/// Every mistake, with a table, where all are measured; else every thirtieth.
 Tally measured(const std::vector<hand::Pass>& passes) {
   const bool prints = measures_all();
   int number = 0;

@@ -59,7 +59,9 @@ TEST(ReportFigures, HowHalvesRound) {
   EXPECT_EQ(half_text(p), "stores to half round toward zero (invocations outside if to nearest: 8, toward zero: 2, either way: 2)");
   p.half_votes = {2, 2, 2};
   EXPECT_THAT(half_text(p), HasSubstr("nothing tells"));
-  p.half_mode_voted = false;
+  p.half_mode_is_open = true;
+  EXPECT_EQ(half_text(p), "nothing tells how stores to half round: name it in port.json, as half_store");
+  p.half_mode_is_open = p.half_mode_voted = false;
   EXPECT_EQ(half_text(p), "");
 }
 
