@@ -1,0 +1,269 @@
+// GLSL.std.450 by the functions of our models, so that both have the same bits where both say the same mathematics.
+#pragma once
+
+#include "math/constants.h"
+#include "spirv/module.h"
+#include "spirv/numbers.h"
+
+namespace rainref::spirv::numbers {
+
+/// The nearest whole number, ties to even. SPIR-V leaves the ties of Round open; they are these, too.
+template <class N>
+N round_even(const N& x) {
+  const N low = floor(x), rest = x - low, half(0.5f), one(1.0f);
+  if (rest < half) return low;
+  if (rest > half) return low + one;
+  return fract(low * half) > N(0.0f) ? low + one : low;
+}
+template <class N>
+N log2_of(const N& x) {
+  if constexpr (is_plain<N>)
+    return N(round_to_float(log_real(Real64{x.v}) * Real64{coefficients::log2_e}));
+  else
+    return log(x) * N(static_cast<float>(coefficients::log2_e));
+}
+template <class N>
+N inverse_root(const N& x) {
+  if constexpr (requires { inverse_sqrt(x); })
+    return inverse_sqrt(x);
+  else
+    return N(1.0f) / sqrt(x);
+}
+template <class N>
+N step(const N& edge, const N& x) {
+  return select(x < edge, N(0.0f), N(1.0f));
+}
+template <class N>
+N smooth(const N& low, const N& high, const N& x) {
+  const N t = saturate((x - low) / (high - low));
+  return t * t * (N(3.0f) - N(2.0f) * t);
+}
+template <class N>
+N sign_of(const N& x) {
+  return select(x > N(0.0f), N(1.0f), select(x < N(0.0f), N(-1.0f), N(0.0f)));
+}
+/// The height of a unit vector whose side is x.
+template <class N>
+N other_side(const N& x) {
+  return sqrt(max(N(1.0f) - square(x), N(0.0f)));
+}
+
+/// One component of a function of numbers; b and c where it has them.
+template <class N>
+N each_function(Glsl function, const N& a, const N& b, const N& c) {
+  const N one(1.0f), half(0.5f);
+  switch (function) {
+    case Glsl::Round:
+    case Glsl::RoundEven:
+      return round_even(a);
+    case Glsl::Trunc:
+      return truncated(a);
+    case Glsl::FAbs:
+      return abs(a);
+    case Glsl::FSign:
+      return sign_of(a);
+    case Glsl::Floor:
+      return floor(a);
+    case Glsl::Ceil:
+      return -floor(-a);
+    case Glsl::Fract:
+      return fract(a);
+    case Glsl::Radians:
+      return a * N(static_cast<float>(degree));
+    case Glsl::Degrees:
+      return a * N(static_cast<float>(1 / degree));
+    case Glsl::Sin:
+      return sin(a);
+    case Glsl::Cos:
+      return cos(a);
+    case Glsl::Tan:
+      return sin(a) / cos(a);
+    case Glsl::Asin:
+      return atan2(a, other_side(a));
+    case Glsl::Acos:
+      return atan2(other_side(a), a);
+    case Glsl::Atan:
+      return atan2(a, one);
+    case Glsl::Sinh:
+      return half * (exp(a) - exp(-a));
+    case Glsl::Cosh:
+      return half * (exp(a) + exp(-a));
+    case Glsl::Tanh:
+      return one - N(2.0f) / (exp(N(2.0f) * a) + one);
+    case Glsl::Atan2:
+      return atan2(a, b);
+    case Glsl::Pow:
+      return pow(a, b);
+    case Glsl::Exp:
+      return exp(a);
+    case Glsl::Log:
+      return log(a);
+    case Glsl::Exp2:
+      return exp2(a);
+    case Glsl::Log2:
+      return log2_of(a);
+    case Glsl::Sqrt:
+      return sqrt(a);
+    case Glsl::InverseSqrt:
+      return inverse_root(a);
+    case Glsl::FMin:
+    case Glsl::NMin:
+      return min(a, b);
+    case Glsl::FMax:
+    case Glsl::NMax:
+      return max(a, b);
+    case Glsl::FClamp:
+    case Glsl::NClamp:
+      return clamp(a, b, c);
+    case Glsl::FMix:
+      return mix(a, b, c);
+    case Glsl::Step:
+      return step(a, b);
+    case Glsl::SmoothStep:
+      return smooth(a, b, c);
+    default:  // Fma: without contraction
+      return a * b + c;
+  }
+}
+
+inline std::uint32_t each_integer(Glsl function, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const std::int32_t sa = signed_word(a), sb = signed_word(b), sc = signed_word(c);
+  const auto place = [](int bit) { return static_cast<std::uint32_t>(bit); };
+  switch (function) {
+    case Glsl::SAbs:
+      return sa < 0 ? 0u - a : a;
+    case Glsl::SSign:
+      return sa > 0 ? 1u : sa < 0 ? 0xffffffffu : 0u;
+    case Glsl::FindILsb:
+      return a == 0 ? 0xffffffffu : place(std::countr_zero(a));
+    case Glsl::FindUMsb:
+      return place(31 - std::countl_zero(a));
+    case Glsl::FindSMsb:
+      return place(31 - std::countl_zero(sa < 0 ? ~a : a));
+    case Glsl::UMin:
+      return b < a ? b : a;
+    case Glsl::UMax:
+      return a < b ? b : a;
+    case Glsl::SMin:
+      return sb < sa ? b : a;
+    case Glsl::SMax:
+      return sa < sb ? b : a;
+    case Glsl::UClamp: {
+      const std::uint32_t least = a < b ? b : a;
+      return c < least ? c : least;
+    }
+    default: {  // SClamp
+      const std::int32_t least = sa < sb ? sb : sa;
+      return static_cast<std::uint32_t>(sc < least ? sc : least);
+    }
+  }
+}
+
+/// The length of n numbers.
+template <class N>
+N length_of(const N* x, std::uint32_t n) {
+  if (n == 1) return abs(x[0]);
+  if (n == 2) return length(x[0], x[1]);
+  if (n == 3) return length(Vec3<N>(x[0], x[1], x[2]));
+  return sqrt(sum_any_order(square(x[0]), square(x[1]), square(x[2]), square(x[3])));
+}
+
+/// A function of vectors of n components (n is 1 to 4); the third operand of Refract has one. False where it is none of them.
+template <class N>
+bool vector_function(Glsl function, Slot<N>* to, const Slot<N>* a, const Slot<N>* b, const Slot<N>* c, std::uint32_t n) {
+  N x[4];
+  switch (function) {
+    case Glsl::Length:
+    case Glsl::Distance:
+      for (std::uint32_t k = 0; k < n; ++k) x[k] = function == Glsl::Length ? a[k].number : a[k].number - b[k].number;
+      to[0].number = length_of(x, n);
+      return true;
+    case Glsl::Normalize: {
+      for (std::uint32_t k = 0; k < n; ++k) x[k] = a[k].number;
+      if (n == 3) {
+        const Vec3<N> unit = normalize(Vec3<N>(x[0], x[1], x[2]));
+        to[0].number = unit.x;
+        to[1].number = unit.y;
+        to[2].number = unit.z;
+        return true;
+      }
+      const N inverse = N(1.0f) / length_of(x, n);
+      for (std::uint32_t k = 0; k < n; ++k) to[k].number = inverse * x[k];
+      return true;
+    }
+    case Glsl::Cross:
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t i = (k + 1) % 3, j = (k + 2) % 3;
+        to[k].number = a[i].number * b[j].number - a[j].number * b[i].number;
+      }
+      return true;
+    case Glsl::FaceForward: {
+      const bool is_against = dot_of(c, 1, b, n) < N(0.0f);
+      for (std::uint32_t k = 0; k < n; ++k) to[k].number = is_against ? a[k].number : -a[k].number;
+      return true;
+    }
+    case Glsl::Reflect: {
+      const N twice = N(2.0f) * dot_of(b, 1, a, n);
+      for (std::uint32_t k = 0; k < n; ++k) to[k].number = a[k].number - twice * b[k].number;
+      return true;
+    }
+    case Glsl::Refract: {
+      const N eta = c[0].number, cosine = dot_of(b, 1, a, n), zero(0.0f);
+      const N rest = N(1.0f) - eta * eta * (N(1.0f) - square(cosine));
+      const N along = eta * cosine + sqrt(max(rest, zero));
+      const auto is_total = rest < zero;
+      for (std::uint32_t k = 0; k < n; ++k) to[k].number = select(is_total, zero, eta * a[k].number - along * b[k].number);
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
+/// Numbers in the parts of a word, and back. False where it is none of these.
+template <class N>
+bool packing_function(Glsl function, Slot<N>* to, const Slot<N>* a) {
+  const auto part = [](std::uint32_t word, std::uint32_t k, std::uint32_t bits) { return word >> (k * bits) & ((1u << bits) - 1u); };
+  switch (function) {
+    case Glsl::UnpackHalf2x16:
+      for (std::uint32_t k = 0; k < 2; ++k) to[k].number = N(rainref::to_float(Half{static_cast<std::uint16_t>(part(a[0].word, k, 16))}));
+      return true;
+    case Glsl::UnpackUnorm4x8:
+      for (std::uint32_t k = 0; k < 4; ++k) to[k].number = N(rainref::to_float(Unorm8{static_cast<std::uint8_t>(part(a[0].word, k, 8))}));
+      return true;
+    default:
+      break;
+  }
+  if constexpr (is_plain<N>) {
+    const auto value = [&](std::uint32_t k) { return static_cast<float>(a[k].number.v); };
+    if (function == Glsl::PackHalf2x16) {
+      const std::uint32_t low = to_half(value(0)).bits, high = to_half(value(1)).bits;
+      to[0].word = low | high << 16;
+      return true;
+    }
+    if (function == Glsl::PackUnorm4x8) {
+      std::uint32_t word = 0;
+      for (std::uint32_t k = 0; k < 4; ++k) word |= static_cast<std::uint32_t>(to_unorm8(value(k)).code) << (8 * k);
+      to[0].word = word;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// All of them. False for what this number cannot do.
+template <class N>
+bool glsl_function(const Code& code, Slot<N>* to, const Slot<N>* a, const Slot<N>* b, const Slot<N>* c) {
+  const auto function = static_cast<Glsl>(code.sub);
+  if (vector_function(function, to, a, b, c, code.m) || packing_function(function, to, a)) return true;
+  if (function == Glsl::PackHalf2x16 || function == Glsl::PackUnorm4x8) return false;
+  for (std::uint32_t k = 0; k < code.n; ++k) {
+    if (code.in[3] != 0)
+      to[k].word = each_integer(function, a[k].word, b[k].word, c[k].word);
+    else
+      to[k].number = each_function(function, a[k].number, b[k].number, c[k].number);
+  }
+  return true;
+}
+
+}  // namespace rainref::spirv::numbers
