@@ -209,10 +209,9 @@ std::vector<Cell> Parser::operation_on_constants(const Raw& raw, TypeIndex of) {
   } else if (op == Op::Select) {
     for (std::uint32_t k = 0; k < t.slots; ++k)
       cells.push_back(cell(3, type_of(value(raw, 3)).slots == 1 ? 0 : k).word != 0 ? cell(4, k) : cell(5, k));
-  } else if (is_integer_operation(op)) {
-    const bool is_binary = each_form(op).operands == 2;
-    for (std::uint32_t k = 0; k < t.slots; ++k)
-      cells.push_back({integer_operation(op, cell(3, k).word, is_binary ? cell(4, k).word : 0), false});
+  } else if (word_operation(op, 0, 0)) {
+    const std::size_t second = each_form(op).operands == 2 ? 4 : 3;
+    for (std::uint32_t k = 0; k < t.slots; ++k) cells.push_back({*word_operation(op, cell(3, k).word, cell(second, k).word), false});
   } else {
     refuse(raw, op_name(op) + " of specialization constants is not executed");
   }

@@ -30,10 +30,6 @@ N inverse_root(const N& x) {
     return N(1.0f) / sqrt(x);
 }
 template <class N>
-N step(const N& edge, const N& x) {
-  return select(x < edge, N(0.0f), N(1.0f));
-}
-template <class N>
 N smooth(const N& low, const N& high, const N& x) {
   const N t = saturate((x - low) / (high - low));
   return t * t * (N(3.0f) - N(2.0f) * t);
@@ -46,117 +42,6 @@ N sign_of(const N& x) {
 template <class N>
 N other_side(const N& x) {
   return sqrt(max(N(1.0f) - square(x), N(0.0f)));
-}
-
-/// One component of a function of numbers; b and c where it has them.
-template <class N>
-N each_function(Glsl function, const N& a, const N& b, const N& c) {
-  const N one(1.0f), half(0.5f);
-  switch (function) {
-    case Glsl::Round:
-    case Glsl::RoundEven:
-      return round_even(a);
-    case Glsl::Trunc:
-      return truncated(a);
-    case Glsl::FAbs:
-      return abs(a);
-    case Glsl::FSign:
-      return sign_of(a);
-    case Glsl::Floor:
-      return floor(a);
-    case Glsl::Ceil:
-      return -floor(-a);
-    case Glsl::Fract:
-      return fract(a);
-    case Glsl::Radians:
-      return a * N(static_cast<float>(degree));
-    case Glsl::Degrees:
-      return a * N(static_cast<float>(1 / degree));
-    case Glsl::Sin:
-      return sin(a);
-    case Glsl::Cos:
-      return cos(a);
-    case Glsl::Tan:
-      return sin(a) / cos(a);
-    case Glsl::Asin:
-      return atan2(a, other_side(a));
-    case Glsl::Acos:
-      return atan2(other_side(a), a);
-    case Glsl::Atan:
-      return atan2(a, one);
-    case Glsl::Sinh:
-      return half * (exp(a) - exp(-a));
-    case Glsl::Cosh:
-      return half * (exp(a) + exp(-a));
-    case Glsl::Tanh:
-      return one - N(2.0f) / (exp(N(2.0f) * a) + one);
-    case Glsl::Atan2:
-      return atan2(a, b);
-    case Glsl::Pow:
-      return pow(a, b);
-    case Glsl::Exp:
-      return exp(a);
-    case Glsl::Log:
-      return log(a);
-    case Glsl::Exp2:
-      return exp2(a);
-    case Glsl::Log2:
-      return log2_of(a);
-    case Glsl::Sqrt:
-      return sqrt(a);
-    case Glsl::InverseSqrt:
-      return inverse_root(a);
-    case Glsl::FMin:
-    case Glsl::NMin:
-      return min(a, b);
-    case Glsl::FMax:
-    case Glsl::NMax:
-      return max(a, b);
-    case Glsl::FClamp:
-    case Glsl::NClamp:
-      return clamp(a, b, c);
-    case Glsl::FMix:
-      return mix(a, b, c);
-    case Glsl::Step:
-      return step(a, b);
-    case Glsl::SmoothStep:
-      return smooth(a, b, c);
-    default:  // Fma: without contraction
-      return a * b + c;
-  }
-}
-
-inline std::uint32_t each_integer(Glsl function, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  const std::int32_t sa = signed_word(a), sb = signed_word(b), sc = signed_word(c);
-  const auto place = [](int bit) { return static_cast<std::uint32_t>(bit); };
-  switch (function) {
-    case Glsl::SAbs:
-      return sa < 0 ? 0u - a : a;
-    case Glsl::SSign:
-      return sa > 0 ? 1u : sa < 0 ? 0xffffffffu : 0u;
-    case Glsl::FindILsb:
-      return a == 0 ? 0xffffffffu : place(std::countr_zero(a));
-    case Glsl::FindUMsb:
-      return place(31 - std::countl_zero(a));
-    case Glsl::FindSMsb:
-      return place(31 - std::countl_zero(sa < 0 ? ~a : a));
-    case Glsl::UMin:
-      return b < a ? b : a;
-    case Glsl::UMax:
-      return a < b ? b : a;
-    case Glsl::SMin:
-      return sb < sa ? b : a;
-    case Glsl::SMax:
-      return sa < sb ? b : a;
-    case Glsl::UClamp: {
-      const std::uint32_t least = a < b ? b : a;
-      return c < least ? c : least;
-    }
-    default: {  // SClamp
-      const std::int32_t least = sa < sb ? sb : sa;
-      return static_cast<std::uint32_t>(sc < least ? sc : least);
-    }
-  }
 }
 
 /// The length of n numbers.
@@ -251,19 +136,39 @@ bool packing_function(Glsl function, Slot<N>* to, const Slot<N>* a) {
   return false;
 }
 
+/// A function that treats each component by itself, by glsl.inc. False where it is none of them.
+template <class N>
+bool each_function(const Code& code, Slot<N>* to, const Slot<N>* in_a, const Slot<N>* in_b, const Slot<N>* in_c) {
+  const auto for_each = [&](const auto& f) {
+    for (std::uint32_t k = 0; k < code.n; ++k) f(to[k], in_a[k], in_b[k], in_c[k]);
+    return true;
+  };
+  using S = const Slot<N>&;
+  switch (static_cast<Glsl>(code.sub)) {
+#define RAINREF_GLSL_NUMBERS(name, glsl_number, operands, value)            \
+  case Glsl::name:                                                          \
+    return for_each([](Slot<N>& result, S x, S y, S z) {                    \
+      [[maybe_unused]] const N &a = x.number, &b = y.number, &c = z.number; \
+      result.number = value;                                                \
+    });
+#define RAINREF_GLSL_WORDS(name, glsl_number, operands, value)                                           \
+  case Glsl::name:                                                                                       \
+    return for_each([](Slot<N>& result, S x, S y, S z) {                                                 \
+      [[maybe_unused]] const std::uint32_t a = x.word, b = y.word, c = z.word;                           \
+      [[maybe_unused]] const std::int64_t sa = signed_word(a), sb = signed_word(b), sc = signed_word(c); \
+      result.word = value;                                                                               \
+    });
+#include "spirv/glsl.inc"
+    default:
+      return false;
+  }
+}
+
 /// All of them. False for what this number cannot do.
 template <class N>
 bool glsl_function(const Code& code, Slot<N>* to, const Slot<N>* a, const Slot<N>* b, const Slot<N>* c) {
   const auto function = static_cast<Glsl>(code.sub);
-  if (vector_function(function, to, a, b, c, code.m) || packing_function(function, to, a)) return true;
-  if (function == Glsl::PackHalf2x16 || function == Glsl::PackUnorm4x8) return false;
-  for (std::uint32_t k = 0; k < code.n; ++k) {
-    if (code.in[3] != 0)
-      to[k].word = each_integer(function, a[k].word, b[k].word, c[k].word);
-    else
-      to[k].number = each_function(function, a[k].number, b[k].number, c[k].number);
-  }
-  return true;
+  return each_function(code, to, a, b, c) || vector_function(function, to, a, b, c, code.m) || packing_function(function, to, a);
 }
 
 }  // namespace rainref::spirv::numbers

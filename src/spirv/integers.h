@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "spirv/opcodes.h"
 
@@ -26,81 +27,15 @@ inline std::uint32_t reversed(std::uint32_t a) {
   return out;
 }
 
-/// Whether this is an operation of integers or truth values that integer_operation() knows.
-inline bool is_integer_operation(Op op) {
-  const EachForm form = each_form(op);
-  return form.operands > 0 && form.in != Kind::floating && form.out != Kind::floating;
+inline std::uint32_t highest_bit(std::uint32_t a) { return static_cast<std::uint32_t>(31 - std::countl_zero(a)); }
+template <class T>
+T clamped(T a, T low, T high) {
+  const T least = a < low ? low : a;
+  return high < least ? high : least;
 }
-/// One component; b means nothing where there is one operand. Truth values are 0 and 1.
-inline std::uint32_t integer_operation(Op op, std::uint32_t a, std::uint32_t b) {
-  const std::int64_t sa = signed_word(a), sb = signed_word(b);
-  switch (op) {
-    case Op::SNegate:
-      return 0u - a;
-    case Op::Not:
-      return ~a;
-    case Op::BitReverse:
-      return reversed(a);
-    case Op::BitCount:
-      return static_cast<std::uint32_t>(std::popcount(a));
-    case Op::LogicalNot:
-      return a == 0;
-    case Op::IAdd:
-      return a + b;
-    case Op::ISub:
-      return a - b;
-    case Op::IMul:
-      return a * b;
-    case Op::UDiv:
-      return word_of(quotient(a, b));
-    case Op::SDiv:
-      return word_of(quotient(sa, sb));
-    case Op::UMod:
-      return word_of(remainder(a, b));
-    case Op::SRem:
-      return word_of(remainder(sa, sb));
-    case Op::SMod:
-      return word_of(modulo(sa, sb));
-    case Op::ShiftRightLogical:
-      return a >> (b & 31u);
-    case Op::ShiftRightArithmetic:
-      return word_of(sa >> (b & 31u));
-    case Op::ShiftLeftLogical:
-      return a << (b & 31u);
-    case Op::BitwiseOr:
-    case Op::LogicalOr:
-      return a | b;
-    case Op::BitwiseAnd:
-    case Op::LogicalAnd:
-      return a & b;
-    case Op::BitwiseXor:
-      return a ^ b;
-    case Op::IEqual:
-    case Op::LogicalEqual:
-      return a == b;
-    case Op::INotEqual:
-    case Op::LogicalNotEqual:
-      return a != b;
-    case Op::UGreaterThan:
-      return a > b;
-    case Op::UGreaterThanEqual:
-      return a >= b;
-    case Op::ULessThan:
-      return a < b;
-    case Op::ULessThanEqual:
-      return a <= b;
-    case Op::SGreaterThan:
-      return sa > sb;
-    case Op::SGreaterThanEqual:
-      return sa >= sb;
-    case Op::SLessThan:
-      return sa < sb;
-    case Op::SLessThanEqual:
-      return sa <= sb;
-    default:
-      return 0;
-  }
-}
+
+/// One component of an instruction with words, by opcodes.inc; nothing where it is none. b counts where there are two operands.
+std::optional<std::uint32_t> word_operation(Op op, std::uint32_t a, std::uint32_t b);
 
 /// `count` bits of `base` from `offset` on, of which none are beyond bit 31.
 inline std::uint32_t low_bits(std::uint32_t count) { return count >= 32 ? 0xffffffffu : (1u << count) - 1u; }

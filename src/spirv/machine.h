@@ -81,6 +81,7 @@ class Invocation {
   void call(const Code& code);
   bool leave(const Code& code);
   void execute(const Code& code);
+  void execute_other(const Code& code);
   void multiply(const Code& code);
   void widen(const Code& code);
   void rearrange(const Code& code);
@@ -92,11 +93,23 @@ class Invocation {
   std::byte* bytes(const Code& code, const Slot<N>* pointer, bool writes);
   Slot<N>* slots(const Code& code, const Slot<N>* pointer);
   const Resource<N>& resource(const Code& code, const Slot<N>& handle) const;
-  template <Op op, int operands, Kind in, Kind out>
-  void each(const Code& code) {
+  /// Each component by itself: of words, or of numbers.
+  template <Kind in, Kind out, class F>
+  void each(const Code& code, int operands, const F& value) {
     Slot<N>* to = at(code.to);
     const Slot<N>*a = at(code.in[0]), *b = operands > 1 ? at(code.in[1]) : a;
-    for (std::uint32_t k = 0; k < code.n; ++k) numbers::each_component<op, in, out>(to[k], a[k], b[k], a == b);
+    for (std::uint32_t k = 0; k < code.n; ++k) {
+      const auto of = [&] {
+        if constexpr (in == Kind::floating)
+          return value(a[k].number, b[k].number);
+        else
+          return value(a[k].word, b[k].word);
+      };
+      if constexpr (out == Kind::floating)
+        to[k].number = of();
+      else
+        to[k].word = of();
+    }
   }
 
   Machine<N>& machine_;

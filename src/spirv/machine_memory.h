@@ -128,14 +128,16 @@ void Invocation<N>::exchange(const Code& code) {
       now = old - value;
       break;
     case Op::AtomicSMin:
+      now = signed_word(value) < signed_word(old) ? value : old;
+      break;
     case Op::AtomicUMin:
+      now = std::min(value, old);
+      break;
     case Op::AtomicSMax:
+      now = signed_word(old) < signed_word(value) ? value : old;
+      break;
     case Op::AtomicUMax:
-      now = numbers::each_integer(code.op == Op::AtomicSMin   ? Glsl::SMin
-                                  : code.op == Op::AtomicUMin ? Glsl::UMin
-                                  : code.op == Op::AtomicSMax ? Glsl::SMax
-                                                              : Glsl::UMax,
-                                  old, value, 0);
+      now = std::max(value, old);
       break;
     case Op::AtomicAnd:
       now = old & value;

@@ -7,14 +7,29 @@ namespace rainref::spirv {
 
 template <class N>
 void Invocation<N>::execute(const Code& code) {
+  using namespace numbers;
+  switch (code.op) {
+#define RAINREF_SPIRV_WORDS(name, spirv_number, operands, in, out, value)                                                      \
+  case Op::name:                                                                                                               \
+    return each<Kind::in, Kind::out>(code, operands,                                                                           \
+                                     []([[maybe_unused]] std::uint32_t a, [[maybe_unused]] std::uint32_t b) -> std::uint32_t { \
+                                       [[maybe_unused]] const std::int64_t sa = signed_word(a), sb = signed_word(b);           \
+                                       return value;                                                                           \
+                                     });
+#define RAINREF_SPIRV_NUMBERS(name, spirv_number, operands, in, out, value) \
+  case Op::name:                                                            \
+    return each<Kind::in, Kind::out>(code, operands, []([[maybe_unused]] const auto& a, [[maybe_unused]] const auto& b) { return value; });
+#include "spirv/opcodes.inc"
+    default:
+      return execute_other(code);
+  }
+}
+
+template <class N>
+void Invocation<N>::execute_other(const Code& code) {
   Slot<N>* const to = at(code.to);
   const Slot<N>*const a = at(code.in[0]), *const b = at(code.in[1]), *const c = at(code.in[2]);
   switch (code.op) {
-#define RAINREF_SPIRV_OP(name, number)
-#define RAINREF_SPIRV_EACH(name, number, operands, in, out) \
-  case Op::name:                                            \
-    return each<Op::name, operands, Kind::in, Kind::out>(code);
-#include "spirv/opcodes.inc"
     case Op::Load:
       return load(code);
     case Op::Store:

@@ -54,50 +54,10 @@ std::uint32_t to_word(const N& x, bool is_signed) {
   }
 }
 
-template <Op op, class N>
-N float_operation(const N& a, const N& b) {
-  if constexpr (op == Op::FNegate) return -a;
-  if constexpr (op == Op::FAdd) return a + b;
-  if constexpr (op == Op::FSub) return a - b;
-  if constexpr (op == Op::FMul) return a * b;
-  if constexpr (op == Op::FDiv) return a / b;
-  if constexpr (op == Op::FRem) return a - b * truncated(a / b);
-  if constexpr (op == Op::FMod) return a - b * floor(a / b);
-}
-
-/// By < and <= alone, which is what every number has. An unordered comparison is the negation of the opposite ordered one.
-template <Op op, class N>
-bool comparison(const N& a, const N& b) {
-  if constexpr (op == Op::IsNan) return !(a <= a);
-  if constexpr (op == Op::IsInf) return abs(a) > N(static_cast<float>(largest_float));
-  if constexpr (op == Op::FOrdEqual) return a <= b && a >= b;
-  if constexpr (op == Op::FUnordEqual) return !(a < b) && !(a > b);
-  if constexpr (op == Op::FOrdNotEqual) return a < b || a > b;
-  if constexpr (op == Op::FUnordNotEqual) return !(a <= b && a >= b);
-  if constexpr (op == Op::FOrdLessThan) return a < b;
-  if constexpr (op == Op::FUnordLessThan) return !(a >= b);
-  if constexpr (op == Op::FOrdGreaterThan) return a > b;
-  if constexpr (op == Op::FUnordGreaterThan) return !(a <= b);
-  if constexpr (op == Op::FOrdLessThanEqual) return a <= b;
-  if constexpr (op == Op::FUnordLessThanEqual) return !(a > b);
-  if constexpr (op == Op::FOrdGreaterThanEqual) return a >= b;
-  if constexpr (op == Op::FUnordGreaterThanEqual) return !(a < b);
-}
-
-/// One component of an instruction of opcodes.inc; b is a where there is one operand, and `is_square` says that both are one value.
-template <Op op, Kind in, Kind out, class N>
-void each_component(Slot<N>& to, const Slot<N>& a, const Slot<N>& b, bool is_square) {
-  if constexpr (in != Kind::floating && out != Kind::floating) {
-    to.word = integer_operation(op, a.word, b.word);
-  } else if constexpr (in == Kind::integer) {
-    to.number = N(op == Op::ConvertSToF ? static_cast<float>(signed_word(a.word)) : static_cast<float>(a.word));
-  } else if constexpr (out == Kind::integer) {
-    to.word = to_word(a.number, op == Op::ConvertFToS);
-  } else if constexpr (out == Kind::boolean) {
-    to.word = comparison<op>(a.number, b.number);
-  } else {
-    to.number = op == Op::FMul && is_square ? square(a.number) : float_operation<op>(a.number, b.number);
-  }
+/// a b; the square where both are one value, which some numbers know better.
+template <class N>
+N product(const N& a, const N& b) {
+  return &a == &b ? square(a) : a * b;
 }
 
 /// From left to right where the order counts; 1 to 4 of them.
@@ -110,9 +70,9 @@ N sum_of(const N* x, std::uint32_t n) {
 /// a[0] b[0] + a[step] b[1] + ...
 template <class N>
 N dot_of(const Slot<N>* a, std::uint32_t step, const Slot<N>* b, std::uint32_t n) {
-  N product[4];
-  for (std::uint32_t k = 0; k < n && k < 4; ++k) product[k] = a == b && step == 1 ? square(a[k].number) : a[k * step].number * b[k].number;
-  return sum_of(product, n);
+  N products[4];
+  for (std::uint32_t k = 0; k < n && k < 4; ++k) products[k] = product(a[k * step].number, b[k].number);
+  return sum_of(products, n);
 }
 
 /// Filtered as the pack says, moved by whole texels. The channels that the image lacks are (0, 0, 1) of green, blue and alpha.

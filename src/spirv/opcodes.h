@@ -7,8 +7,11 @@
 namespace rainref::spirv {
 
 enum class Op : std::uint16_t {
-#define RAINREF_SPIRV_OP(name, number) name = number,
-#define RAINREF_SPIRV_EACH(name, number, operands, in, out) name = number,
+#define RAINREF_SPIRV_GLOBAL(name, number, handler) name = number,
+#define RAINREF_SPIRV_OP(name, number, result, handler) name = number,
+#define RAINREF_SPIRV_WORDS(name, number, operands, in, out, value) name = number,
+#define RAINREF_SPIRV_NUMBERS(name, number, operands, in, out, value) name = number,
+#define RAINREF_SPIRV_NAME(name, number) name = number,
 #include "spirv/opcodes.inc"
 };
 
@@ -36,71 +39,21 @@ struct EachForm {
   Kind in = Kind::nothing, out = Kind::nothing;
 };
 EachForm each_form(Op op);
+/// Whether it stands in functions and is executed; whether it has a result then.
+bool is_executed(Op op);
+bool has_result(Op op);
 /// "OpFAdd", or "instruction 4321" where it has no name here.
 std::string op_name(Op op);
 
 /// The functions of GLSL.std.450, by their numbers.
 enum class Glsl : std::uint16_t {
-  Round = 1,
-  RoundEven,
-  Trunc,
-  FAbs,
-  SAbs,
-  FSign,
-  SSign,
-  Floor,
-  Ceil,
-  Fract,
-  Radians,
-  Degrees,
-  Sin,
-  Cos,
-  Tan,
-  Asin,
-  Acos,
-  Atan,
-  Sinh,
-  Cosh,
-  Tanh,
-  Atan2 = 25,
-  Pow,
-  Exp,
-  Log,
-  Exp2,
-  Log2,
-  Sqrt,
-  InverseSqrt,
-  FMin = 37,
-  UMin,
-  SMin,
-  FMax,
-  UMax,
-  SMax,
-  FClamp,
-  UClamp,
-  SClamp,
-  FMix,
-  Step = 48,
-  SmoothStep,
-  Fma,
-  PackUnorm4x8 = 55,
-  PackHalf2x16 = 58,
-  UnpackHalf2x16 = 62,
-  UnpackUnorm4x8 = 64,
-  Length = 66,
-  Distance,
-  Cross,
-  Normalize,
-  FaceForward,
-  Reflect,
-  Refract,
-  FindILsb,
-  FindSMsb,
-  FindUMsb,
-  NMin = 79,
-  NMax,
-  NClamp
+#define RAINREF_GLSL_OTHER(name, number) name = number,
+#define RAINREF_GLSL_WORDS(name, number, operands, value) name = number,
+#define RAINREF_GLSL_NUMBERS(name, number, operands, value) name = number,
+#include "spirv/glsl.inc"
 };
+/// Operands and what they are of one that treats each component by itself; 0 for others.
+EachForm glsl_form(Glsl function);
 
 /// Where a variable lies.
 enum class Storage : std::uint32_t {

@@ -73,80 +73,39 @@ void Parser::parse() {
 
 void Parser::declare(const Raw& raw) {
   switch (raw.op) {
-    case Op::Name:
-    case Op::MemberName:
-      return add_name(raw);
-    case Op::String: {
-      Id& text_id = define(raw, 0, What::text);
-      text_id.number = static_cast<std::uint32_t>(module_.files.size());
-      module_.files.push_back(text(raw, 1));
-      return;
-    }
-    case Op::ExtInstImport:
-      return add_import(raw);
-    case Op::EntryPoint:
-      return add_entry(raw);
-    case Op::ExecutionMode:
-    case Op::ExecutionModeId:
-      return set_group(raw, raw.op == Op::ExecutionModeId);
-    case Op::MemoryModel:
-      if (word(raw, 0) != 0) refuse(raw, "physical addresses are not executed");
-      return;
-    case Op::Decorate:
-    case Op::MemberDecorate:
-      return add_decoration(raw);
-    case Op::DecorationGroup:
-      refuse(raw, "OpDecorationGroup is not executed");
-    case Op::TypeVoid:
-    case Op::TypeBool:
-    case Op::TypeInt:
-    case Op::TypeFloat:
-    case Op::TypeVector:
-    case Op::TypeMatrix:
-    case Op::TypeImage:
-    case Op::TypeSampler:
-    case Op::TypeSampledImage:
-    case Op::TypeArray:
-    case Op::TypeRuntimeArray:
-    case Op::TypeStruct:
-    case Op::TypePointer:
-    case Op::TypeFunction:
-      return add_type(raw);
-    case Op::TypeForwardPointer:
-      refuse(raw, "OpTypeForwardPointer is not executed");
-    case Op::ConstantTrue:
-    case Op::ConstantFalse:
-    case Op::Constant:
-    case Op::ConstantComposite:
-    case Op::ConstantNull:
-    case Op::SpecConstantTrue:
-    case Op::SpecConstantFalse:
-    case Op::SpecConstant:
-    case Op::SpecConstantComposite:
-    case Op::SpecConstantOp:
-    case Op::Undef:
-      return add_constant(raw);
+#define RAINREF_SPIRV_GLOBAL(name, number, handler) \
+  case Op::name:                                    \
+    return handler(raw);
+#include "spirv/opcodes.inc"
     case Op::Variable:
       return add_variable(raw);
-    case Op::Function: {
-      if (is_open_) refuse(raw, "a function begins inside another one");
-      Id& function = define(raw, 1, What::function);
-      function.type = type(raw, 0);
-      function.number = static_cast<std::uint32_t>(bodies_.size());
-      const auto name_of = names_.find(raw.words[1]);
-      bodies_.emplace_back().code.push_back(raw);
-      module_.functions.push_back({name_of == names_.end() ? "" : name_of->second, 0, 0, {}, 0});
-      is_open_ = true;
-      return;
-    }
+    case Op::Undef:
+      return add_constant(raw);
     default:
       return;  // capabilities, extensions, sources: what they bring is refused where it is used
   }
 }
 
-void Parser::add_name(const Raw& raw) {
-  if (raw.op == Op::Name) names_[word(raw, 0)] = text(raw, 1);
+void Parser::refuse_op(const Raw& raw) { refuse(raw, op_name(raw.op) + " is not executed"); }
+void Parser::check_memory_model(const Raw& raw) {
+  if (word(raw, 0) != 0) refuse(raw, "physical addresses are not executed");
 }
+void Parser::add_function(const Raw& raw) {
+  if (is_open_) refuse(raw, "a function begins inside another one");
+  Id& function = define(raw, 1, What::function);
+  function.type = type(raw, 0);
+  function.number = static_cast<std::uint32_t>(bodies_.size());
+  const auto name_of = names_.find(raw.words[1]);
+  bodies_.emplace_back().code.push_back(raw);
+  module_.functions.push_back({name_of == names_.end() ? "" : name_of->second, 0, 0, {}, 0});
+  is_open_ = true;
+}
+void Parser::add_text(const Raw& raw) {
+  Id& made = define(raw, 0, What::text);
+  made.number = static_cast<std::uint32_t>(module_.files.size());
+  module_.files.push_back(text(raw, 1));
+}
+void Parser::add_name(const Raw& raw) { names_[word(raw, 0)] = text(raw, 1); }
 void Parser::add_import(const Raw& raw) {
   const std::string set = text(raw, 1);
   Id& import = define(raw, 0, What::ignored);
@@ -160,7 +119,8 @@ void Parser::add_entry(const Raw& raw) {
   if (word(raw, 0) != compute || (entry_id_ != 0 && text(raw, 2) != "main")) return;
   entry_id_ = word(raw, 1);
 }
-void Parser::set_group(const Raw& raw, bool by_ids) {
+void Parser::set_group(const Raw& raw) {
+  const bool by_ids = raw.op == Op::ExecutionModeId;
   constexpr std::uint32_t local_size = 17, local_size_id = 38;
   if (word(raw, 0) != entry_id_ || word(raw, 1) != (by_ids ? local_size_id : local_size) || is_group_decorated_) return;
   for (std::size_t k = 0; k < 3; ++k) module_.group[k] = word(raw, 2 + k);

@@ -41,9 +41,13 @@ class Parser {
   // parser.cpp: the whole
   void read_words(std::span<const std::byte> bytes);
   void declare(const Raw& raw);
+  [[noreturn]] void refuse_op(const Raw& raw);
+  void check_memory_model(const Raw& raw);
   void add_name(const Raw& raw);
+  void add_text(const Raw& raw);
   void add_entry(const Raw& raw);
-  void set_group(const Raw& raw, bool by_ids);
+  void add_function(const Raw& raw);
+  void set_group(const Raw& raw);
   void add_import(const Raw& raw);
   void add_decoration(const Raw& raw);
   void take_line(const Raw& raw);
@@ -68,6 +72,8 @@ class Parser {
   void translate(std::uint32_t function, int depth);
   void place_results(std::uint32_t function);
   void translate_code(const Raw& raw);
+  void translate_nothing(const Raw&) {}
+  void translate_plain(const Raw& raw);
   void translate_label(const Raw& raw);
   void translate_phi(const Raw& raw);
   void translate_branch(const Raw& raw);
@@ -78,8 +84,9 @@ class Parser {
   bool is_debug(const Raw& raw) const;
 
   // translate_values.cpp: numbers, composites, matrices, functions of GLSL
-  bool translate_value(const Raw& raw);
-  void translate_each(const Raw& raw, const EachForm& form);
+  void translate_each(const Raw& raw);
+  void translate_copy(const Raw& raw);
+  void translate_bitcast(const Raw& raw);
   void translate_select(const Raw& raw);
   void translate_bits(const Raw& raw);
   void translate_wide(const Raw& raw);
@@ -96,7 +103,7 @@ class Parser {
   }
 
   // translate_memory.cpp: variables, pointers, atomics, images
-  bool translate_memory(const Raw& raw);
+  void translate_image(const Raw& raw);
   void translate_variable(const Raw& raw);
   void translate_chain(const Raw& raw);
   void translate_load(const Raw& raw);

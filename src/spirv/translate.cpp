@@ -6,40 +6,6 @@
 #include "spirv/parser.h"
 
 namespace rainref::spirv {
-namespace {
-
-// Instructions of functions that have no result; every other one has a type and a result.
-bool has_result(Op op) {
-  switch (op) {
-    case Op::Nop:
-    case Op::Line:
-    case Op::NoLine:
-    case Op::Store:
-    case Op::CopyMemory:
-    case Op::ImageWrite:
-    case Op::ControlBarrier:
-    case Op::MemoryBarrier:
-    case Op::AtomicStore:
-    case Op::LoopMerge:
-    case Op::SelectionMerge:
-    case Op::Label:
-    case Op::Branch:
-    case Op::BranchConditional:
-    case Op::Switch:
-    case Op::Kill:
-    case Op::Return:
-    case Op::ReturnValue:
-    case Op::Unreachable:
-    case Op::FunctionEnd:
-    case Op::Function:
-      return false;
-    default:
-      return true;
-  }
-}
-
-}  // namespace
-
 // What describes the source alone.
 bool Parser::is_debug(const Raw& raw) const {
   if (raw.op != Op::ExtInst) return false;
@@ -88,8 +54,8 @@ void Parser::place_results(std::uint32_t function) {
       if (!labels_.emplace(word(raw, 0), module_.blocks.size()).second) refuse(raw, fmt::format("block {} is there twice", raw.words[0]));
       module_.blocks.emplace_back();
     }
+    if (!is_executed(raw.op) && raw.op != Op::Function) refuse_op(raw);
     if (!has_result(raw.op) || is_debug(raw)) continue;
-    if (raw.words.size() < 2 || id(raw, 0).what != What::type) refuse(raw, op_name(raw.op) + " is not executed");
     Id& result = define(raw, 1, What::value);
     result.type = type(raw, 0);
     result.owner = function + 1;
@@ -107,52 +73,29 @@ void Parser::place_results(std::uint32_t function) {
 }
 
 void Parser::translate_code(const Raw& raw) {
-  switch (raw.op) {
-    case Op::Function:
-    case Op::FunctionParameter:
-    case Op::Line:
-    case Op::NoLine:
-    case Op::Nop:
-      return;
-    case Op::Label:
-      return translate_label(raw);
-    case Op::FunctionEnd:
-      if (is_in_block_) refuse(raw, "a block has no end");
-      return;
-    default:
-      break;
-  }
+  const bool is_inside = raw.op != Op::Function && raw.op != Op::FunctionParameter && raw.op != Op::Label && raw.op != Op::FunctionEnd &&
+                         raw.op != Op::Line && raw.op != Op::NoLine && raw.op != Op::Nop && !is_debug(raw);
+  if (is_inside && !is_in_block_) refuse(raw, op_name(raw.op) + " stands in no block");
   if (is_debug(raw)) return;
-  if (!is_in_block_) refuse(raw, op_name(raw.op) + " stands in no block");
   switch (raw.op) {
-    case Op::LoopMerge:
-    case Op::SelectionMerge:
-    case Op::MemoryBarrier:
-      return;
-    case Op::ControlBarrier:
-      emit(raw, raw.op);
-      module_.is_cooperative = true;
-      return;
-    case Op::Phi:
-      return translate_phi(raw);
-    case Op::Branch:
-    case Op::BranchConditional:
-      return translate_branch(raw);
-    case Op::Switch:
-      return translate_switch(raw);
-    case Op::FunctionCall:
-      return translate_call(raw);
-    case Op::Return:
-    case Op::ReturnValue:
-    case Op::Unreachable:
-      return translate_return(raw);
+#define RAINREF_SPIRV_OP(name, number, result, handler) \
+  case Op::name:                                        \
+    return translate_##handler(raw);
+#include "spirv/opcodes.inc"
     default:
-      if (!translate_value(raw) && !translate_memory(raw)) refuse(raw, op_name(raw.op) + " is not executed");
+      if (each_form(raw.op).operands > 0) translate_each(raw);
   }
 }
 
+// Undefined values, which are zeros, and barriers.
+void Parser::translate_plain(const Raw& raw) {
+  emit(raw, raw.op);
+  module_.is_cooperative |= raw.op == Op::ControlBarrier;
+}
+// Or the end of the function.
 void Parser::translate_label(const Raw& raw) {
   if (is_in_block_) refuse(raw, "a block has no end");
+  if (raw.op == Op::FunctionEnd) return;
   is_in_block_ = true;
   block_ = labels_.at(raw.words[0]);
   module_.blocks[block_].first = static_cast<std::uint32_t>(module_.code.size());

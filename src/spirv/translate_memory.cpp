@@ -7,69 +7,12 @@
 
 namespace rainref::spirv {
 
-bool Parser::translate_memory(const Raw& raw) {
-  switch (raw.op) {
-    case Op::Variable:
-      translate_variable(raw);
-      return true;
-    case Op::AccessChain:
-    case Op::InBoundsAccessChain:
-      translate_chain(raw);
-      return true;
-    case Op::Load:
-      translate_load(raw);
-      return true;
-    case Op::Store:
-      translate_store(raw);
-      return true;
-    case Op::ArrayLength:
-      translate_array_length(raw);
-      return true;
-    case Op::AtomicLoad:
-    case Op::AtomicStore:
-    case Op::AtomicExchange:
-    case Op::AtomicCompareExchange:
-    case Op::AtomicIIncrement:
-    case Op::AtomicIDecrement:
-    case Op::AtomicIAdd:
-    case Op::AtomicISub:
-    case Op::AtomicSMin:
-    case Op::AtomicUMin:
-    case Op::AtomicSMax:
-    case Op::AtomicUMax:
-    case Op::AtomicAnd:
-    case Op::AtomicOr:
-    case Op::AtomicXor:
-      translate_atomic(raw);
-      return true;
-    case Op::Image:
-    case Op::SampledImage: {
-      // A separate sampler counts for nothing: how an image is sampled, its binding says.
-      const Kind kind = type_of(value(raw, 2)).kind;
-      if ((kind != Kind::image && kind != Kind::sampled_image) || type_of(value(raw, 1)).slots != 1) refuse_shape(raw);
-      copy(raw, value(raw, 1).place, value(raw, 2).place, 1);
-      return true;
-    }
-    case Op::ImageSampleImplicitLod:
-      refuse(raw, "OpImageSampleImplicitLod takes its mip level from neighbouring pixels, which a compute shader has not");
-    case Op::ImageSampleExplicitLod:
-      translate_sample(raw);
-      return true;
-    case Op::ImageFetch:
-    case Op::ImageRead:
-    case Op::ImageWrite:
-      translate_texel(raw);
-      return true;
-    case Op::ImageQuerySizeLod:
-    case Op::ImageQuerySize:
-    case Op::ImageQueryLevels:
-      translate_query(raw);
-      return true;
-    default:
-      return false;
-  }
+// A separate sampler counts for nothing: how an image is sampled, its binding says.
+void Parser::translate_image(const Raw& raw) {
+  const Kind kind = type_of(value(raw, 2)).kind;
+  if ((kind != Kind::image && kind != Kind::sampled_image) || type_of(value(raw, 1)).slots != 1) refuse_shape(raw);
+  copy(raw, value(raw, 1).place, value(raw, 2).place, 1);
 }
-
 const Parser::Id& Parser::pointer(const Raw& raw, std::size_t i) const {
   const Id& found = value(raw, i);
   if (type_of(found).kind != Kind::pointer || found.pointee == none)
@@ -208,6 +151,8 @@ constexpr std::uint32_t lod_operand = 2, constant_offset_operand = 8, offset_ope
 
 // in: image, place, mip level, offset; sub: 1 with an offset.
 void Parser::translate_sample(const Raw& raw) {
+  if (raw.op == Op::ImageSampleImplicitLod)
+    refuse(raw, "OpImageSampleImplicitLod takes its mip level from neighbouring pixels, which a compute shader has not");
   const std::uint32_t mask = word(raw, 4), offset = mask & (constant_offset_operand | offset_operand);
   if ((mask & ~(constant_offset_operand | offset_operand)) != lod_operand || offset == (constant_offset_operand | offset_operand))
     refuse(raw, fmt::format("image operands {:#x} of OpImageSampleExplicitLod are not executed", mask));

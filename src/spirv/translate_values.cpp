@@ -6,151 +6,6 @@
 #include "spirv/parser.h"
 
 namespace rainref::spirv {
-namespace {
-
-// Operands of a function that treats each component by itself, and what they are; 0 for others.
-struct GlslForm {
-  int operands = 0;
-  Kind kind = Kind::floating;
-};
-GlslForm glsl_form(Glsl function) {
-  switch (function) {
-    case Glsl::Round:
-    case Glsl::RoundEven:
-    case Glsl::Trunc:
-    case Glsl::FAbs:
-    case Glsl::FSign:
-    case Glsl::Floor:
-    case Glsl::Ceil:
-    case Glsl::Fract:
-    case Glsl::Radians:
-    case Glsl::Degrees:
-    case Glsl::Sin:
-    case Glsl::Cos:
-    case Glsl::Tan:
-    case Glsl::Asin:
-    case Glsl::Acos:
-    case Glsl::Atan:
-    case Glsl::Sinh:
-    case Glsl::Cosh:
-    case Glsl::Tanh:
-    case Glsl::Exp:
-    case Glsl::Log:
-    case Glsl::Exp2:
-    case Glsl::Log2:
-    case Glsl::Sqrt:
-    case Glsl::InverseSqrt:
-    case Glsl::Normalize:
-      return {1};
-    case Glsl::Atan2:
-    case Glsl::Pow:
-    case Glsl::FMin:
-    case Glsl::FMax:
-    case Glsl::NMin:
-    case Glsl::NMax:
-    case Glsl::Step:
-    case Glsl::Reflect:
-      return {2};
-    case Glsl::FClamp:
-    case Glsl::NClamp:
-    case Glsl::FMix:
-    case Glsl::SmoothStep:
-    case Glsl::Fma:
-    case Glsl::FaceForward:
-      return {3};
-    case Glsl::SAbs:
-    case Glsl::SSign:
-    case Glsl::FindILsb:
-    case Glsl::FindSMsb:
-    case Glsl::FindUMsb:
-      return {1, Kind::integer};
-    case Glsl::UMin:
-    case Glsl::SMin:
-    case Glsl::UMax:
-    case Glsl::SMax:
-      return {2, Kind::integer};
-    case Glsl::UClamp:
-    case Glsl::SClamp:
-      return {3, Kind::integer};
-    default:
-      return {};
-  }
-}
-
-}  // namespace
-
-bool Parser::translate_value(const Raw& raw) {
-  if (const EachForm form = each_form(raw.op); form.operands > 0) {
-    translate_each(raw, form);
-    return true;
-  }
-  switch (raw.op) {
-    case Op::Undef:
-      emit(raw, raw.op);
-      return true;
-    case Op::CopyObject:
-    case Op::CopyLogical:
-      if (type_of(value(raw, 2)).slots != type_of(value(raw, 1)).slots) refuse_shape(raw);
-      copy(raw, value(raw, 1).place, value(raw, 2).place, type_of(value(raw, 1)).slots);
-      return true;
-    case Op::Bitcast: {
-      const Kind from = module_.types.component_kind(value(raw, 2).type), to = module_.types.component_kind(value(raw, 1).type);
-      const auto is_number = [](Kind k) { return k == Kind::integer || k == Kind::floating; };
-      if (!is_number(from) || !is_number(to)) refuse_shape(raw);
-      const Place in = components(raw, 2, from, type_of(value(raw, 1)).slots);
-      Code& code = emit(raw, from == to ? Op::CopyObject : Op::Bitcast);
-      code.in[0] = in;
-      code.sub = to == Kind::floating;
-      return true;
-    }
-    case Op::Select:
-      translate_select(raw);
-      return true;
-    case Op::BitFieldInsert:
-    case Op::BitFieldSExtract:
-    case Op::BitFieldUExtract:
-      translate_bits(raw);
-      return true;
-    case Op::IAddCarry:
-    case Op::ISubBorrow:
-    case Op::UMulExtended:
-    case Op::SMulExtended:
-      translate_wide(raw);
-      return true;
-    case Op::VectorTimesScalar:
-    case Op::MatrixTimesScalar:
-    case Op::VectorTimesMatrix:
-    case Op::MatrixTimesVector:
-    case Op::MatrixTimesMatrix:
-    case Op::OuterProduct:
-    case Op::Transpose:
-    case Op::Dot:
-    case Op::Any:
-    case Op::All:
-      translate_product(raw);
-      return true;
-    case Op::CompositeConstruct:
-      translate_construct(raw);
-      return true;
-    case Op::CompositeExtract:
-    case Op::CompositeInsert:
-      translate_part(raw);
-      return true;
-    case Op::VectorExtractDynamic:
-    case Op::VectorInsertDynamic:
-      translate_dynamic_part(raw);
-      return true;
-    case Op::VectorShuffle:
-      translate_shuffle(raw);
-      return true;
-    case Op::ExtInst:
-      translate_function(raw);
-      return true;
-    default:
-      return false;
-  }
-}
-
 void Parser::copy(const Raw& raw, Place to, Place from, std::uint32_t n) {
   Code& code = emit(raw, Op::CopyObject);
   code.to = to;
@@ -158,7 +13,23 @@ void Parser::copy(const Raw& raw, Place to, Place from, std::uint32_t n) {
   code.n = n;
 }
 
-void Parser::translate_each(const Raw& raw, const EachForm& form) {
+void Parser::translate_copy(const Raw& raw) {
+  const std::uint32_t n = type_of(value(raw, 1)).slots;
+  if (type_of(value(raw, 2)).slots != n) refuse_shape(raw);
+  copy(raw, value(raw, 1).place, value(raw, 2).place, n);
+}
+// sub: whether it becomes a float.
+void Parser::translate_bitcast(const Raw& raw) {
+  const Kind from = module_.types.component_kind(value(raw, 2).type), to = module_.types.component_kind(value(raw, 1).type);
+  const auto is_number = [](Kind k) { return k == Kind::integer || k == Kind::floating; };
+  if (!is_number(from) || !is_number(to)) refuse_shape(raw);
+  const Place in = components(raw, 2, from, type_of(value(raw, 1)).slots);
+  Code& code = emit(raw, from == to ? Op::CopyObject : Op::Bitcast);
+  code.in[0] = in;
+  code.sub = to == Kind::floating;
+}
+void Parser::translate_each(const Raw& raw) {
+  const EachForm form = each_form(raw.op);
   const std::uint32_t n = type_of(value(raw, 1)).slots;
   const Place to = components(raw, 1, form.out, n);
   Code& code = emit(raw, raw.op);
@@ -328,24 +199,24 @@ void Parser::translate_shuffle(const Raw& raw) {
   }
 }
 
-// sub: the function; m: components of an operand; the last of in: 1 of integers.
+// sub: the function; m: components of an operand.
 void Parser::translate_function(const Raw& raw) {
   if (id(raw, 2).what != What::glsl) refuse(raw, "a function of an unknown set is not executed");
   const std::uint32_t number = word(raw, 3);
-  const auto function = static_cast<Glsl>(number);
+  const auto function = static_cast<Glsl>(number > 0xffff ? 0 : number);
   const std::uint32_t n = type_of(value(raw, 1)).slots, m = type_of(value(raw, 4)).slots;
-  const GlslForm form = glsl_form(number > 81 ? Glsl{} : function);
+  const EachForm form = glsl_form(function);
   struct Operand {
     Kind kind;
     std::uint32_t slots;
   };
   std::vector<Operand> in;
-  Operand out{form.kind, n};
+  Operand out{form.operands > 0 ? form.out : Kind::floating, n};
   if (form.operands > 0) {
-    in.assign(static_cast<std::size_t>(form.operands), {form.kind, n});
+    in.assign(static_cast<std::size_t>(form.operands), {form.in, n});
   } else {
     constexpr Kind whole = Kind::integer, real = Kind::floating;
-    switch (number > 81 ? Glsl{} : function) {
+    switch (function) {
       case Glsl::Length:
         in = {{real, m}};
         out = {real, 1};
@@ -353,6 +224,15 @@ void Parser::translate_function(const Raw& raw) {
       case Glsl::Distance:
         in = {{real, m}, {real, m}};
         out = {real, 1};
+        break;
+      case Glsl::Normalize:
+        in = {{real, n}};
+        break;
+      case Glsl::Reflect:
+        in = {{real, n}, {real, n}};
+        break;
+      case Glsl::FaceForward:
+        in = {{real, n}, {real, n}, {real, n}};
         break;
       case Glsl::Cross:
         in = {{real, 3}, {real, 3}};
@@ -378,7 +258,6 @@ void Parser::translate_function(const Raw& raw) {
   components(raw, 1, out.kind, out.slots);
   if (n > 4 || m > 4) refuse_shape(raw);
   Code& code = emit(raw, raw.op);
-  code.in[3] = form.kind == Kind::integer;
   code.sub = static_cast<std::uint16_t>(number);
   code.m = m;
   for (std::size_t i = 0; i < in.size(); ++i) code.in[i] = components(raw, 4 + i, in[i].kind, in[i].slots);
