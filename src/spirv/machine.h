@@ -25,7 +25,7 @@ using numbers::Slot;
 
 /// What an execution may take. An instruction of many numbers counts as more steps.
 struct Limits {
-  std::uint64_t steps = std::uint64_t{1} << 34;  ///< of all invocations together
+  std::uint64_t steps = std::uint64_t{1} << 28;  ///< of an invocation
   std::size_t slots = std::size_t{1} << 24;      ///< memory of a workgroup's invocations
 };
 
@@ -39,7 +39,6 @@ struct Machine {
   std::span<const Resource<N>> resources;
   Limits limits;
   std::vector<Slot<N>> start, shared;  ///< what an invocation begins with; memory of the workgroup
-  std::uint64_t steps = 0;             ///< made so far
 };
 
 using Three = std::array<std::uint32_t, 3>;
@@ -72,8 +71,8 @@ class Invocation {
   };
   Slot<N>* at(Place place) { return place >= 0 ? stack_.data() + base_ + place : stack_.data() + ~place; }
   void count(const Code& code) {
-    machine_.steps += 1 + code.n / 16;
-    if (machine_.steps > machine_.limits.steps)
+    steps_ += 1 + (code.n + code.pool_count) / 16;
+    if (steps_ > machine_.limits.steps)
       module_.refuse(code, fmt::format("more than {} steps are not executed: is it a loop without end?", machine_.limits.steps));
   }
   void enter(std::uint32_t block);
@@ -117,6 +116,7 @@ class Invocation {
   std::vector<Slot<N>> stack_, phis_;
   std::vector<Frame> frames_;
   std::uint32_t function_ = 0, base_ = 0, pc_ = 0, block_ = 0;
+  std::uint64_t steps_ = 0;
 };
 
 template <class N>
@@ -142,7 +142,7 @@ Machine<N>::Machine(const Module& of, std::span<const Resource<N>> bound, const 
 template <class N>
 void Invocation<N>::begin(const Numbers& numbers) {
   std::copy(machine_.start.begin(), machine_.start.end(), stack_.begin());
-  machine_.steps += machine_.start.size() / 16;
+  steps_ = machine_.start.size() / 16;
   const Three& size = module_.group;
   for (const BuiltInPlace& b : module_.built_ins) {
     for (std::uint32_t k = 0; k < b.slots; ++k) {
@@ -253,7 +253,7 @@ void Invocation<N>::call(const Code& code) {
   for (std::uint32_t k = 0; k < code.pool_count; k += 3) {
     const Slot<N>* from = at(static_cast<Place>(arguments[k]));
     std::copy(from, from + arguments[k + 2], stack_.data() + base + arguments[k + 1]);
-    machine_.steps += arguments[k + 2] / 16;
+    steps_ += arguments[k + 2] / 16;
   }
   frames_.push_back({function_, base_, pc_, block_, code.to});
   function_ = callee;

@@ -38,7 +38,8 @@ void Invocation<N>::chain(const Code& code) {
   std::uint64_t place = std::uint64_t{base[1].word} + code.m;
   for (std::uint32_t k = 0; k < code.pool_count; k += 3) {
     const std::uint32_t index = at(static_cast<Place>(parts[k]))->word;
-    if (index >= parts[k + 2]) module_.refuse(code, fmt::format("element {} of {} is asked for", signed_word(index), parts[k + 2]));
+    if (parts[k + 2] != none && index >= parts[k + 2])
+      module_.refuse(code, fmt::format("element {} of {} is asked for", signed_word(index), parts[k + 2]));
     place += std::uint64_t{index} * parts[k + 1];
     if (place > none) module_.refuse(code, fmt::format("element {} of an array in a buffer is asked for", signed_word(index)));
   }
