@@ -132,6 +132,10 @@ void CaseBinding::bind_output(const std::string& name) {
   b.storage.emplace(*b.output);
 }
 
+const CaseOutput* CaseBinding::output(std::size_t descriptor) const {
+  const Descriptor& d = module_.descriptors[descriptor];
+  return d.binding < bound_.size() ? bound_[d.binding]->output : nullptr;
+}
 Three CaseBinding::groups() const {
   if (program_.one_group) return {1, 1, 1};
   const CaseOutput* first = bound_[1 + program_.inputs.size()]->output;

@@ -34,6 +34,8 @@ class CaseBinding {
   CaseBinding(const capture::PassCase& c, const Program& program, const Module& module);
   ~CaseBinding();
   std::span<const Resource<Float>> resources() const { return resources_; }
+  /// What a descriptor is written to; null where it is no output.
+  const capture::CaseOutput* output(std::size_t descriptor) const;
   /// Workgroups: as many as cover the first output.
   Three groups() const;
   /// What was written, in the order of the program's outputs, in the formats of the case. Throws Refusal where a list counts more records

@@ -124,7 +124,12 @@ void fetch_texel(const SampledImage& image, std::int64_t x, std::int64_t y, std:
   for (int k = 0; k < 4; ++k) out[k] = N(k == 3 && is_inside ? 1.0f : 0.0f);
   if (!is_inside) return;
   const auto place = static_cast<std::int32_t>((t.offset[level] + y * t.width[level] + x) * t.channels);
-  for (int k = 0; k < t.channels; ++k) out[k] = fetch(t.texels + k, N::uniform_int(place), N());
+  for (int k = 0; k < t.channels; ++k) {
+    out[k] = fetch(t.texels + k, N::uniform_int(place), N());
+    // A code of 8 bits is loaded with the accuracy that a profile allows for that.
+    const Unorm8 code = to_unorm8(t.texels[place + k]);
+    if (t.precision == TexelPrecision::unorm8 && to_float(code) == t.texels[place + k]) out[k] = N::load(&code);
+  }
 }
 
 }  // namespace rainref::spirv::numbers
