@@ -7,6 +7,7 @@
 #include "judge/profiles.h"
 #include "judge/races.h"
 #include "judge/shadow.h"
+#include "judging/shader_answer.h"
 
 namespace rainref::judging {
 namespace {
@@ -73,6 +74,7 @@ Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std:
   judge::PortJudgement judgement = judge::validate(*pack, runs.front(), call.options);
   call.add_notes(judgement);
   if (runs.size() > 1) find_races(*pack, runs, call.options, judgement);
+  if (!o.spirv.empty()) ask_shaders(*pack, runs.front(), o.spirv, call.options, judgement);
   return with_verdict(std::move(judgement), reports::page_source(pack, runs.front(), call.options.buffers), o);
 }
 

@@ -10,6 +10,7 @@
 #include "base/read_file.h"
 #include "capture/bound_texture.h"
 #include "capture/json_read.h"
+#include "ports/runner/programs_json.h"
 #include "spirv/stored_image.h"
 
 namespace rainref::spirv {

@@ -27,9 +27,11 @@ class OwnTexel final : public StorageImage<N> {
   N texel_[4] = {N(0.0f), N(0.0f), N(0.0f), N(0.0f)};
 };
 
+/// Whether the judge asks a model for an output's texels.
+bool is_asked(const CaseOutput& o) { return !o.array.is_records && o.judge == capture::Judge::envelope; }
 int values_of(const capture::PassCase& c) {
   int values = 0;
-  for (const CaseOutput& o : c.outputs) values += o.array.is_records ? 0 : info(o.array.format).channels;
+  for (const CaseOutput& o : c.outputs) values += is_asked(o) ? info(o.array.format).channels : 0;
   return values;
 }
 
@@ -67,7 +69,7 @@ class SpirvModel final : public capture::PassModel {
     invocation.begin({binding_->groups(), {column / size[0], row / size[1], 0}, {column % size[0], row % size[1], 0}});
     invocation.run();
     for (const CaseOutput& o : case_.outputs) {
-      if (o.array.is_records) continue;
+      if (!is_asked(o)) continue;
       const auto found = written.find(&o);
       for (int k = 0; k < info(o.array.format).channels; ++k) *out++ = found == written.end() ? N(0.0f) : found->second.channel(k);
     }

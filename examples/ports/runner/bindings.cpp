@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ports/runner/json_file.h"
+#include "ports/runner/programs_json.h"
 
 namespace port_runner {
 

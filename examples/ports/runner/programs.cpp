@@ -1,4 +1,4 @@
-#include "ports/runner/programs.h"
+#include "ports/runner/programs_json.h"
 
 #include <algorithm>
 #include <numeric>

@@ -15,8 +15,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "ports/runner/npy.h"
 
 namespace port_runner {
@@ -36,10 +34,6 @@ struct Program {
   std::uint32_t group[2] = {8, 8};
   std::uint32_t capacity = 0;  ///< room for records in an output of them
 };
-
-/// What bindings.json of a folder says: formula with revision, as in the manifest, to program. Throws FileError naming the file, the key,
-/// what was expected and what was found.
-std::map<std::string, Program> programs_of(const nlohmann::json& all, const fs::path& folder);
 
 /// The number that a constant has for an address rule: "clamp" 0, "repeat" 1, "border" 2, "mirror" 3; -1 for none of them.
 std::int32_t address_number(const std::string& address);
