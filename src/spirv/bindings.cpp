@@ -19,9 +19,10 @@ namespace {
 using capture::CaseInput;
 using capture::CaseOutput;
 
-constexpr std::size_t count_bytes = 16;      // what stands before the records of an output
-constexpr std::size_t absent_bytes = 256;    // of a list that the case lacks: zeros
-constexpr std::size_t most_bytes = 4 << 20;  // of a module
+constexpr std::size_t count_bytes = 16;       // what stands before the records of an output
+constexpr std::size_t absent_bytes = 256;     // of a list that the case lacks: zeros
+constexpr std::size_t most_list = 256 << 20;  // bytes of an output of records
+constexpr std::size_t most_bytes = 4 << 20;   // of a module
 
 }  // namespace
 
@@ -127,7 +128,10 @@ void CaseBinding::bind_output(const std::string& name) {
   if (b.output->array.is_records) {
     if (program_.capacity == 0)
       throw Error(ExitCode::port_files, fmt::format("{}: the program says no capacity of '{}'", case_.folder(), name));
-    return b.set_buffer(std::vector<std::byte>(count_bytes + program_.capacity * b.output->array.element_bytes()), true);
+    const std::size_t bytes = count_bytes + program_.capacity * b.output->array.element_bytes();
+    if (bytes > most_list)
+      throw Error(ExitCode::port_files, fmt::format("{}: a capacity of {} bytes of '{}' is not executed", case_.folder(), bytes, name));
+    return b.set_buffer(std::vector<std::byte>(bytes), true);
   }
   b.kind = spirv::Bound::storage_image;
   b.storage.emplace(*b.output);
