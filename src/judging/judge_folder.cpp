@@ -8,6 +8,7 @@
 #include "judge/races.h"
 #include "judge/shadow.h"
 #include "judging/shader_answer.h"
+#include "spirv/bindings.h"
 
 namespace rainref::judging {
 namespace {
@@ -65,6 +66,7 @@ Judged with_verdict(judge::PortJudgement judgement, reports::PageSource source, 
 void check_request(const capture::Pack& pack, const FolderOptions& options) {
   static_cast<void>(judge::judging_profile(options.profile));
   for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
+  if (!options.spirv.empty()) static_cast<void>(spirv::read_programs(options.spirv));
 }
 
 Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std::vector<std::filesystem::path>& runs,

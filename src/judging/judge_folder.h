@@ -22,7 +22,8 @@ struct FolderOptions : judge::ValidateOptions {
   std::function<void(const std::string& pass)> at_cause;  ///< before why this pass fails is looked for; may be null
 };
 
-/// What is wrong with the request whatever the port wrote: throws Error(usage) for an unknown profile or pass.
+/// What is wrong with the request whatever the port wrote: throws Error(usage) for an unknown profile or pass, and as
+/// spirv::read_programs() where shaders are to be asked.
 void check_request(const capture::Pack& pack, const FolderOptions& options);
 
 /// Judges the outputs in the first of these folders for the pack. The others are of the same port's further runs: where one differs, the
