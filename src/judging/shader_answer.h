@@ -11,7 +11,7 @@
 
 namespace rainref::judging {
 
-/// Of some invocations of a pass.
+/// What was found at some invocations of a pass.
 struct ShaderAnswer {
   int tried = 0;
   int said = 0;   ///< what is stored is what the shader may give there

@@ -146,7 +146,7 @@ class Parser {
   std::uint32_t entry_id_ = 0, file_ = 0, line_ = 0;
   bool is_group_decorated_ = false;
   std::vector<std::uint32_t> group_ids_;
-  // Of the function at hand.
+  // What belongs to the function at hand.
   std::uint32_t function_ = 0;
   bool is_open_ = false;
   bool is_in_block_ = false;

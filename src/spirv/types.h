@@ -49,7 +49,7 @@ class Types {
   /// The same type as a member with a matrix's decorations, itself or in arrays, has it.
   TypeIndex with_matrix_layout(TypeIndex type, std::uint32_t stride, bool is_row_major);
 
-  /// Of a scalar itself, of a vector that of its components; else the type's own.
+  /// What the components of a scalar, a vector or a matrix are; otherwise the type's own kind.
   Kind component_kind(TypeIndex type) const;
   /// What composites are made of: element or member i. Gives none where there is no such part.
   TypeIndex part(TypeIndex type, std::uint32_t i) const;

@@ -64,7 +64,7 @@ Held holds(const PassModel& model, const PassCase& c, const std::vector<Array>& 
 struct Count {
   int yes = 0, no = 0, open = 0;
 };
-/// Of some texels of what the reference gives.
+/// Counts some texels of what the reference gives.
 Count count(const Bound& b, const std::string& profile_name) {
   const enclosed::Profile profile = test::read_profile(profile_name);
   const auto model = b.model();
