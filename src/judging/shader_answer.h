@@ -13,7 +13,7 @@ namespace rainref::judging {
 
 /// What was found at some invocations of a pass.
 struct ShaderAnswer {
-  int tried = 0;
+  int tried = 0;  ///< those that the shader, under the profile, leaves a bound and few alternatives
   int said = 0;   ///< what is stored is what the shader may give there
   int right = 0;  ///< of the others: what the shader gives in float, the reference may give, too
 };
