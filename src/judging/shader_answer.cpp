@@ -68,9 +68,8 @@ std::string answer_of(const capture::Pack& pack, const judge::PassJudgement& pas
                          : std::find_if(pack.cases.begin(), pack.cases.end(), [&](const auto& c) { return c.id == most->id; });
   if (entry == pack.cases.end()) return "";
   const PassCase c = judge::read_case(pack, *entry);
-  const judge::Bind bind = judge::binder(pack.effect, pass.pass);
-  const std::unique_ptr<PassModel> reference = bind ? bind(c) : nullptr;
-  if (!reference || !judge::is_enveloped(c) || program.one_group) return "";
+  if (!judge::is_enveloped(c) || program.one_group) return "";
+  const std::unique_ptr<PassModel> reference = judge::bound(pass.pass, judge::binder(pack.effect, pass.pass), c);
   const std::unique_ptr<PassModel> shader =
       spirv::spirv_model(c, program, spirv::read_spirv(program), "'" + program.spirv.filename().string() + "'");
   if (shader->values() != reference->values()) return "";

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using capture::Array, capture::PassCase;
-using testing::HasSubstr, testing::StartsWith;
+using testing::Contains, testing::HasSubstr, testing::Not, testing::StartsWith;
 
 const std::string formula = "puddle.display.corrected/1";
 
@@ -112,11 +112,40 @@ TEST_F(ShaderAnswers, NotesSayItOfAFolder) {
     options.spirv = shaders;
     return judge_folder(std::make_shared<const capture::Pack>(pack_), {port}, options).judged.notes;
   };
-  using testing::Contains, testing::Not;
   EXPECT_THAT(notes(right, right), Not(Contains(StartsWith("display: "))));
   EXPECT_THAT(notes(wrong, wrong), Contains(StartsWith("display: the device did what this shader says")));
   EXPECT_THAT(notes(right, wrong), Contains("display: passes, but not by what this SPIR-V says: is it the one that ran?"));
   EXPECT_THAT(notes(wrong, right), Contains(HasSubstr("the shader is right")));
+}
+
+// Every pass of right ports, lists and images that are judged by bits among them: nothing is said of any.
+TEST_F(ShaderAnswers, NothingIsSaidOfRightPorts) {
+  for (const auto& [name, effect] :
+       {std::pair{"puddle-corrected", "puddle"}, {"windshield-as-published", "windshield"}, {"edge_splash-corrected", "edge_splash"}}) {
+    const TemporaryFolder folder;
+    const fs::path shaders = fs::path(RAINREF_SPIRV) / effect;
+    const auto programs = spirv::read_programs(shaders);
+    const auto pack = std::make_shared<const capture::Pack>(test::pack_folder(name));
+    for (const capture::PackCase& entry : pack->cases) {
+      const PassCase c = pack->read(entry);
+      const spirv::Program& p = programs.at(pack->pass(entry.pass).formula);
+      const std::vector<Array> given = spirv::execute(c, p, spirv::read_spirv(p), "'a.spv'");
+      fs::create_directories(folder / entry.id);
+      for (std::size_t o = 0; o < given.size(); ++o) {
+        const std::vector<std::byte> npy = capture::npy_bytes(given[o], 0);
+        put(folder.path() / entry.id / ("out." + p.outputs[o] + ".npy"), {reinterpret_cast<const char*>(npy.data()), npy.size()});
+      }
+    }
+    const parallel::Executor executor(1);
+    FolderOptions options;
+    options.executor = &executor;
+    options.seeks_causes = false;
+    options.spirv = shaders;
+    const Judged judged = judge_folder(pack, {folder.path()}, options);
+    EXPECT_EQ(judged.judged.status, judge::Status::pass) << name;
+    for (const judge::PassJudgement& pass : judged.judged.passes)
+      EXPECT_THAT(judged.judged.notes, Not(Contains(StartsWith(pass.pass + ": ")))) << name;
+  }
 }
 
 }  // namespace
