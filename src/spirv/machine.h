@@ -143,31 +143,17 @@ template <class N>
 void Invocation<N>::begin(const Numbers& numbers) {
   std::copy(machine_.start.begin(), machine_.start.end(), stack_.begin());
   steps_ = machine_.start.size() / 16;
-  const Three& size = module_.group;
+  const Three &size = module_.group, &group = numbers.group, &local = numbers.local;
+  // In the order of BuiltIn, from num_workgroups on.
+  const Three values[] = {numbers.groups,
+                          size,
+                          group,
+                          local,
+                          {group[0] * size[0] + local[0], group[1] * size[1] + local[1], group[2] * size[2] + local[2]},
+                          {(local[2] * size[1] + local[1]) * size[0] + local[0]}};
   for (const BuiltInPlace& b : module_.built_ins) {
-    for (std::uint32_t k = 0; k < b.slots; ++k) {
-      std::uint32_t& word = stack_[b.slot + k].word;
-      switch (b.what) {
-        case BuiltIn::num_workgroups:
-          word = numbers.groups[k];
-          break;
-        case BuiltIn::workgroup_size:
-          word = size[k];
-          break;
-        case BuiltIn::workgroup_id:
-          word = numbers.group[k];
-          break;
-        case BuiltIn::local_invocation_id:
-          word = numbers.local[k];
-          break;
-        case BuiltIn::global_invocation_id:
-          word = numbers.group[k] * size[k] + numbers.local[k];
-          break;
-        case BuiltIn::local_invocation_index:
-          word = (numbers.local[2] * size[1] + numbers.local[1]) * size[0] + numbers.local[0];
-          break;
-      }
-    }
+    const Three& value = values[static_cast<std::uint32_t>(b.what) - static_cast<std::uint32_t>(BuiltIn::num_workgroups)];
+    for (std::uint32_t k = 0; k < b.slots; ++k) stack_[b.slot + k].word = value[k];
   }
   frames_.clear();
   function_ = module_.entry;

@@ -109,46 +109,11 @@ void Invocation<N>::exchange(const Code& code) {
   }
   std::uint32_t now = old;
   switch (code.op) {
-    case Op::AtomicStore:
-    case Op::AtomicExchange:
-      now = value;
-      break;
-    case Op::AtomicCompareExchange:
-      if (old == compared) now = value;
-      break;
-    case Op::AtomicIIncrement:
-      now = old + 1;
-      break;
-    case Op::AtomicIDecrement:
-      now = old - 1;
-      break;
-    case Op::AtomicIAdd:
-      now = old + value;
-      break;
-    case Op::AtomicISub:
-      now = old - value;
-      break;
-    case Op::AtomicSMin:
-      now = signed_word(value) < signed_word(old) ? value : old;
-      break;
-    case Op::AtomicUMin:
-      now = std::min(value, old);
-      break;
-    case Op::AtomicSMax:
-      now = signed_word(old) < signed_word(value) ? value : old;
-      break;
-    case Op::AtomicUMax:
-      now = std::max(value, old);
-      break;
-    case Op::AtomicAnd:
-      now = old & value;
-      break;
-    case Op::AtomicOr:
-      now = old | value;
-      break;
-    case Op::AtomicXor:
-      now = old ^ value;
-      break;
+#define RAINREF_SPIRV_ATOMIC(name, number, result, after) \
+  case Op::name:                                          \
+    now = after;                                          \
+    break;
+#include "spirv/opcodes.inc"
     default:
       break;
   }
