@@ -105,35 +105,25 @@ bool vector_function(Glsl function, Slot<N>* to, const Slot<N>* a, const Slot<N>
   }
 }
 
-/// Numbers in the parts of a word, and back. False where it is none of these.
+/// Numbers in the parts of a word, and back.
 template <class N>
-bool packing_function(Glsl function, Slot<N>* to, const Slot<N>* a) {
-  const auto part = [](std::uint32_t word, std::uint32_t k, std::uint32_t bits) { return word >> (k * bits) & ((1u << bits) - 1u); };
-  switch (function) {
-    case Glsl::UnpackHalf2x16:
-      for (std::uint32_t k = 0; k < 2; ++k) to[k].number = N(rainref::to_float(Half{static_cast<std::uint16_t>(part(a[0].word, k, 16))}));
-      return true;
-    case Glsl::UnpackUnorm4x8:
-      for (std::uint32_t k = 0; k < 4; ++k) to[k].number = N(rainref::to_float(Unorm8{static_cast<std::uint8_t>(part(a[0].word, k, 8))}));
-      return true;
-    default:
-      break;
-  }
-  if constexpr (is_plain<N>) {
-    const auto value = [&](std::uint32_t k) { return static_cast<float>(a[k].number.v); };
-    if (function == Glsl::PackHalf2x16) {
-      const std::uint32_t low = to_half(value(0)).bits, high = to_half(value(1)).bits;
-      to[0].word = low | high << 16;
-      return true;
+void packing_function(Glsl function, Slot<N>* to, const Slot<N>* a) {
+  const bool is_half = function == Glsl::PackHalf2x16 || function == Glsl::UnpackHalf2x16;
+  const std::uint32_t parts = is_half ? 2 : 4, bits = 32 / parts;
+  if (function == Glsl::UnpackHalf2x16 || function == Glsl::UnpackUnorm4x8) {
+    for (std::uint32_t k = 0; k < parts; ++k) {
+      const std::uint32_t part = a[0].word >> (k * bits) & ((1u << bits) - 1u);
+      to[k].number = N(is_half ? rainref::to_float(Half{static_cast<std::uint16_t>(part)})
+                               : rainref::to_float(Unorm8{static_cast<std::uint8_t>(part)}));
     }
-    if (function == Glsl::PackUnorm4x8) {
-      std::uint32_t word = 0;
-      for (std::uint32_t k = 0; k < 4; ++k) word |= static_cast<std::uint32_t>(to_unorm8(value(k)).code) << (8 * k);
-      to[0].word = word;
-      return true;
-    }
+    return;
   }
-  return false;
+  std::uint32_t word = 0;
+  for (std::uint32_t k = 0; k < parts; ++k) {
+    const float value = std::bit_cast<float>(bits_of(a[k].number));
+    word |= (is_half ? std::uint32_t{to_half(value).bits} : std::uint32_t{to_unorm8(value).code}) << (k * bits);
+  }
+  to[0].word = word;
 }
 
 /// A function that treats each component by itself, by glsl.inc. False where it is none of them.
@@ -164,11 +154,11 @@ bool each_function(const Code& code, Slot<N>* to, const Slot<N>* in_a, const Slo
   }
 }
 
-/// All of them. False for what this number cannot do.
+/// All of them.
 template <class N>
-bool glsl_function(const Code& code, Slot<N>* to, const Slot<N>* a, const Slot<N>* b, const Slot<N>* c) {
+void glsl_function(const Code& code, Slot<N>* to, const Slot<N>* a, const Slot<N>* b, const Slot<N>* c) {
   const auto function = static_cast<Glsl>(code.sub);
-  return each_function(code, to, a, b, c) || vector_function(function, to, a, b, c, code.m) || packing_function(function, to, a);
+  if (!each_function(code, to, a, b, c) && !vector_function(function, to, a, b, c, code.m)) packing_function(function, to, a);
 }
 
 }  // namespace rainref::spirv::numbers

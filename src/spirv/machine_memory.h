@@ -81,13 +81,7 @@ void Invocation<N>::store(const Code& code) {
   std::byte* const to = bytes(code, pointer, true);
   const std::uint32_t* leaves = module_.pool.data() + code.pool;
   for (std::uint32_t k = 0; k < code.n; ++k) {
-    std::uint32_t word = from[k].word;
-    if (leaves[k] % 2 != 0) {
-      if constexpr (numbers::is_plain<N>)
-        word = numbers::bits_of(from[k].number);
-      else
-        module_.refuse(code, "a number that is no float has no place in a buffer");
-    }
+    const std::uint32_t word = leaves[k] % 2 != 0 ? numbers::bits_of(from[k].number) : from[k].word;
     std::memcpy(to + leaves[k] / 2, &word, 4);
   }
 }

@@ -57,18 +57,14 @@ void Invocation<N>::execute_other(const Code& code) {
       return;
     case Op::Bitcast:
       for (std::uint32_t k = 0; k < code.n; ++k) {
-        if (code.sub != 0) {
+        if (code.sub != 0)
           to[k].number = N(std::bit_cast<float>(a[k].word));
-        } else if constexpr (numbers::is_plain<N>) {
+        else
           to[k].word = numbers::bits_of(a[k].number);
-        } else {
-          module_.refuse(code, "the bits of a number that is no float are not known");
-        }
       }
       return;
     case Op::ExtInst:
-      if (!numbers::glsl_function(code, to, a, b, c)) module_.refuse(code, "the bits of a number that is no float are not known");
-      return;
+      return numbers::glsl_function(code, to, a, b, c);
     case Op::BitFieldInsert:
     case Op::BitFieldSExtract:
     case Op::BitFieldUExtract: {

@@ -32,10 +32,17 @@ struct Slot {
 template <class N>
 inline constexpr bool is_plain = std::is_same_v<N, Scalar<float>> || std::is_same_v<N, Scalar<double>>;
 
+/// The bits of a float. An interval that is no point has none: the invocation is given up, as where an index is open.
 template <class N>
 std::uint32_t bits_of(const N& x) {
-  static_assert(is_plain<N>);
-  return std::bit_cast<std::uint32_t>(static_cast<float>(x.v));
+  if constexpr (requires { x.v; }) {
+    return std::bit_cast<std::uint32_t>(static_cast<float>(x.v));
+  } else {
+    if constexpr (requires { x.is_point(); })
+      if (x.is_point()) return std::bit_cast<std::uint32_t>(x.lo);
+    enclosed::give_up();
+    return 0;
+  }
 }
 
 template <class N>

@@ -131,6 +131,13 @@ TEST_F(SpirvModel, OfAWrongPortDoesNot) {
   const Count vulkan = count(b, "vulkan");
   EXPECT_GT(vulkan.no, 10 * (vulkan.yes + vulkan.open));
 }
+// A shader that looks at the bits of what it computed says nothing certain there, and nothing wrong.
+TEST_F(SpirvModel, BitsOfAnIntervalAreLeftOpen) {
+  const Count vulkan = count({"windshield-as-published", "splat", "windshield.splat.as-published/1"}, "vulkan");
+  EXPECT_EQ(vulkan.no, 0);
+  EXPECT_GT(vulkan.open, 0);
+  EXPECT_GT(vulkan.yes, 0);
+}
 TEST_F(SpirvModel, OfAListIsRefused) {
   const Bound b("windshield-corrected", "integrate", "windshield.integrate.corrected/1");
   EXPECT_THROW(b.model(), Refusal);
