@@ -50,6 +50,7 @@ struct ValidateRequest {
   std::string profile = "vulkan";
   std::vector<std::string> only;  ///< these passes alone; empty: all
   bool partial = false;           ///< a pass without files of the port is not judged, and nothing of it is missing
+  std::filesystem::path spirv;    ///< a folder with bindings.json: the port's own shaders are asked who is wrong; "": they are not
   bool no_causes = false;         ///< what went wrong is not looked for
   double causes_within = 0;       ///< seconds of that for a pass; 0: as long as it takes
   std::string exec;               ///< the port's own command, run first; "": `port` holds its outputs

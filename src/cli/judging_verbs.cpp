@@ -48,7 +48,7 @@ struct ValidateFlags {
   ValidateRequest request;
   std::string pack, port;
   SceneFlags scene;  // of --shadow
-  std::optional<std::string> shadow, exec, timeout, repeat, threads, causes_within;
+  std::optional<std::string> shadow, exec, timeout, repeat, threads, causes_within, spirv;
 };
 
 void add_validate_options(CLI::App& verb, ValidateFlags& f) {
@@ -66,6 +66,9 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
   verb.add_option("--set", f.scene.set, "With --shadow and a scene: override one of its values, key=value")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  verb.add_option("--spirv", f.spirv,
+                  "Folder with the port's shaders and bindings.json: whether the shader is wrong or what ran it (examples/ports/README.md)")
+      ->type_name("DIR");
   add_profile(verb, f.request.profile);
   add_only(verb, f.request.only, "Judge these passes alone");
   verb.add_flag("--partial", f.request.partial, "A port in progress: passes that it has no files of are NOT JUDGED, and not missing");
@@ -94,7 +97,8 @@ bool changes_scene(const ValidateFlags& f) { return f.scene.size || !f.scene.set
 /// A port's own run: PACK is the scene that it ran, or empty.
 void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
   require_text(*f.shadow, "--shadow", "a folder");
-  if (f.exec || !f.port.empty()) throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", f.exec ? "--exec" : "--port"));
+  if (f.exec || f.spirv || !f.port.empty())
+    throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", f.exec ? "--exec" : f.spirv ? "--spirv" : "--port"));
   if (f.pack.empty() && changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
   if (std::error_code ignored; std::filesystem::is_directory(f.pack, ignored)) {
     throw Error(ExitCode::usage, fmt::format("--shadow: expected the scene that the port ran, found the folder '{}'; a manifest.json "
@@ -150,6 +154,10 @@ Verb validate_verb(CLI::App& app, const std::string& command) {
             if (f->causes_within && request.no_causes)
               throw Error(ExitCode::usage, "--causes-within: expected no --no-causes beside it, which looks for none");
             if (f->causes_within) request.causes_within = whole_number(*f->causes_within, "--causes-within", 1, 1000000);
+            if (f->spirv) {
+              require_text(*f->spirv, "--spirv", "a folder");
+              request.spirv = *f->spirv;
+            }
             request.pack = f->pack;
             request.port = f->port;
             request.threads = threads_of(f->threads);

@@ -58,6 +58,7 @@ judging::FolderOptions folder_options(const ValidateRequest& request, const para
   if (request.exhaustive) options.sample = 0;
   options.seeks_causes = !request.no_causes;
   options.causes_within = request.causes_within;
+  options.spirv = request.spirv;
   return options;
 }
 /// A diagnosis may take minutes; the terminal says so.

@@ -7,6 +7,8 @@
 #include "judge/profiles.h"
 #include "judge/races.h"
 #include "judge/shadow.h"
+#include "judging/shader_answer.h"
+#include "spirv/bindings.h"
 
 namespace rainref::judging {
 namespace {
@@ -64,6 +66,7 @@ Judged with_verdict(judge::PortJudgement judgement, reports::PageSource source, 
 void check_request(const capture::Pack& pack, const FolderOptions& options) {
   static_cast<void>(judge::judging_profile(options.profile));
   for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
+  if (!options.spirv.empty()) static_cast<void>(spirv::read_programs(options.spirv));
 }
 
 Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std::vector<std::filesystem::path>& runs,
@@ -73,6 +76,7 @@ Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std:
   judge::PortJudgement judgement = judge::validate(*pack, runs.front(), call.options);
   call.add_notes(judgement);
   if (runs.size() > 1) find_races(*pack, runs, call.options, judgement);
+  if (!o.spirv.empty()) ask_shaders(*pack, runs.front(), o.spirv, call.options, judgement);
   return with_verdict(std::move(judgement), reports::page_source(pack, runs.front(), call.options.buffers), o);
 }
 

@@ -18,10 +18,12 @@ struct FolderOptions : judge::ValidateOptions {
   bool seeks_causes = true;  ///< why passes fail is looked for, in place of `explain`; that may take longer than judging
   /// Seconds of that for each failing pass; then the best so far is said, and a note says so. 0: as long as it takes.
   double causes_within = 0;
+  std::filesystem::path spirv;  ///< a folder with bindings.json: what the port's own shaders say is a note; "": they are not asked
   std::function<void(const std::string& pass)> at_cause;  ///< before why this pass fails is looked for; may be null
 };
 
-/// What is wrong with the request whatever the port wrote: throws Error(usage) for an unknown profile or pass.
+/// What is wrong with the request whatever the port wrote: throws Error(usage) for an unknown profile or pass, and as
+/// spirv::read_programs() where shaders are to be asked.
 void check_request(const capture::Pack& pack, const FolderOptions& options);
 
 /// Judges the outputs in the first of these folders for the pack. The others are of the same port's further runs: where one differs, the

@@ -60,6 +60,8 @@ TEST_F(Validate, ExitCodes) {
   expect_refusal({"validate", pack, "--port", "port", "--causes-within", "0"}, 2,
                  HasSubstr("--causes-within: expected a whole number from 1"));
   expect_refusal({"validate", pack, "--port", "port", "--causes-within", "5", "--no-causes"}, 2, HasSubstr("which looks for none"));
+  expect_refusal({"validate", pack, "--port", "port", "--spirv", ""}, 2, "--spirv: expected a folder, found ''");
+  expect_refusal({"validate", pack, "--exec", "true {out}", "--spirv", "none"}, 4, HasSubstr("none/bindings.json"));
   expect_refusal({"validate", pack, "--exec", "true {out}", "--port", "port"}, 2, HasSubstr("expected a new or empty folder"));
   expect_refusal({"validate", pack, "--port", "none"}, 3, HasSubstr("none: expected a folder of a port, found none"));
   expect_refusal({"validate", "none", "--port", "none"}, 4, HasSubstr("no such folder"));
@@ -481,6 +483,7 @@ TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
                  HasSubstr("--shadow: expected the scene that the port ran, found the folder '" + pack));
   expect_refusal({"validate", "--shadow", "dump", "none.toml"}, 4, HasSubstr("none.toml"));
   expect_refusal({"validate", "--shadow", "dump", "--port", "x"}, 2, "--port: does not go with --shadow");
+  expect_refusal({"validate", "--shadow", "dump", "--spirv", "x"}, 2, "--spirv: does not go with --shadow");
   std::filesystem::create_directories(folder / "dump/puddle.shade/0000.7");
   expect_refusal({"validate", "--shadow", "dump", "corrected.toml"}, 3, HasSubstr("corrected.toml runs shade 1 time in frame 0"));
   // A folder's name had 10^8 frames simulated.

@@ -12,6 +12,7 @@
 #include "port_dump/port_info.h"
 #include "port_dump/read_buffer.h"
 #include "rainref/error.h"
+#include "spirv/any_module.h"
 
 namespace rainref::fuzz {
 
@@ -105,11 +106,21 @@ inline bool picture(Bytes bytes) {
   return any_image({port_dump::FileType::exr, "'a.exr'", bytes, {}, {}}, size.width, size.height);
 }
 
+/// Parsed and executed.
+inline bool spirv_module(Bytes bytes) {
+  return accepts([&] { spirv::execute_any(bytes); });
+}
+
 struct Target {
   const char* name;  ///< the folder of its seeds in tests/fuzz/seeds
   bool (*accepts)(Bytes);
 };
-constexpr std::array<Target, 6> targets{
-    {{"npy", npy}, {"dds", dds}, {"sidecar", sidecar}, {"port_json", port_json}, {"exr", picture}, {"png", picture}}};
+constexpr std::array<Target, 7> targets{{{"npy", npy},
+                                         {"dds", dds},
+                                         {"sidecar", sidecar},
+                                         {"port_json", port_json},
+                                         {"exr", picture},
+                                         {"png", picture},
+                                         {"spirv", spirv_module}}};
 
 }  // namespace rainref::fuzz

@@ -21,8 +21,12 @@ TEST_P(EveryPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
   EXPECT_EQ(nlohmann::json::parse(contents(folder / "port.json"))["api"], "Vulkan");
   // The published march of a grazing ray has no useful bound, so that pass may be left unjudged; never failed.
   const bool may_be_untested = GetParam().effect_and_variant() == "puddle-as-published";
-  const Outcome verdict = judge(pack, folder.path(), may_be_untested ? "--allow-untested" : "");
+  const Outcome verdict = judge(
+      pack, folder.path(), std::string(may_be_untested ? "--allow-untested " : "") + "--spirv '" + spirv + "/" + GetParam().effect + "'");
   EXPECT_EQ(verdict.code, 0) << verdict.text;
+  // What the device stored is what rainref says that these shaders may give, of every pass that is judged by texels.
+  EXPECT_THAT(verdict.text, testing::Not(HasSubstr("SPIR-V says"))) << verdict.text;
+  EXPECT_THAT(verdict.text, testing::Not(HasSubstr(".spv'"))) << "a refusal: " << verdict.text;
   EXPECT_THAT(verdict.text, testing::Not(HasSubstr("WARN"))) << verdict.text;
   if (may_be_untested) {
     EXPECT_EQ(judge(pack, folder.path(), "--only wave_step,shade,display").code, 0);

@@ -1,47 +1,19 @@
-// bindings.json: which program computes each pass, and what is bound to it. examples/ports/README.md lists the keys.
-//
-// Binding convention, the same for every pass. Descriptor set 0; binding 0 is the uniform block (std140), then the
-// inputs and the outputs in the order of the program's lists:
-//   input image     combined image sampler, with the manifest's addresses, border and filters ("none": nearest)
-//   input records   std430 storage buffer: an array of the records
-//   output image    storage image in the buffer's format
-//   output records  std430 storage buffer: the count in the first of four words, the records from byte 16
-// An input that the case does not have is bound as one texel of zeros, one of `lists` as one record of zeros.
+// The programs of a port's folder, and whether they fit the cases of a pack.
 #pragma once
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "ports/runner/pack.h"
+#include "ports/runner/programs.h"
 
 namespace port_runner {
 
-/// A specialization constant taken from the manifest: an address rule (clamp 0, repeat 1, border 2, mirror 3), or
-/// whether the case has the input (0, 1).
-struct Fact {
-  std::uint32_t id;
-  std::string key, input;  ///< key: address_u, address_v or present
-};
-struct Program {
-  fs::path spirv;
-  std::vector<std::string> inputs, outputs;
-  std::vector<std::string> lists;  ///< those inputs that a case may lack and that are records
-  std::vector<Fact> constants;
-  bool one_group = false;  ///< one workgroup; otherwise one invocation for each texel of the first output
-  std::uint32_t group[2] = {8, 8};
-  std::uint32_t capacity = 0;  ///< room for records in an output of them
-};
-
-/// DIR/bindings.json: formula with revision, as in the manifest, to program. Throws FileError naming the file, the key,
-/// what was expected and what was found.
+/// DIR/bindings.json. Throws FileError as programs_of() does.
 std::map<std::string, Program> read_programs(const fs::path& folder);
 /// The shader is there, and each buffer it binds is one of the case's pass. Throws FileError likewise.
 void check_program(const fs::path& folder, const Program& program, const Case& of);
 /// The value of a fact for this case; throws Error.
 std::int32_t value(const Fact& fact, const Case& of);
-
-/// "; did you mean 'wave'?" where one of the names is near to the text, else nothing.
-std::string did_you_mean(const std::string& text, const std::vector<std::string>& names);
 
 }  // namespace port_runner

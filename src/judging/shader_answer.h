@@ -1,0 +1,33 @@
+// Who is wrong: the shader, or what ran it. A port's own SPIR-V, on the inputs of the pack, says what its device should have stored.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "capture/pass_model.h"
+#include "judge/validate.h"
+
+namespace rainref::judging {
+
+/// What was found at some invocations of a pass.
+struct ShaderAnswer {
+  int tried = 0;  ///< those that the shader, under the profile, leaves a bound and few alternatives
+  int said = 0;   ///< what is stored is what the shader may give there
+  int right = 0;  ///< of the others: what the shader gives in float, the reference may give, too
+};
+/// `stored` holds the port's outputs in the order of c.outputs; `places` are texels. Both models have the same values.
+ShaderAnswer ask_shader(const capture::PassCase& c, const capture::PassModel& reference, const capture::PassModel& shader,
+                        const std::vector<capture::Array>& stored, const std::vector<std::array<int, 2>>& places,
+                        const enclosed::Profile& profile, judge::HalfMode mode);
+/// What follows from it, for a pass that fails or passes; "" where there is nothing to say.
+std::string sentence(const ShaderAnswer& answer, bool fails);
+
+/// Adds a note to the judgement for each pass whose program, in bindings.json of a folder, has something to say: passes that are judged by
+/// texels, at up to 32 of them that fail, or at some where none fails. A program that cannot be executed is a note, too. Throws
+/// Error(port_files) where bindings.json cannot be used.
+void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, const std::filesystem::path& spirv,
+                 const judge::ValidateOptions& options, judge::PortJudgement& judgement);
+
+}  // namespace rainref::judging

@@ -1,0 +1,25 @@
+// What is said of a shader that cannot be executed.
+#pragma once
+
+#include <string>
+
+#include "rainref/error.h"
+
+namespace rainref::spirv {
+
+/// One sentence about a module: not SPIR-V, or something in it that is not executed, or what it did. Code port_files.
+class Refusal : public Error {
+ public:
+  /// `module` starts the message; `at` is the shader's own line, where it is known.
+  Refusal(const std::string& module, SourceLocation at, const std::string& sentence)
+      : Error(ExitCode::port_files, module + ": " + (at.file.empty() && at.line <= 0 ? "" : text_of(at) + ": ") + sentence),
+        at_(std::move(at)) {}
+  /// The line of the shader's source; 0 where the module does not say.
+  const SourceLocation& at() const { return at_; }
+
+ private:
+  static std::string text_of(const SourceLocation& at) { return at.file.empty() ? "line " + std::to_string(at.line) : at.text(); }
+  SourceLocation at_;
+};
+
+}  // namespace rainref::spirv

@@ -1,0 +1,96 @@
+#include "spirv/spirv_model.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/floating_point.h"
+#include "math/perturbed.h"
+
+namespace rainref::spirv {
+namespace {
+
+using capture::CaseOutput;
+
+/// Keeps what an invocation writes to its own texel.
+template <class N>
+class OwnTexel final : public StorageImage<N> {
+ public:
+  OwnTexel(const CaseOutput& output, int x, int y) : StorageImage<N>(output.array.width, output.array.height), x_(x), y_(y) {}
+  void write(int x, int y, const N* texel, int count) override {
+    if (x == x_ && y == y_) std::copy(texel, texel + count, texel_);
+  }
+  void read(int, int, N* texel) const override { std::copy(texel_, texel_ + 4, texel); }
+  const N& channel(int k) const { return texel_[k]; }
+
+ private:
+  int x_, y_;
+  N texel_[4] = {N(0.0f), N(0.0f), N(0.0f), N(0.0f)};
+};
+
+/// Whether the judge asks a model for an output's texels.
+bool is_asked(const CaseOutput& o) { return !o.array.is_records && o.judge == capture::Judge::envelope; }
+int values_of(const capture::PassCase& c) {
+  int values = 0;
+  for (const CaseOutput& o : c.outputs) values += is_asked(o) ? info(o.array.format).channels : 0;
+  return values;
+}
+
+class SpirvModel final : public capture::PassModel {
+ public:
+  SpirvModel(const capture::PassCase& c, const CaseOutput& first, std::unique_ptr<Module> module, std::unique_ptr<CaseBinding> binding,
+             const Limits& limits)
+      : PassModel(first.array.width, first.array.height, values_of(c)),
+        case_(c),
+        module_(std::move(module)),
+        binding_(std::move(binding)),
+        limits_(limits) {}
+  void evaluate(int x, int y, scalar::Scalar<float>* out) const override { run(x, y, out); }
+  void evaluate(int x, int y, scalar::Scalar<double>* out) const override { run(x, y, out); }
+  void evaluate(int x, int y, perturbed::Perturbed* out) const override { run(x, y, out); }
+  void enclose(int x, int y, const float*, enclosed::Enclosure* out) const override { run(x, y, out); }
+
+ private:
+  template <class N>
+  void run(int x, int y, N* out) const {
+    const FloatingPointGuard guard;
+    std::map<const CaseOutput*, OwnTexel<N>> written;
+    std::vector<Resource<N>> resources;
+    for (std::size_t i = 0; i < module_->descriptors.size(); ++i) {
+      const Resource<Float>& bound = binding_->resources()[i];
+      Resource<N>& r = resources.emplace_back();
+      r.buffer = bound.buffer;
+      r.image = bound.image;
+      if (bound.storage != nullptr) r.storage = &written.try_emplace(binding_->output(i), *binding_->output(i), x, y).first->second;
+    }
+    Machine<N> machine(*module_, resources, limits_);
+    Invocation<N> invocation(machine);
+    const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
+    const Three& size = module_->group;
+    invocation.begin({binding_->groups(), {column / size[0], row / size[1], 0}, {column % size[0], row % size[1], 0}});
+    invocation.run();
+    for (const CaseOutput& o : case_.outputs) {
+      if (!is_asked(o)) continue;
+      const auto found = written.find(&o);
+      for (int k = 0; k < info(o.array.format).channels; ++k) *out++ = found == written.end() ? N(0.0f) : found->second.channel(k);
+    }
+  }
+
+  const capture::PassCase& case_;
+  std::unique_ptr<Module> module_;
+  std::unique_ptr<CaseBinding> binding_;
+  Limits limits_;
+};
+
+}  // namespace
+
+std::unique_ptr<capture::PassModel> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
+                                                const std::string& name, const Limits& limits) {
+  auto module = std::make_unique<Module>(spirv, name, specialization_of(program, c));
+  const auto is_list = [&](const std::string& output) { return c.output(output) != nullptr && c.output(output)->array.is_records; };
+  if (module->is_cooperative || program.one_group || std::any_of(program.outputs.begin(), program.outputs.end(), is_list))
+    module->refuse(0, 0, "invocations that work together, or write a list, are executed in float alone");
+  auto binding = std::make_unique<CaseBinding>(c, program, *module);
+  return std::make_unique<SpirvModel>(c, *c.output(program.outputs.at(0)), std::move(module), std::move(binding), limits);
+}
+
+}  // namespace rainref::spirv

@@ -1,0 +1,25 @@
+// An output image of a case, stored as the reference stores it: the format's own rounding.
+#pragma once
+
+#include "capture/pass_case.h"
+#include "spirv/group.h"
+
+namespace rainref::spirv {
+
+class StoredImage final : public StorageImage<Float> {
+ public:
+  /// An image of zeros. Throws Error(port_files) for a format that no shader stores float by float.
+  explicit StoredImage(const capture::CaseOutput& output);
+  void write(int x, int y, const Float* texel, int count) override;
+  void read(int x, int y, Float* texel) const override;
+  const capture::Array& array() const { return array_; }
+
+ private:
+  std::byte* at(int x, int y, int channel);
+
+  capture::Array array_;
+  FormatInfo format_;
+  Rounding rounding_;
+};
+
+}  // namespace rainref::spirv
