@@ -99,7 +99,7 @@ ShaderAnswer ask_shader(const PassCase& c, const PassModel& reference, const Pas
     for (std::size_t v = 0; v < slots.size(); ++v) {
       const judge::Slot& s = slots[v];
       judge::store_value(s, values[v].v, judge::rounding_of(s, mode),
-                         in_float[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+                         in_float[static_cast<std::size_t>(s.output)].levels[0].edit().data() + s.offset(x, y));
     }
     answer.right += by_reference.accepts(x, y, in_float) != judge::Accepted::no;
   }

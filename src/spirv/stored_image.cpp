@@ -32,15 +32,15 @@ StoredImage::StoredImage(const capture::CaseOutput& output)
   array_.levels.assign(1, std::vector<std::byte>(texels * array_.element_bytes()));
 }
 
-std::byte* StoredImage::at(int x, int y, int channel) {
+std::size_t StoredImage::offset(int x, int y, int channel) const {
   const auto texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x);
-  return array_.levels[0].data() + texel * array_.element_bytes() + static_cast<std::size_t>(channel * format_.channel_bytes);
+  return texel * array_.element_bytes() + static_cast<std::size_t>(channel * format_.channel_bytes);
 }
 void StoredImage::write(int x, int y, const Float* texel, int count) {
   for (int k = 0; k < format_.channels && k < count; ++k) {
     with_stored(format_.kind, [&](auto stored) {
       scalar::store(&stored, texel[k], rounding_);
-      std::memcpy(at(x, y, k), &stored, sizeof stored);
+      std::memcpy(array_.levels[0].edit().data() + offset(x, y, k), &stored, sizeof stored);
     });
   }
 }
@@ -49,7 +49,7 @@ void StoredImage::read(int x, int y, Float* texel) const {
     texel[k] = Float(k == 3 ? 1.0f : 0.0f);
     if (k >= format_.channels) continue;
     with_stored(format_.kind, [&](auto stored) {
-      std::memcpy(&stored, const_cast<StoredImage*>(this)->at(x, y, k), sizeof stored);
+      std::memcpy(&stored, array_.levels[0].data() + offset(x, y, k), sizeof stored);
       texel[k] = Float::load(&stored);
     });
   }

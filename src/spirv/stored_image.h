@@ -15,7 +15,7 @@ class StoredImage final : public StorageImage<Float> {
   const capture::Array& array() const { return array_; }
 
  private:
-  std::byte* at(int x, int y, int channel);
+  std::size_t offset(int x, int y, int channel) const;
 
   capture::Array array_;
   FormatInfo format_;

@@ -18,7 +18,7 @@ Array zeros(Format format, int width, int height) {
 }
 template <class T>
 void set(Array& a, std::size_t level, std::size_t index, T value) {
-  std::memcpy(a.levels[level].data() + index * sizeof value, &value, sizeof value);
+  std::memcpy(a.levels[level].edit().data() + index * sizeof value, &value, sizeof value);
 }
 
 TEST(FirstDifference, NoneForEqualBits) {

@@ -14,7 +14,7 @@ Array image(Format format, int width, int height) {
   a.format = format;
   a.width = width;
   a.height = height;
-  std::vector<std::byte>& data = a.levels.emplace_back(static_cast<std::size_t>(width) * height * a.element_bytes());
+  std::vector<std::byte>& data = a.levels.emplace_back(static_cast<std::size_t>(width) * height * a.element_bytes()).edit();
   for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::byte>(i * 7 + 1);
   return a;
 }
@@ -75,7 +75,7 @@ TEST(NpyWrite, RecordsHaveNamedFieldsAndNamelessGaps) {
   EXPECT_EQ(h.fields[2].offset, 20u);
   EXPECT_EQ(h.record_bytes, 32u);
   a.width = 0;
-  a.levels[0].clear();
+  a.levels[0].edit().clear();
   EXPECT_EQ(parse_npy_header(npy_bytes(a, 0), "x").shape, std::vector<std::size_t>{0});
 }
 
