@@ -136,8 +136,8 @@ void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, c
     try {
       said = answer_of(pack, pass, program->second, files, options);
     } catch (const Error& e) {
-      if (e.code() != ExitCode::port_files) throw;
-      said = e.what();
+      if (e.code() == ExitCode::internal) throw;
+      said = e.what();  // the verdict stands without it
     }
     if (!said.empty()) judgement.notes.push_back(pass.pass + ": " + said);
   }

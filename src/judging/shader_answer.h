@@ -25,7 +25,7 @@ ShaderAnswer ask_shader(const capture::PassCase& c, const capture::PassModel& re
 std::string sentence(const ShaderAnswer& answer, bool fails);
 
 /// Adds a note to the judgement for each pass whose program, in bindings.json of a folder, has something to say: passes that are judged by
-/// texels, at up to 32 of them that fail, or at some where none fails. A program that cannot be executed is a note, too. Throws
+/// texels, at up to 32 of them that fail, or at some where none fails. A program that cannot be read or executed is a note, too. Throws
 /// Error(port_files) where bindings.json cannot be used.
 void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, const std::filesystem::path& spirv,
                  const judge::ValidateOptions& options, judge::PortJudgement& judgement);

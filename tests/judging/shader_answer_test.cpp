@@ -116,6 +116,7 @@ TEST_F(ShaderAnswers, NotesSayItOfAFolder) {
   EXPECT_THAT(notes(wrong, wrong), Contains(StartsWith("display: the device did what this shader says")));
   EXPECT_THAT(notes(right, wrong), Contains("display: passes, but not by what this SPIR-V says: is it the one that ran?"));
   EXPECT_THAT(notes(wrong, right), Contains(HasSubstr("the shader is right")));
+  EXPECT_THAT(notes(right, "bindings.json"), Contains(HasSubstr("display: 'mine.spv': expected SPIR-V")));
 }
 
 // Every pass of right ports, lists and images that are judged by bits among them: nothing is said of any.
