@@ -11,7 +11,6 @@
 #include "judge/judge_pass.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
-#include "judge/slots.h"
 #include "port_dump/dump_file.h"
 #include "rainref/error.h"
 

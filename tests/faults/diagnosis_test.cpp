@@ -283,22 +283,5 @@ TEST(Diagnosis, NoiseHasNoCause) {
   EXPECT_TRUE(pass_of(j, "display").causes.empty()) << pass_of(j, "display").causes[0].name;
 }
 
-// A step of milliseconds ends every drop. That its list stays empty was called likely, and the search was over.
-TEST(ListCauses, AnEmptyListIsSeenAndNoCause) {
-  MiniPort port("windshield-corrected");
-  const std::size_t dt = uniform_offset(port.pack, "integrate", "dt");
-  port.before = [&](PassCase& c) {
-    if (c.pass == "integrate") change_at<float>(c.uniforms.data() + dt, [](float seconds) { return 1000 * seconds; });
-  };
-  ValidateOptions options;
-  options.only = {"integrate"};
-  options.explain = diagnose;
-  const PassJudgement j = pass_of(judged(port, options), "integrate");
-  EXPECT_EQ(j.status, Status::fail);
-  for (const Cause& c : j.causes) EXPECT_FALSE(c.is_likely && c.name == "drops not written") << c.sentence;
-  ASSERT_FALSE(j.causes.empty());
-  EXPECT_NE(j.causes[0].name, "drops not written");
-}
-
 }  // namespace
 }  // namespace rainref::faults

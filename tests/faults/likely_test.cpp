@@ -1,12 +1,16 @@
-// What is tried in place of a number of a pass.
+// Causes that were called likely and were none.
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "faults/generators.h"
+#include "judge/mini_port.h"
 
 namespace rainref::faults {
 namespace {
+
+using namespace judge;
+using capture::PassCase;
 
 std::vector<Kind> tried_for(const Constant& constant) {
   std::vector<Fault> made;
@@ -25,6 +29,23 @@ TEST(NamedConstants, AFactorIsTriedInverted) {
   EXPECT_TRUE(has(tried_for({4, "the literal 4", true, true, false, "the"}), Kind::number_inverted));
   EXPECT_TRUE(has(tried_for({0x1p-16f, "the literal 1.5258789e-05", true, true, false, "the"}), Kind::number_inverted)) << "a scale";
   EXPECT_TRUE(has(tried_for({1e-5f, "film_rate", false, false, false, "film_rate"}), Kind::number_inverted)) << "a uniform";
+}
+
+// That a list stays empty is what is seen. It was called likely, and the search was over.
+TEST(ListCauses, AnEmptyListIsNoLikelyCause) {
+  MiniPort port("windshield-corrected");
+  port.after = [](const PassCase& c, std::vector<capture::Array>& gave) {
+    if (c.pass != "integrate") return;
+    gave[0].width = 0;
+    gave[0].levels[0].clear();
+  };
+  ValidateOptions options;
+  options.only = {"integrate"};
+  options.explain = diagnose;
+  const PassJudgement j = pass_of(judged(port, options), "integrate");
+  EXPECT_EQ(j.status, Status::fail);
+  ASSERT_FALSE(j.causes.empty());
+  for (const Cause& c : j.causes) EXPECT_FALSE(c.is_likely && c.name == "drops not written") << c.sentence;
 }
 
 }  // namespace
