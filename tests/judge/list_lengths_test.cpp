@@ -19,11 +19,12 @@ void set_length(Array& list, int records) {
   if (records > list.width)  // copies of the last record
     while (list.width < records) {
       const std::vector<std::byte> last(list.levels[0].end() - static_cast<std::ptrdiff_t>(size), list.levels[0].end());
-      list.levels[0].insert(list.levels[0].end(), last.begin(), last.end());
+      std::vector<std::byte>& all = list.levels[0].edit();
+      all.insert(all.end(), last.begin(), last.end());
       ++list.width;
     }
   list.width = records;
-  list.levels[0].resize(size * static_cast<std::size_t>(records));
+  list.levels[0].edit().resize(size * static_cast<std::size_t>(records));
 }
 
 struct Length {

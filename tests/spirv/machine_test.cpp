@@ -269,7 +269,7 @@ TEST(Machine, EnclosuresAreExecutedToo) {
   const auto exact = answers<enclosed::Enclosure>(module);
   ASSERT_EQ(exact.size(), 1u);
   EXPECT_TRUE(exact[0].is_point() && exact[0].contains(-x));
-  const enclosed::Profile vulkan = test::read_profile("vulkan");
+  const enclosed::Profile& vulkan = test::profile_named("vulkan");
   const enclosed::ProfileScope scope(vulkan);
   const auto open = answers<enclosed::Enclosure>(module);
   ASSERT_EQ(open.size(), 2u);

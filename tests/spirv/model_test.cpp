@@ -66,7 +66,7 @@ struct Count {
 };
 /// Counts some texels of what the reference gives.
 Count count(const Bound& b, const std::string& profile_name) {
-  const enclosed::Profile profile = test::read_profile(profile_name);
+  const enclosed::Profile& profile = test::profile_named(profile_name);
   const auto model = b.model();
   std::vector<Array> dump;
   for (const auto& o : b.c.outputs) dump.push_back(o.array);
