@@ -6,8 +6,8 @@
 #include "rainref/windshield.h"
 #include "scene/toml.h"
 #include "thread_counts.h"
+#include "windshield/instance.h"
 #include "windshield/parameters.h"
-#include "windshield/scene/pictures.h"
 
 namespace rainref::windshield {
 namespace {
@@ -31,8 +31,7 @@ Windshield& wet_windshield(const std::string& variant, int width, int height, in
   const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, {own.begin(), own.end()}}}};
   const scene::Config config = scene::parse(fmt::format("effect = 'windshield'\nvariant = '{}'\nseed = 7\n", variant), "bench",
                                             {fmt::format("run.size=[{}, {}]", width, height)}, table);
-  made->windshield = std::make_unique<Windshield>(
-      config, Surroundings{opaque_half(bench::integers(width, height)), far_depth(width, height)}, made->executor);
+  made->windshield = std::make_unique<Windshield>(config, surroundings_of(bench::integers(width, height)), made->executor);
   for (int frame = 0; frame < 60; ++frame) {
     made->windshield->simulate();
     made->windshield->render();

@@ -31,28 +31,13 @@ effect::RunMemory memory_of(const scene::Config& config) {
   return m;
 }
 
-/// Of linear radiance, rgba32f, as rgba16f, alpha 1; negative values become 0, those beyond the range of a half its largest value.
-Image opaque_half(const Image& linear) {
-  Image out(Format::rgba16f, linear.width(), linear.height());
-  for (int y = 0; y < out.height(); ++y) {
-    const float* from = linear.row<float>(y);
-    Half* to = out.row<Half>(y);
-    for (int i = 0; i < 4 * out.width(); ++i) to[i] = to_half(i % 4 == 3 ? 1.0f : std::clamp(from[i], 0.0f, 65504.0f));
-  }
-  return out;
-}
 /// Of a frame, as the passes take them; empty where none is named. Without a depth all is as far as the street's sky.
 Surroundings pictures_of(const effect::ScenePictures& named, int frame, effect::Inputs& files) {
   Surroundings s;
   if (!named.are_named()) return s;
   const Image colour = named.colour(frame, files);
-  s.colour = opaque_half(colour);
-  if (named.have_depth()) {
-    s.depth = named.depth(frame, street_far, colour, files);
-  } else {
-    s.depth = Image(Format::r32f, colour.width(), colour.height());
-    for (int y = 0; y < colour.height(); ++y) std::fill_n(s.depth.row<float>(y), colour.width(), static_cast<float>(street_far));
-  }
+  s = surroundings_of(colour);
+  if (named.have_depth()) s.depth = named.depth(frame, street_far, colour, files);
   return s;
 }
 
@@ -69,6 +54,19 @@ std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const 
 }
 
 }  // namespace
+
+Surroundings surroundings_of(const Image& linear) {
+  Surroundings s;
+  s.colour = Image(Format::rgba16f, linear.width(), linear.height());
+  s.depth = Image(Format::r32f, linear.width(), linear.height());
+  for (int y = 0; y < linear.height(); ++y) {
+    const float* from = linear.row<float>(y);
+    Half* to = s.colour.row<Half>(y);
+    for (int i = 0; i < 4 * linear.width(); ++i) to[i] = to_half(i % 4 == 3 ? 1.0f : std::clamp(from[i], 0.0f, 65504.0f));
+    std::fill_n(s.depth.row<float>(y), linear.width(), static_cast<float>(street_far));
+  }
+  return s;
+}
 
 std::shared_ptr<const scene::Scenery> street_of(const Settings& settings, const effect::Inputs& inputs) {
   return effect::street_of(inputs, {settings.seed, settings.clear_lane});

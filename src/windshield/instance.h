@@ -9,6 +9,10 @@
 
 namespace rainref::windshield {
 
+/// What the passes take of a picture of linear radiance, rgba32f: as rgba16f, alpha 1, below 0 as 0 and beyond the largest half as that;
+/// all of it as far away as the street's sky.
+Surroundings surroundings_of(const Image& linear);
+
 /// What the registry holds.
 effect::Effect entry();
 /// The street that such a scene drives along where it names no pictures.

@@ -37,7 +37,7 @@ TEST(ListCauses, AnEmptyListIsNoLikelyCause) {
   port.after = [](const PassCase& c, std::vector<capture::Array>& gave) {
     if (c.pass != "integrate") return;
     gave[0].width = 0;
-    gave[0].levels[0].clear();
+    gave[0].levels[0].edit().clear();
   };
   ValidateOptions options;
   options.only = {"integrate"};

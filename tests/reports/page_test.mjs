@@ -165,6 +165,8 @@ test("pictures and worst elements", () => {
   const thin = outputElements(caseOf("c", []), failing, shownOf({views: [{...view, width: 1281, thinned: 3}]}), [])[1];
   assert.equal(thin.all(".large").length, 1);
   assert.match(thin.all(".remark")[0].textContent, /^One pixel for 3×3 texels/);
+  const sampled = outputElements(caseOf("c", []), failing, shownOf({verdicts: [5, 1, 0, 2, 9]}), [])[1];
+  assert.equal(sampled.all("figcaption")[3].textContent, "verdict of texels 5 equal 1 inside 0 atypical 2 outside 9 not judged ");
   const passes = outputElements(caseOf("c", []), outputOf("out"), shownOf({views: []}), []);
   assert.deepEqual(passes, [], "nothing is shown where there is nothing");
 });

@@ -53,7 +53,7 @@ const swatch = colour => element("i", {style: `background:${colour}`});
 const scaleOf = ({largest, colours}) => largest === 0 ? "no difference" : element("span", {class: "bar"}, element("span", {}, `−${largest}`),
   element("span", {class: "blocks"}, colours.map(swatch)), element("span", {}, `+${largest} code${largest === 1 ? "" : "s"}`));
 const legendOf = (verdicts, colours) => ["of texels ",
-  ["equal", "inside", "atypical", "outside", "not judged"].map((word, k) => verdicts[k] > 0 && [element("span", {class: "key"}, swatch(colours[k]), `${verdicts[k]} ${word}`), " "])];
+  ["equal", "inside", "atypical", "outside", "not judged"].map((word, k) => (k < 4 || verdicts[k] > 0) && [element("span", {class: "key"}, swatch(colours[k]), `${verdicts[k]} ${word}`), " "])];
 
 // ---- worst elements ----
 
