@@ -253,7 +253,7 @@ bool fails_by_sample(const PassJudgement& p) {
 }
 std::string sample_text(const PassJudgement& p) {
   const Figures f = figures_of(p);
-  if (fails_by_sample(p)) return "it fails by a sample, and only that was judged (--exhaustive judges all)";
+  if (fails_by_sample(p)) return "much of its sample fails, and only the sample was judged (--exhaustive judges all)";
   return f.unsampled == 0 ? ""
                           : fmt::format("widths and shares are those of a sample of {} of {} elements (--exhaustive computes all)",
                                         f.sampled(), f.judged());
