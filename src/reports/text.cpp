@@ -200,7 +200,9 @@ std::string report_text(const PortJudgement& j, bool is_verbose) {
       !some.empty())
     out += wrapped(fmt::format("note: widths and shares of {} are those of samples; --exhaustive computes all", fmt::join(some, ", ")), 2);
   if (const std::vector<std::string> some = passes_with(j, fails_by_sample); !some.empty())
-    out += wrapped(fmt::format("note: much of a sample of {} fails, and only the sample was judged; --exhaustive judges all", fmt::join(some, ", ")), 2);
+    out += wrapped(
+        fmt::format("note: much of a sample of {} fails, and only the sample was judged; --exhaustive judges all", fmt::join(some, ", ")),
+        2);
   out += fmt::format("\n{}: {} against {}, profile {}", name(j.status), j.port, j.pack, j.profile);
   if (!j.device.empty()) out += fmt::format(", {} {}", j.api, j.device);
   if (const std::string counts = count_text(j); !counts.empty()) out += fmt::format(" ({})", counts);
