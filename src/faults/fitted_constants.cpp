@@ -131,13 +131,12 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
 
 /// Short numbers that the pass takes through their reciprocals alone, as a host or a compiler made them (perturbed::replacing).
 Constants behind(const Constants& all) {
-  const auto digits = [](float x) { return fmt::format("{}", x).size(); };
   Constants out;
   for (const Constant& c : all) {
     const float base = c.is_literal ? rounded(1 / c.value, 5) : 0;
     const auto is_base = [base](const Constant& other) { return other.value == base; };
-    if (base != 0 && std::isfinite(base) && 1 / base == c.value && digits(c.value) > digits(base) + 2 &&
-        std::none_of(all.begin(), all.end(), is_base))
+    const std::pair made = perturbed::replacing(base, base).derived[0];
+    if (base != 0 && std::isfinite(base) && made.first == c.value && std::none_of(all.begin(), all.end(), is_base))
       out.push_back({base, fmt::format("the literal {}", base), true, true, false, "the"});
   }
   return out;

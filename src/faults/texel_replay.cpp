@@ -11,6 +11,7 @@
 #include "faults/solver.h"
 #include "image/code_range.h"
 #include "judge/reference_outputs.h"
+#include "judge/sample.h"
 #include "math/path_enumeration.h"
 #include "rainref/error.h"
 
@@ -187,8 +188,8 @@ TexelReplay::TexelReplay(const capture::PackPass& pass, const capture::PassCase&
       port_(port),
       reference_(finished_outputs(c, model, executor, mode)) {
   const std::vector<Texel> failing = failing_texels(judgement), passing = passing_texels(model, failing, judgement);
-  failing_ = spread(failing, 400);
-  few_passing_ = spread(passing, 400);
+  failing_ = spread(failing, judge::enough_failing);
+  few_passing_ = spread(passing, judge::enough_failing);
   many_passing_ = spread(passing, 20000);
   leeway_ = leeway_of(slots_, c, model, reference_, port, judgement, profile, failing_);
   passing_per_failing_ = static_cast<double>(passing.size()) / static_cast<double>(std::max<std::size_t>(failing.size(), 1));

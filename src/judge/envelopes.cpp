@@ -29,9 +29,6 @@ using capture::PassModel;
 using enclosed::CodeRange;
 using enclosed::Enclosure;
 
-/// Where so many sampled invocations fail under every rounding, the rest would say no more: the search for causes looks at no more.
-constexpr std::int64_t enough_failing = 400;
-
 class CaseJudge {
  public:
   CaseJudge(const PassCase& c, const PassModel& model, const std::vector<Array>& port, const JudgeOptions& options,

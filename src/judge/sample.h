@@ -14,6 +14,9 @@ namespace rainref::judge {
 /// Invocations of a pass that are asked at least, where it has so many: of all its runs together.
 inline constexpr std::int64_t least_sample = 16384;
 
+/// Where so many sampled invocations fail under every rounding, the rest would say no more: the search for causes looks at no more.
+inline constexpr std::int64_t enough_failing = 400;
+
 /// What a run is asked at least, of `least` in all runs: its share, but enough to tell whether half of its elements have a bound.
 /// `invocations`: of the run; `of`: of all runs together.
 std::int64_t sample_of_run(std::int64_t least, std::int64_t invocations, std::int64_t of);

@@ -115,9 +115,8 @@ std::string sentence(const ShaderAnswer& a, bool fails) {
                        a.said, a.tried);
   if (nearly_all(a.right))
     return fmt::format(
-        "the shader is right ({} of {} failing texels that were tried): what is stored is not what it gives for these inputs. Look at what "
-        "is "
-        "bound, at the compiler's options, at the driver and at the read-back",
+        "the shader is right ({} of {} failing texels that were tried): what is stored is not what it gives for these inputs. "
+        "Look at what is bound, at the compiler's options, at the driver and at the read-back",
         a.right, a.tried);
   return fmt::format(
       "of {} failing texels that were tried {} are what this shader says and at {} more the shader is right: is it the one that ran?",

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "math/constants.h"
 #include "math/directed.h"
@@ -88,25 +85,6 @@ void Scope::set(const Behaviour& b) {
                      b.fault != Fault::minimum_missing && b.fault != Fault::maximum_missing && b.fault != Fault::abs_missing;
   is_reference = detail::is_plain && b.fault == Fault::none && !b.constants && !b.loads && !b.coverage && b.column_offset == 0 &&
                  !b.is_column_mirrored;
-}
-
-Behaviour replacing(float constant, float by) {
-  Behaviour b;
-  b.fault = Fault::constant;
-  b.constant = constant;
-  b.replacement = by;
-  constexpr std::array made_of{
-      +[](float n) { return 1 / n; },
-      +[](float n) { return n * n; },
-      +[](float n) { return 1 / (n * n); },
-      +[](float n) { return reflectance_straight_on(n); },
-      +[](float n) { return 1 - reflectance_straight_on(n); },
-  };
-  const auto digits = [](float x) { return fmt::format("{}", x).size(); };
-  for (std::size_t k = 0; k < made_of.size(); ++k)
-    if (const float made = made_of[k](constant); std::isfinite(made) && digits(made) > digits(constant) + 2)
-      b.derived[k] = {made, made_of[k](by)};
-  return b;
 }
 
 void Perturbed::literal() {

@@ -101,7 +101,8 @@ struct Behaviour {
   Fault fault = Fault::none;
   Filter filter = Filter::arithmetic;
   float constant = 0, replacement = 0;  ///< of Fault::constant
-  /// Numbers that a host or a compiler makes of the constant before the pass takes them, and what the replacement makes of them.
+  /// Numbers that a host or a compiler makes of the constant before the pass takes them, and what the replacement makes of them; the
+  /// reciprocal first. 0: there is no such number.
   std::array<std::pair<float, float>, 5> derived{};
   const Variations* variations = nullptr;
   std::uint64_t random = 1;                 ///< state of the variations' draws
