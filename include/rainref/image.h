@@ -13,6 +13,8 @@
 
 namespace rainref {
 
+struct Hash128;  // src/base/hash.h
+
 /// Storage formats, named as graphics APIs name them. Unorm values are code / 255.
 enum class Format : std::uint8_t { r8, rg8, rgba8, rgba8_srgb, r16f, rg16f, rgba16f, r32f, rg32f, rgba32f, r32ui };
 
@@ -57,13 +59,24 @@ class Image {
   const T* row(int y) const {
     return reinterpret_cast<const T*>(row_bytes(y));
   }
-  std::byte* row_bytes(int y) { return origin_ + static_cast<std::ptrdiff_t>(y) * stride_; }
+  std::byte* row_bytes(int y) {
+    if (shared_) refuse_to_change();
+    return origin_ + static_cast<std::ptrdiff_t>(y) * stride_;
+  }
   const std::byte* row_bytes(int y) const { return origin_ + static_cast<std::ptrdiff_t>(y) * stride_; }
   /// Bytes from one row to the next.
   std::ptrdiff_t stride() const { return stride_; }
 
   /// Bytes that an image of this format and size occupies.
   static std::uint64_t memory_bytes(Format format, int width, int height);
+
+  /// Another image with the same texels in the same memory, which is given back with the last of them. From the first call on nobody may
+  /// change the texels: to ask one of these images for a row to write throws Error(internal).
+  Image share();
+  /// The same of an image that is shared already; of another one, a copy that may be shared.
+  Image shared() const;
+  /// Of format, size and texels, margins left out. Of shared texels it is computed once.
+  Hash128 content_hash() const;
 
  private:
   struct Free {
@@ -72,10 +85,14 @@ class Image {
     explicit Free(std::size_t b) : bytes(b) {}
     void operator()(std::byte* p) const;
   };
+  struct Shared;
+  [[noreturn]] static void refuse_to_change();
+
   Format format_ = Format::r8;
   int width_ = 0, height_ = 0;
   std::ptrdiff_t stride_ = 0;
   std::unique_ptr<std::byte, Free> memory_;
+  std::shared_ptr<Shared> shared_;  // then it holds the memory
   std::byte* origin_ = nullptr;
 };
 

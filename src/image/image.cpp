@@ -3,12 +3,16 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <mutex>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/floating_point.h"
+#include "base/hash.h"
 #include "base/zeroed.h"
+#include "image/flipped.h"
 #include "rainref/error.h"
 
 namespace rainref {
@@ -70,6 +74,56 @@ Image::Image(Format format, int width, int height) : format_(format), width_(wid
   }
   // The margin keeps the first texel of every row aligned to 16 texels' worth of bytes.
   origin_ = memory_.get() + static_cast<std::size_t>(left_margin) * info(format).texel_bytes();
+}
+
+struct Image::Shared {
+  std::unique_ptr<std::byte, Free> memory;
+  std::once_flag is_hashed;
+  Hash128 hash;
+};
+
+void Image::refuse_to_change() { throw Error(ExitCode::internal, "an image that is shared was to be changed"); }
+
+Image Image::share() {
+  const FloatingPointGuard guard;
+  if (memory_) {
+    shared_ = std::make_shared<Shared>();
+    shared_->memory = std::move(memory_);
+  }
+  return std::as_const(*this).shared();
+}
+
+Image Image::shared() const {
+  const FloatingPointGuard guard;
+  if (!shared_) return copy_of(*this);
+  Image other;
+  other.format_ = format_;
+  other.width_ = width_;
+  other.height_ = height_;
+  other.stride_ = stride_;
+  other.shared_ = shared_;
+  other.origin_ = origin_;
+  return other;
+}
+
+namespace {
+
+Hash128 hash_of(const Image& image) {
+  Hasher hasher(0);
+  const std::array<std::int32_t, 3> head{static_cast<std::int32_t>(image.format()), image.width(), image.height()};
+  hasher.add(std::as_bytes(std::span(head)));
+  const std::size_t bytes = static_cast<std::size_t>(image.width()) * info(image.format()).texel_bytes();
+  for (int y = 0; y < image.height(); ++y) hasher.add({image.row_bytes(y), bytes});
+  return hasher.finish();
+}
+
+}  // namespace
+
+Hash128 Image::content_hash() const {
+  const FloatingPointGuard guard;
+  if (!shared_) return hash_of(*this);
+  std::call_once(shared_->is_hashed, [&] { shared_->hash = hash_of(*this); });
+  return shared_->hash;
 }
 
 namespace {

@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <optional>
+#include <utility>
 
 #include "base/error_of.h"
+#include "base/hash.h"
 #include "image/flipped.h"
+#include "image/images.h"
 #include "rainref/error.h"
 
 namespace rainref {
@@ -173,6 +177,55 @@ TEST(BufferView, OnePlaneMayStandForAWiderFormat) {
   float row[4];
   BufferView(Format::rg32f, {&plane}).copy_row(0, reinterpret_cast<std::byte*>(row));
   EXPECT_THAT(row, testing::ElementsAre(1.5f, 0.0f, -2.5f, 0.0f));
+}
+
+// Many may hold one memory, and then nobody changes it.
+TEST(SharedImage, IsOneMemoryThatNobodyChanges) {
+  Image first = make_image(Format::rg16f, 7, 3, [](int x, int y, int c) { return Half{static_cast<std::uint16_t>(100 * y + 10 * x + c)}; });
+  const Image copy = copy_of(first);
+  const Half* const texels = first.row<Half>(1);
+  std::optional<Image> second = first.share();
+  const Image third = second->shared();
+  for (const Image* image : {&std::as_const(first), &std::as_const(*second), &third}) {
+    EXPECT_EQ(image->row<Half>(1), texels);
+    EXPECT_TRUE(same(*image, copy));
+  }
+  EXPECT_EQ(error_of([&] { first.row<Half>(0); }), "5 an image that is shared was to be changed");
+  EXPECT_EQ(error_of([&] { second->row<Half>(0); }), "5 an image that is shared was to be changed");
+  first = Image(Format::r8, 1, 1);
+  second.reset();
+  EXPECT_TRUE(same(third, copy)) << "held by the last of them";
+  first.row<Unorm8>(0)[0].code = 3;  // a new one is its owner's
+
+  Image own = copy_of(copy);
+  const Image of_own = std::as_const(own).shared();
+  EXPECT_NE(std::as_const(own).row<Half>(0), of_own.row<Half>(0)) << "of an image that is not shared: a copy";
+  own.row<Half>(0)[0] = Half{9};
+  EXPECT_TRUE(same(of_own, copy));
+  EXPECT_TRUE(Image().share().empty());
+}
+
+TEST(ContentHash, IsOfFormatSizeAndTexels) {
+  const auto image = [](Format format, int width, int height) {
+    Image made(format, width, height);
+    for (int y = 0; y < height; ++y)
+      for (int i = 0; i < width * info(format).texel_bytes(); ++i) made.row_bytes(y)[i] = std::byte{7};
+    return made;
+  };
+  Image a = image(Format::rgba8, 6, 2);
+  const Hash128 hash = a.content_hash();
+  EXPECT_EQ(image(Format::rgba8, 6, 2).content_hash(), hash);
+  EXPECT_NE(image(Format::rgba8, 2, 6).content_hash(), hash);
+  EXPECT_NE(image(Format::rgba8, 4, 3).content_hash(), hash);
+  EXPECT_NE(image(Format::r32f, 6, 2).content_hash(), hash);
+  EXPECT_NE(Image().content_hash(), hash);
+  a.row_bytes(0)[-1] = std::byte{1};
+  EXPECT_EQ(a.content_hash(), hash) << "margins do not count";
+  a.row_bytes(1)[23] = std::byte{1};
+  EXPECT_NE(a.content_hash(), hash);
+  const Image shared = a.share();
+  EXPECT_EQ(shared.content_hash(), a.content_hash());
+  EXPECT_EQ(shared.content_hash(), copy_of(shared).content_hash());
 }
 
 }  // namespace
