@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -15,9 +16,8 @@
 #include "base/hash.h"
 #include "base/hidden.h"
 #include "cache/own_file.h"
+#include "cache/prepared.h"
 #include "cache/program.h"
-#include "cache/remembered.h"
-#include "image/flipped.h"
 #include "rainref/error.h"
 
 namespace rainref::cache {
@@ -49,7 +49,7 @@ struct ImageHead {
 std::size_t row_bytes(const Image& image) { return static_cast<std::size_t>(image.width()) * info(image.format()).texel_bytes(); }
 std::span<const std::byte> row(const Image& image, int y) { return {image.row_bytes(y), row_bytes(image)}; }
 template <class T>
-std::span<const std::byte> bytes_of(const T& x) {
+std::span<const std::byte> raw_bytes(const T& x) {
   return std::as_bytes(std::span(&x, 1));
 }
 ImageHead head_of(const Image& image) {
@@ -61,7 +61,7 @@ ImageHead head_of(const Image& image) {
 template <class Piece>
 void pieces(const std::string& recipe, const std::vector<Image>& images, const Piece& piece) {
   piece(std::as_bytes(std::span(recipe)));
-  for (const Image& image : images) piece(bytes_of(head_of(image)));
+  for (const Image& image : images) piece(raw_bytes(head_of(image)));
   for (const Image& image : images)
     for (int y = 0; y < image.height(); ++y) piece(row(image, y));
 }
@@ -175,7 +175,7 @@ void keep(const Folder& in, const fs::path& path, const std::string& recipe, con
     Hidden file(in.path, Hidden::Kind::file);
     // Whatever the umask: what others may write is not read.
     if (::fchmod(file.descriptor(), S_IRUSR | S_IWUSR) != 0) throw std::system_error(errno, std::generic_category());
-    write_all(file.descriptor(), bytes_of(head_of(recipe, images)));
+    write_all(file.descriptor(), raw_bytes(head_of(recipe, images)));
     std::vector<std::byte> gathered;
     pieces(recipe, images, [&](std::span<const std::byte> bytes) {
       gathered.insert(gathered.end(), bytes.begin(), bytes.end());
@@ -192,24 +192,6 @@ void keep(const Folder& in, const fs::path& path, const std::string& recipe, con
 }
 
 }  // namespace
-
-Recipe& Recipe::add(std::initializer_list<double> numbers) {
-  for (const double x : numbers) add(std::bit_cast<std::uint64_t>(x));
-  return *this;
-}
-Recipe& Recipe::add(std::uint64_t number) {
-  text_.append(reinterpret_cast<const char*>(&number), sizeof number);
-  return *this;
-}
-
-Recipe& Recipe::add(const Image& image) {
-  Hasher hasher(0);
-  const ImageHead head = image.empty() ? ImageHead{} : head_of(image);
-  hasher.add(bytes_of(head));
-  for (int y = 0; y < image.height(); ++y) hasher.add(row(image, y));
-  text_ += hasher.finish().text();
-  return *this;
-}
 
 void keep_in(fs::path path, std::uintmax_t most_bytes) { folder() = {std::move(path), most_bytes}; }
 
@@ -243,28 +225,16 @@ std::vector<Image> kept_or_made(const Recipe& recipe, const std::vector<Shape>& 
 
 std::vector<Image> images(const Recipe& recipe, const std::vector<Shape>& shapes, const std::function<std::vector<Image>()>& make,
                           const Rows& rows) {
-  static Remembered<std::vector<Image>>& remembered = *new Remembered<std::vector<Image>>;
-  const auto copies = [](const std::vector<Image>& all) {
-    std::vector<Image> copied;
-    for (const Image& image : all) copied.push_back(copy_of(image));
-    return copied;
-  };
-  if (const auto known = remembered.find(recipe.text())) return copies(*known);
-  std::vector<Image> all = kept_or_made(recipe, shapes, make, rows);
-  if (remembered_bytes() == 0) return all;
-  std::size_t bytes = 0;
-  for (const Image& image : all) bytes += Image::memory_bytes(image.format(), image.width(), image.height());
-  remembered.keep(recipe.text(), std::make_shared<std::vector<Image>>(copies(all)), bytes);
-  return all;
-}
-
-Image image(const Recipe& recipe, const Shape& shape, const std::function<Image()>& make, const Rows& rows) {
-  const auto one = [&] {
-    std::vector<Image> all;
-    all.push_back(make());
-    return all;
-  };
-  return std::move(images(recipe, {shape}, one, rows)[0]);
+  std::shared_ptr<const void> known = find_prepared(recipe);
+  if (!known) {
+    auto made = std::make_shared<std::vector<Image>>(kept_or_made(recipe, shapes, make, rows));
+    for (Image& image : *made) image.share();
+    const std::size_t bytes = bytes_of(std::as_const(*made));
+    known = keep_prepared(recipe, std::move(made), bytes);
+  }
+  std::vector<Image> shared;
+  for (const Image& image : *static_cast<const std::vector<Image>*>(known.get())) shared.push_back(image.shared());
+  return shared;
 }
 
 }  // namespace rainref::cache

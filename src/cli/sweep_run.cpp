@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cache/kept_images.h"
-#include "cache/remembered.h"
+#include "cache/prepared.h"
 #include "cli/own_program.h"
 #include "cli/progress.h"
 #include "cli/sweep.h"
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// A process that makes cells has this variable; the one that waits for it has not.
 constexpr const char* worker = "RAINREF_SWEEP_WORKER";
-/// What a process remembers of made pictures, and again of read ones.
+/// What a process remembers of what it makes and reads.
 constexpr std::size_t remembered_bytes = std::size_t{1} << 30;
 
 int work(const SweepOptions& options) {

@@ -2,11 +2,13 @@
 #include "rainref/edge_splash.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/floating_point.h"
+#include "cache/prepared.h"
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
 #include "edge_splash/splash.pass.h"
@@ -19,6 +21,34 @@ namespace rainref::edge_splash {
 namespace {
 
 constexpr int tile_rows = 4;
+
+struct Depth {
+  Image image;
+  TextureData texture;
+  std::size_t bytes() const { return cache::bytes_of(image) + texture.bytes(); }
+};
+Depth make_depth(const Rows& rows, const Image& depth, const bool& is_distance, const Image& colour, const DepthRange& range,
+                 const Address& edges) {
+  Depth made{prepare_depth(depth, is_distance, colour, range, rows), {}};
+  made.texture = TextureData(made.image, edges, edges);
+  return made;
+}
+
+/// A map of splashes: the tile, and as it is sampled.
+struct NoiseMap {
+  Image image;
+  TextureData texture;
+  std::size_t bytes() const { return cache::bytes_of(image) + texture.bytes(); }
+};
+NoiseMap decoded(Image image, Address tile) {
+  TextureData texture(image, tile, tile);
+  return {std::move(image), std::move(texture)};
+}
+NoiseMap make_noise_map(const int&, const Image& own, const cache::Only<&Settings::variant, &Settings::seed>& reads) {
+  return decoded(prepare_noise(own, reads.of), reads.of.variant == Variant::corrected ? Address::repeat : Address::border);
+}
+Image make_scene(const Rows& rows, const Image& colour, const bool& is_encoded) { return prepare_scene(colour, is_encoded, rows); }
+Image make_layer(const int&, const Image& layer, const Image& colour) { return prepare_layer(layer, colour); }
 
 Settings with_size(Settings s, const Image& colour) {
   s.width = colour.width();
@@ -35,8 +65,9 @@ struct EdgeSplash::State {
   bool corrected;
   bool makes_crowns;  // anew for each frame
   int frame = 0;
-  Image scene, depth_image, layer, noise_image;
-  TextureData depth, noise_map;
+  Image scene, layer;
+  std::shared_ptr<const Depth> depth;
+  std::shared_ptr<const NoiseMap> noise_map;
   Image edge, angle, noise, colour, picture;
   CodeTable display;
   std::vector<std::string> warnings;
@@ -45,18 +76,16 @@ struct EdgeSplash::State {
       : settings(with_size(s, in.colour)),
         executor(e),
         corrected(s.variant == Variant::corrected),
-        makes_crowns(corrected && s.has_crowns && in.noise.empty()),
-        scene(prepare_scene(in, parallel::rows_of(e))),
-        depth_image(prepare_depth(in, s.depth, parallel::rows_of(e))),
-        layer(prepare_layer(in)),
-        noise_image(makes_crowns ? Image() : prepare_noise(in, s)) {
+        makes_crowns(corrected && s.has_crowns && in.noise.empty()) {
     settings.has_crowns = makes_crowns;
-    decode_depth();
-    const Address tile = corrected ? Address::repeat : Address::border;
+    const Rows rows = parallel::rows_of(e);
+    scene = cache::prepared("edge_splash scene", rows, make_scene, in.colour, in.colour_is_encoded)->shared();
+    depth = cache::prepared("edge_splash depth", rows, make_depth, in.depth, in.depth_is_distance, in.colour, s.depth, edges());
+    layer = cache::prepared("edge_splash layer", 0, make_layer, in.layer, in.colour)->shared();
     if (makes_crowns)
       show_crowns(0);
     else
-      noise_map = TextureData(noise_image, tile, tile);
+      noise_map = cache::prepared("edge_splash noise", 0, make_noise_map, in.noise, s);
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
     colour = Image(Format::rgba16f, settings.width, settings.height);
     picture = Image(Format::rgba8, settings.width, settings.height);
@@ -64,13 +93,9 @@ struct EdgeSplash::State {
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
   }
+  Address edges() const { return corrected ? Address::clamp : Address::border; }
   void show_crowns(double time) {
-    noise_image = make_crowns(settings.seed, time);
-    noise_map = TextureData(noise_image, Address::repeat, Address::repeat);
-  }
-  void decode_depth() {
-    const Address edges = corrected ? Address::clamp : Address::border;
-    depth = TextureData(depth_image, edges, edges);
+    noise_map = std::make_shared<const NoiseMap>(decoded(make_crowns(settings.seed, time), Address::repeat));
   }
 };
 
@@ -96,8 +121,8 @@ void EdgeSplash::render(Recorder* recorder) {
   if (s.makes_crowns) s.show_crowns(frame / s.settings.fps);
   const auto bound = [&](auto io) {
     io.scene = s.scene;
-    io.depth = s.depth.view();
-    io.noise_map = s.noise_map.view();
+    io.depth = s.depth->texture.view();
+    io.noise_map = s.noise_map->texture.view();
     io.edge = s.edge;
     io.angle = s.angle;
     io.noise = s.noise;
@@ -107,7 +132,7 @@ void EdgeSplash::render(Recorder* recorder) {
   const auto run = [&](auto splash) {
     pass::run_and_display(splash, s.display, s.settings.exposure, s.colour, s.picture, s.executor, tile_rows, now);
   };
-  const int noise_columns = s.noise_image.width(), noise_rows = s.noise_image.height();
+  const int noise_columns = s.noise_map->image.width(), noise_rows = s.noise_map->image.height();
   if (s.corrected) {
     auto io = bound(pass::HostIo<SplashPass>());
     io.layer = s.layer;
@@ -126,11 +151,13 @@ void EdgeSplash::show(const Inputs& inputs) {
                                              inputs.colour.width(), inputs.colour.height()));
   }
   const Rows rows = parallel::rows_of(s.executor);
-  Image scene = prepare_scene(inputs, rows), depth = prepare_depth(inputs, s.settings.depth, rows), layer = prepare_layer(inputs);
+  // Of a film, whose pictures pass and are not worth remembering.
+  Image scene = make_scene(rows, inputs.colour, inputs.colour_is_encoded), layer = prepare_layer(inputs.layer, inputs.colour);
+  auto depth =
+      std::make_shared<const Depth>(make_depth(rows, inputs.depth, inputs.depth_is_distance, inputs.colour, s.settings.depth, s.edges()));
   s.scene = std::move(scene);
-  s.depth_image = std::move(depth);
   s.layer = std::move(layer);
-  s.decode_depth();
+  s.depth = std::move(depth);
 }
 
 void EdgeSplash::list_state(state::Items& items) {
@@ -144,7 +171,7 @@ const Image& EdgeSplash::angle() const { return state_->angle; }
 const Image& EdgeSplash::noise() const { return state_->noise; }
 const Image& EdgeSplash::colour() const { return state_->colour; }
 const Image& EdgeSplash::picture() const { return state_->picture; }
-const Image& EdgeSplash::depth() const { return state_->depth_image; }
+const Image& EdgeSplash::depth() const { return state_->depth->image; }
 const std::vector<std::string>& EdgeSplash::warnings() const { return state_->warnings; }
 
 }  // namespace rainref::edge_splash

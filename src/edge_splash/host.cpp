@@ -142,11 +142,10 @@ double scrolled(double velocity, int frame, double fps) {
   return rest < 1 ? rest : 0.0;  // a small negative number
 }
 
-Image prepare_scene(const Inputs& in, const Rows& rows) {
-  const Image& from = in.colour;
+Image prepare_scene(const Image& from, bool is_encoded, const Rows& rows) {
   if (from.empty() || from.channels() != 4) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
   double linear[256];
-  if (in.colour_is_encoded) {
+  if (is_encoded) {
     for (int code = 0; code < 256; ++code) linear[code] = decode_srgb(code / 255.0);
   }
   Image to(Format::rgba16f, from.width(), from.height());
@@ -158,9 +157,8 @@ Image prepare_scene(const Inputs& in, const Rows& rows) {
         if (kind == FormatInfo::float16)
           out[i] = from.row<Half>(y)[i];
         else if (kind == FormatInfo::float32)
-          out[i] =
-              to_half(in.colour_is_encoded && i % 4 != 3 ? static_cast<float>(decode_srgb(from.row<float>(y)[i])) : from.row<float>(y)[i]);
-        else if (in.colour_is_encoded && i % 4 != 3)
+          out[i] = to_half(is_encoded && i % 4 != 3 ? static_cast<float>(decode_srgb(from.row<float>(y)[i])) : from.row<float>(y)[i]);
+        else if (is_encoded && i % 4 != 3)
           out[i] = to_half(static_cast<float>(linear[from.row<Unorm8>(y)[i].code]));
         else
           out[i] = to_half(to_float(from.row<Unorm8>(y)[i]));
@@ -170,50 +168,50 @@ Image prepare_scene(const Inputs& in, const Rows& rows) {
   return to;
 }
 
-Image prepare_depth(const Inputs& in, const DepthRange& range, const Rows& rows) {
-  require_size(in.depth, in.colour, "scene.depth_image");
-  const double lowest = in.depth_is_distance ? range.near_plane : 0, highest = in.depth_is_distance ? range.far_plane : 1;
+Image prepare_depth(const Image& depth, bool is_distance, const Image& colour, const DepthRange& range, const Rows& rows) {
+  require_size(depth, colour, "scene.depth_image");
+  const double lowest = is_distance ? range.near_plane : 0, highest = is_distance ? range.far_plane : 1;
   const float from_here = static_cast<float>(lowest), up_to = static_cast<float>(highest);  // distances come as floats
-  const int width = in.depth.width(), height = in.depth.height();
+  const int width = depth.width(), height = depth.height();
   Image to(Format::r32f, width, height);
   std::vector<int> outside(static_cast<std::size_t>(height), width);  // the first column of each row that no depth may have
   rows(height, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       for (int x = 0; x < width; ++x) {
-        const double stored = first_channel(in.depth, x, y);
+        const double stored = first_channel(depth, x, y);
         if (!(from_here <= stored && stored <= up_to)) {
           outside[static_cast<std::size_t>(y)] = x;
           break;
         }
-        to.row<float>(y)[x] = static_cast<float>(in.depth_is_distance ? device_depth(range, std::clamp(stored, lowest, highest)) : stored);
+        to.row<float>(y)[x] = static_cast<float>(is_distance ? device_depth(range, std::clamp(stored, lowest, highest)) : stored);
       }
     }
   });
   for (int y = 0; y < height; ++y) {
     const int x = outside[static_cast<std::size_t>(y)];
     if (x == width) continue;
-    throw Error(ExitCode::usage,
-                fmt::format("scene.depth_image: expected {} from {} to {}, found {} at column {}, row {} from the bottom{}",
-                            in.depth_is_distance ? "distances [m]" : "device depths", lowest, highest, first_channel(in.depth, x, y), x, y,
-                            in.depth_is_distance ? " (scene.near and scene.far are the limits)"
-                                                 : " (scene.depth_encoding = \"metres\" takes distances)"));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("scene.depth_image: expected {} from {} to {}, found {} at column {}, row {} from the bottom{}",
+                    is_distance ? "distances [m]" : "device depths", lowest, highest, first_channel(depth, x, y), x, y,
+                    is_distance ? " (scene.near and scene.far are the limits)" : " (scene.depth_encoding = \"metres\" takes distances)"));
   }
   return to;
 }
 
-Image prepare_layer(const Inputs& in) {
-  if (!in.layer.empty()) require_size(in.layer, in.colour, "scene.layer_image");
-  Image to(Format::r8, in.colour.width(), in.colour.height());
+Image prepare_layer(const Image& layer, const Image& colour) {
+  if (!layer.empty()) require_size(layer, colour, "scene.layer_image");
+  Image to(Format::r8, colour.width(), colour.height());
   for (int y = 0; y < to.height(); ++y) {
     for (int x = 0; x < to.width(); ++x)
-      to.row<Unorm8>(y)[x] = in.layer.empty() ? Unorm8{255} : to_unorm8(static_cast<float>(first_channel(in.layer, x, y)));
+      to.row<Unorm8>(y)[x] = layer.empty() ? Unorm8{255} : to_unorm8(static_cast<float>(first_channel(layer, x, y)));
   }
   return to;
 }
 
-Image prepare_noise(const Inputs& in, const Settings& s) {
-  const Image made = in.noise.empty() ? make_noise(s.seed) : Image();
-  const Image& from = in.noise.empty() ? made : in.noise;
+Image prepare_noise(const Image& noise, const Settings& s) {
+  const Image made = noise.empty() ? make_noise(s.seed) : Image();
+  const Image& from = noise.empty() ? made : noise;
   if (from.width() < 2 || from.height() < 2)
     throw Error(ExitCode::usage, fmt::format("scene.noise_image: expected at least 2x2 texels, found {}x{}", from.width(), from.height()));
   Image map(Format::r8, from.width(), from.height());

@@ -24,13 +24,13 @@ SplashUniforms splash_uniforms(const Settings& settings, int frame, int noise_wi
 double scrolled(double velocity, int frame, double fps);
 
 /// rgba16f linear radiance of any image of four channels.
-Image prepare_scene(const Inputs& inputs, const Rows& rows = rows_here);
-/// Device depth, r32f, from any first channel. Throws Error(usage) naming the first value outside its range.
-Image prepare_depth(const Inputs& inputs, const DepthRange& range, const Rows& rows = rows_here);
-/// r8.
-Image prepare_layer(const Inputs& inputs);
+Image prepare_scene(const Image& colour, bool is_encoded, const Rows& rows = rows_here);
+/// Device depth, r32f, of the colour's size, from any first channel. Throws Error(usage) naming the first value outside its range.
+Image prepare_depth(const Image& depth, bool is_distance, const Image& colour, const DepthRange& range, const Rows& rows = rows_here);
+/// r8, of the colour's size.
+Image prepare_layer(const Image& layer, const Image& colour);
 /// The noise as splash samples it: as published the map itself, r8; corrected the map at half its resolution, r32f.
-Image prepare_noise(const Inputs& inputs, const Settings& settings);
+Image prepare_noise(const Image& noise, const Settings& settings);
 /// "" or a sentence: the map differs over its seams several times as much as between neighbours.
 std::string seam_warning(const Image& noise);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cache/prepared.h"
 #include "edge_splash/host.h"
 #include "edge_splash/info.h"
 #include "edge_splash/parameters.h"
@@ -12,6 +13,18 @@
 
 namespace rainref::edge_splash {
 namespace {
+
+/// A camera may stand closer to something than the near plane, which would have cut it away.
+Image clipped(const int&, const Image& depth, const double& near_plane, const double& far_plane) {
+  Image out = copy_of(depth);
+  for (int y = 0; y < out.height(); ++y) {
+    for (int x = 0; x < out.width(); ++x) {
+      float& z = out.row<float>(y)[x];
+      if (z < near_plane) z = static_cast<float>(far_plane);
+    }
+  }
+  return out;
+}
 
 Inputs pictures(const scene::Config& config, const Settings& s, const ScenePictures& named, const parallel::Executor& executor,
                 effect::Inputs& files) {
@@ -30,13 +43,7 @@ Inputs pictures(const scene::Config& config, const Settings& s, const ScenePictu
       in.colour = std::move(view.colour);
       in.depth = std::move(view.depth);
     }
-    // A camera may stand closer to something than the near plane, which would have cut it away.
-    for (int y = 0; y < in.depth.height(); ++y) {
-      for (int x = 0; x < in.depth.width(); ++x) {
-        float& z = in.depth.row<float>(y)[x];
-        if (z < s.depth.near_plane) z = static_cast<float>(s.depth.far_plane);
-      }
-    }
+    in.depth = cache::prepared("edge_splash clipped depth", 0, clipped, in.depth, s.depth.near_plane, s.depth.far_plane)->shared();
   }
   if (!config.text("scene.noise_image").empty()) in.noise = flipped(effect::read_input(config, "scene.noise_image", files).image);
   return in;

@@ -245,19 +245,19 @@ ShapesView rendered(const scene::Camera& camera, int width, int height, double f
   return view;
 }
 
+std::vector<Image> both(const parallel::Executor& executor, const scene::Camera& camera, const int& width, const int& height,
+                        const double& far) {
+  ShapesView view = rendered(camera, width, height, far, executor);
+  std::vector<Image> all;
+  for (Image* image : {&view.colour, &view.depth}) all.push_back(std::move(*image));
+  return all;
+}
+
 }  // namespace
 
 ShapesView render_shapes(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor) {
-  cache::Recipe recipe("edge_splash shapes");
-  recipe.add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
-  for (const Vec& v : {camera.position, camera.target, camera.up}) recipe.add({v.x, v.y, v.z});
-  recipe.add({camera.vertical_fov_deg, far});
-  std::vector<Image> images = cache::images(recipe, {{Format::rgba32f, width, height}, {Format::r32f, width, height}}, [&] {
-    ShapesView view = rendered(camera, width, height, far, executor);
-    std::vector<Image> all;
-    for (Image* image : {&view.colour, &view.depth}) all.push_back(std::move(*image));
-    return all;
-  });
+  std::vector<Image> images = cache::kept("edge_splash shapes", {{Format::rgba32f, width, height}, {Format::r32f, width, height}},
+                                          rows_here, executor, both, camera, width, height, far);
   return {std::move(images[0]), std::move(images[1])};
 }
 

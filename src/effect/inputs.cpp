@@ -1,15 +1,14 @@
 #include "effect/inputs.h"
 
-#include <sys/stat.h>
-
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "cache/remembered.h"
+#include "base/hash.h"
+#include "base/read_file.h"
+#include "cache/prepared.h"
 #include "effect/npy_picture.h"
-#include "image/flipped.h"
 #include "scene/check.h"
 
 namespace rainref::effect {
@@ -40,43 +39,31 @@ Error NamedFile::placed(ExitCode code, const std::string& message) const {
 
 namespace {
 
-/// Which file this is, as it stands there now; "" where nobody can say.
-std::string stand_of(const std::filesystem::path& path) {
-  struct stat found {};
-  if (::stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return {};
-  return fmt::format("{} {} {} {}.{}", found.st_dev, found.st_ino, found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec);
+/// With the texels shared.
+image_io::Picture copy_of(const image_io::Picture& p) {
+  return {p.image.shared(), p.channel_names, p.srgb_encoded, p.lossy, p.compression,
+          p.decoded_hash,   p.file_width,    p.file_height,  p.taken, p.remarks};
 }
 
-image_io::Picture copy_of(const image_io::Picture& p) {
-  return {rainref::copy_of(p.image),
-          p.channel_names,
-          p.srgb_encoded,
-          p.lossy,
-          p.compression,
-          p.decoded_hash,
-          p.file_width,
-          p.file_height,
-          p.taken,
-          p.remarks};
+struct Decoded {
+  image_io::Picture picture;
+  std::size_t bytes() const { return cache::bytes_of(picture.image); }
+};
+Decoded decode(const int&, const std::string& path, const Hash128& /*of its bytes*/, const image_io::Content& content) {
+  Decoded made{is_npy(path) ? read_npy(path, content) : image_io::read(path, {}, content)};
+  made.picture.image.share();
+  return made;
 }
 
 }  // namespace
 
 image_io::Picture read_picture(const NamedFile& named, const std::string& file) {
-  static cache::Remembered<image_io::Picture>& remembered = *new cache::Remembered<image_io::Picture>;
   const std::filesystem::path path = named.path_of(file);
   const image_io::Content content = content_of(named.key);
   try {
-    std::string stand = cache::remembered_bytes() > 0 ? stand_of(path) : "";
-    if (!stand.empty()) stand += fmt::format(" {}", static_cast<int>(content));
-    if (const auto known = remembered.find(stand)) return copy_of(*known);
-    image_io::Picture picture = is_npy(path) ? read_npy(path, content) : image_io::read(path, {}, content);
-    const Image& image = picture.image;
-    if (!stand.empty()) {
-      remembered.keep(stand, std::make_shared<image_io::Picture>(copy_of(picture)),
-                      Image::memory_bytes(image.format(), image.width(), image.height()));
-    }
-    return picture;
+    std::error_code error;
+    if (!cache::remembers() || !std::filesystem::is_regular_file(path, error)) return decode(0, path, {}, content).picture;
+    return copy_of(cache::prepared("picture", 0, decode, path.string(), file_hash(read_file(path)), content)->picture);
   } catch (const Error& e) {
     throw named.placed(e.code(), e.what());
   }

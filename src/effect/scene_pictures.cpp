@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cache/prepared.h"
 #include "effect/run_memory.h"
 #include "image/colour.h"
 #include "image/flipped.h"
@@ -14,8 +15,10 @@
 
 namespace rainref::effect {
 
-Image floats_of(const image_io::Picture& picture, const std::function<float(float, int)>& value) {
-  const Image image = flipped(picture.image);
+namespace {
+
+Image floats_of(const Image& stored, const std::function<float(float, int)>& value) {
+  const Image image = flipped(stored);
   const TextureData decoded(image, Address::clamp, Address::clamp);
   Image out(Format::rgba32f, image.width(), image.height());
   const float* in = decoded.view().texels;
@@ -24,19 +27,29 @@ Image floats_of(const image_io::Picture& picture, const std::function<float(floa
   }
   return out;
 }
-Image read_linear(const scene::Config& config, const std::string& key, Inputs& inputs) {
-  return linear_of(read_input(config, key, inputs));
+Image made_linear(const int&, const Image& stored, const bool& is_encoded) {
+  return floats_of(stored, [&](float x, int c) { return c < 3 && is_encoded ? static_cast<float>(decode_srgb(x)) : x; });
 }
-Image linear_of(const image_io::Picture& p) {
-  return floats_of(p, [&](float x, int c) { return c < 3 && p.srgb_encoded ? static_cast<float>(decode_srgb(x)) : x; });
+
+}  // namespace
+
+Image floats_of(const image_io::Picture& picture, const std::function<float(float, int)>& value) { return floats_of(picture.image, value); }
+Image read_linear(const scene::Config& config, const std::string& key, Inputs& inputs) {
+  return linear_once(read_input(config, key, inputs));
+}
+Image linear_of(const image_io::Picture& p) { return made_linear(0, p.image, p.srgb_encoded); }
+Image linear_once(const image_io::Picture& p) {
+  return cache::prepared("linear picture", 0, made_linear, p.image, p.srgb_encoded)->shared();
 }
 
 bool is_sky(float stored, float metres) {
   constexpr float largest_half = 65504;
   return stored == 0 || stored == largest_half || metres >= largest_half;
 }
-Image depth_of(const image_io::Picture& picture, double in_metres, double far, const Image& colour) {
-  const Image four = floats_of(picture, [](float x, int) { return x; });
+namespace {
+
+Image made_depth(const int&, const Image& stored, const double& in_metres, const double& far, const Image& colour) {
+  const Image four = floats_of(stored, [](float x, int) { return x; });
   if (four.width() != colour.width() || four.height() != colour.height()) {
     throw Error(ExitCode::usage, fmt::format("scene.depth_image: expected {}x{} texels as scene.image has, found {}x{}", colour.width(),
                                              colour.height(), four.width(), four.height()));
@@ -45,7 +58,7 @@ Image depth_of(const image_io::Picture& picture, double in_metres, double far, c
   Image depth(Format::r32f, four.width(), four.height());
   for (int y = 0; y < depth.height(); ++y) {
     for (int x = 0; x < depth.width(); ++x) {
-      const float stored = four.row<float>(y)[4 * x], metres = stored * scale, z = is_sky(stored, metres) ? sky : metres;
+      const float in_file = four.row<float>(y)[4 * x], metres = in_file * scale, z = is_sky(in_file, metres) ? sky : metres;
       if (!(z >= 0))
         throw Error(
             ExitCode::usage,
@@ -55,11 +68,18 @@ Image depth_of(const image_io::Picture& picture, double in_metres, double far, c
   }
   return depth;
 }
+
+}  // namespace
+
+Image depth_of(const image_io::Picture& picture, double in_metres, double far, const Image& colour) {
+  return made_depth(0, picture.image, in_metres, far, colour);
+}
 Image depth_in(const PictureSource& depth, int frame, double scale, double far, const Image& colour, Inputs& inputs) {
   const std::int64_t picture = depth.shown_in(frame);
   const image_io::Picture read = depth.read(picture, inputs);
   try {
-    return depth_of(read, scale, far, colour);
+    if (depth.is_sequence()) return depth_of(read, scale, far, colour);
+    return cache::prepared("depth picture", 0, made_depth, read.image, scale, far, colour)->shared();
   } catch (const Error& e) {
     throw depth.about(e, picture);
   }
@@ -84,7 +104,10 @@ ScenePictures::ScenePictures(const scene::Config& config, bool takes_depth, Inpu
 ScenePictures::Shown ScenePictures::shown_in(int frame) const {
   return {colour_ ? colour_->shown_in(frame) : 0, depth_ ? depth_->shown_in(frame) : 0};
 }
-Image ScenePictures::colour(int frame, Inputs& files) const { return linear_of(colour_->read(colour_->shown_in(frame), files)); }
+Image ScenePictures::colour(int frame, Inputs& files) const {
+  const image_io::Picture read = colour_->read(colour_->shown_in(frame), files);
+  return colour_->is_sequence() ? linear_of(read) : linear_once(read);
+}
 Image ScenePictures::depth(int frame, double far, const Image& colour, Inputs& files) const {
   return depth_in(*depth_, frame, depth_scale_, far, colour, files);
 }

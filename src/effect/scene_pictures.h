@@ -15,6 +15,8 @@ namespace rainref::effect {
 Image floats_of(const image_io::Picture& picture, const std::function<float(float, int)>& value);
 /// As linear radiance: rgba32f, row 0 = bottom, alpha as stored.
 Image linear_of(const image_io::Picture& picture);
+/// The same, remembered (cache/prepared.h): of a picture that stays.
+Image linear_once(const image_io::Picture& picture);
 /// The picture that `key` names, likewise.
 Image read_linear(const scene::Config& config, const std::string& key, Inputs& inputs);
 

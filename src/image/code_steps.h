@@ -1,6 +1,7 @@
 // 8-bit codes of numbers in [0, 1] by table: a display function that never falls is known by the smallest number of each code.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -29,6 +30,7 @@ class CodeSteps {
   bool empty() const { return buckets_.empty(); }
   /// The bucket of x > 0, x <= 1, is number max(bits of x >> shift, first) - first.
   const Bucket* data() const { return buckets_.data(); }
+  std::size_t bytes() const { return buckets_.size() * sizeof(Bucket); }
 
  private:
   std::vector<Bucket> buckets_;

@@ -1,6 +1,7 @@
 // Owners and fixed views of the textures that passes sample; sampling-inl.h reads them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
@@ -52,6 +53,7 @@ class TextureData {
   float* texels() { return texels_.data(); }
   void set_border(float r, float g, float b, float a);
   bool empty() const { return texels_.empty(); }
+  std::size_t bytes() const { return texels_.capacity() * sizeof(float); }
 
  private:
   zeroed::Array<float> texels_;

@@ -6,32 +6,32 @@
 #include <fmt/format.h>
 
 #include "base/floating_point.h"
-#include "cache/remembered.h"
+#include "cache/prepared.h"
 #include "night_street/city.h"
 #include "night_street/shade.h"
 
 namespace rainref::night_street {
 namespace {
 
-constexpr std::size_t city_bytes = std::size_t{16} << 20;  // about, light map included
+struct Laid {
+  std::shared_ptr<const City> city;
+  std::size_t bytes() const { return std::size_t{16} << 20; }  // about, light map included
+};
+Laid lay_out(const int&, const std::uint64_t& seed, const bool& clear_lane) { return {std::make_shared<const City>(seed, clear_lane)}; }
 
 }  // namespace
 
 Street::Street(const Options& options) : options_(options) {
   FloatingPointGuard guard;  // the street is laid out here, outside the tiles that pin the state
-  static cache::Remembered<City>& remembered = *new cache::Remembered<City>;
-  const std::string name = fmt::format("{} {}", options.seed, options.clear_lane);
-  city_ = remembered.find(name);
-  if (!city_) {
-    city_ = std::make_shared<City>(options.seed, options.clear_lane);
-    remembered.keep(name, city_, city_bytes);
-  }
+  city_ = cache::prepared("street", 0, lay_out, options.seed, options.clear_lane)->city;
   lamps_ = city_->lamps;
 }
 
 Street::~Street() = default;
 Street::Street(Street&&) noexcept = default;
 Street& Street::operator=(Street&&) noexcept = default;
+
+std::string Street::identity() const { return fmt::format("street {} {}", options_.seed, options_.clear_lane); }
 
 std::shared_ptr<const scene::Scenery> Street::make(const Options& options) { return std::make_shared<const Street>(options); }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "scene/scenery.h"
@@ -28,7 +29,7 @@ class Street final : public scene::Scenery {
   Street(Street&&) noexcept;
   Street& operator=(Street&&) noexcept;
 
-  std::string_view name() const override { return "street"; }
+  std::string identity() const override;
   /// Street lamps first.
   const std::vector<Lamp>& lamps() const override { return lamps_; }
 

@@ -27,11 +27,15 @@ struct Angles {
 }  // namespace
 
 Image Street::panorama(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const {
-  cache::Recipe recipe("night_street panorama");
-  recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
-  recipe.add({eye.x, eye.y, eye.z});
-  return cache::image(
-      recipe, {Format::rgba32f, width, height}, [&] { return traced(width, height, eye, executor); }, parallel::rows_of(executor));
+  struct Work {
+    const Street& street;
+    const parallel::Executor& executor;
+  };
+  constexpr auto make = [](const Work& by, const std::string&, const int& columns, const int& rows, const scene::Vector3& from) {
+    return by.street.traced(columns, rows, from, by.executor);
+  };
+  return cache::kept("night_street panorama", cache::Shape{Format::rgba32f, width, height}, parallel::rows_of(executor),
+                     Work{*this, executor}, +make, identity(), width, height, eye);
 }
 
 Image Street::traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const {

@@ -15,18 +15,20 @@ Street::View Street::view(const scene::Camera& camera, int width, int height, do
                           Parts parts) const {
   if (!(far > 0 && far < 1e300)) throw Error(ExitCode::usage, fmt::format("far: expected a positive distance in metres, found {}", far));
   if (parts != Parts::nine) return rendered(camera, width, height, far, executor, parts);
-  cache::Recipe recipe("night_street view");
-  recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
-  for (const scene::Vector3& v : {camera.position, camera.target, camera.up}) recipe.add({v.x, v.y, v.z});
-  recipe.add({camera.vertical_fov_deg, far});
-  const std::vector<cache::Shape> shapes{{Format::rgba32f, width, height}, {Format::r32f, width, height}};
-  const auto make = [&] {
-    View view = rendered(camera, width, height, far, executor, parts);
-    std::vector<Image> all;
-    for (Image* image : {&view.colour, &view.depth}) all.push_back(std::move(*image));
-    return all;
+  struct Work {
+    const Street& street;
+    const parallel::Executor& executor;
   };
-  std::vector<Image> images = cache::images(recipe, shapes, make, parallel::rows_of(executor));
+  constexpr auto make = [](const Work& by, const std::string&, const scene::Camera& eye, const int& columns, const int& rows,
+                           const double& most) {
+    View view = by.street.rendered(eye, columns, rows, most, by.executor, Parts::nine);
+    std::vector<Image> both;
+    for (Image* image : {&view.colour, &view.depth}) both.push_back(std::move(*image));
+    return both;
+  };
+  std::vector<Image> images =
+      cache::kept("night_street view", {{Format::rgba32f, width, height}, {Format::r32f, width, height}}, parallel::rows_of(executor),
+                  Work{*this, executor}, +make, identity(), camera, width, height, far);
   return {std::move(images[0]), std::move(images[1])};
 }
 

@@ -63,7 +63,9 @@ int bed_rows(const Settings& s) {
   return std::max(1, static_cast<int>(s.bed_columns * half_z / half_x));
 }
 /// The depths of a natural shape [m].
-Image natural_bed(const Settings& s) {
+using DepthReads = cache::Only<&Settings::seed, &Settings::grid, &Settings::cell_size, &Settings::puddle_depth, &Settings::bed_columns>;
+Image natural_bed(const int&, const DepthReads& reads) {
+  const Settings& s = reads.of;
   const double half_x = 0.5 * s.grid[0] * s.cell_size, half_z = 0.5 * s.grid[1] * s.cell_size;
   const int width = s.bed_columns, height = bed_rows(s);
   Image depth(Format::r32f, width, height);
@@ -84,7 +86,7 @@ Image natural_bed(const Settings& s) {
   return depth;
 }
 constexpr int asphalt_texels = 512;  // a side
-Image asphalt(std::uint64_t seed) {
+Image asphalt(const int&, const std::uint64_t& seed) {
   constexpr int size = asphalt_texels, cells = 80;
   Image tile(Format::rgba32f, size, size);
   // Stones: one jittered point in each cell, the tile joined at its edges.
@@ -132,18 +134,14 @@ TextureData make_bed(const Settings& s) {
     bed.set_border(static_cast<float>(s.puddle_depth), 0, 0, 0);
     return bed;
   }
-  cache::Recipe recipe("puddle depths");
-  recipe.add(s.seed).add(
-      {static_cast<double>(s.grid[0]), static_cast<double>(s.grid[1]), s.cell_size, s.puddle_depth, static_cast<double>(s.bed_columns)});
-  TextureData bed(cache::image(recipe, {Format::r32f, s.bed_columns, bed_rows(s)}, [&] { return natural_bed(s); }), Address::border,
-                  Address::border);
+  TextureData bed(cache::kept("puddle depths", cache::Shape{Format::r32f, s.bed_columns, bed_rows(s)}, rows_here, 0, natural_bed, s),
+                  Address::border, Address::border);
   bed.set_border(static_cast<float>(-s.puddle_depth), 0, 0, 0);
   return bed;
 }
 
 Image make_asphalt(std::uint64_t seed) {
-  return cache::image(cache::Recipe("puddle asphalt").add(seed), {Format::rgba32f, asphalt_texels, asphalt_texels},
-                      [&] { return asphalt(seed); });
+  return cache::kept("puddle asphalt", cache::Shape{Format::rgba32f, asphalt_texels, asphalt_texels}, rows_here, 0, asphalt, seed);
 }
 
 Image make_shore(const Settings& s, const Texture& bed) {

@@ -64,9 +64,9 @@ struct Puddle::State {
   std::shared_ptr<const Bed> bed;  // of the corrected variant
   TextureData water;               // one channel of the wave, decoded
   Image hit, normal, noise, colour, picture;
-  CodeSteps display;         // of the corrected variant
-  bool is_moderate = false;  // of that variant: shade_or_background may stand for shade
-  Image behind;              // then: what it keeps of the surroundings
+  std::shared_ptr<const CodeSteps> display;  // of the corrected variant
+  bool is_moderate = false;                  // of that variant: shade_or_background may stand for shade
+  Image behind;                              // then: what it keeps of the surroundings
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
       : settings(s),
@@ -85,7 +85,8 @@ struct Puddle::State {
     ground = ground_of(s, around, parallel::rows_of(e));
     if (corrected) {
       bed = bed_of(s);
-      display = display_steps(s.rounding);
+      display = cache::prepared(
+          "puddle display", 0, +[](const int&, const Rounding& rounding) { return display_steps(rounding); }, s.rounding);
       is_moderate = s.ground_reach > 0 && are_moderate(sky->environment.view(), ground->tile.view());
       if (is_moderate) behind = Image(Format::rgba16f, s.width, s.height);
     }
@@ -335,10 +336,10 @@ void Puddle::render(Recorder* recorder) {
       shade.tile([&] { shade_or_background(of_shade, rounding, at_shade, s.colour, s.behind, tile); });
     else
       shade.tile(tile);
-    if (s.display.empty())
+    if (!s.display || s.display->empty())
       display.tile(tile);
     else
-      display.tile([&] { display_by_steps(of_display, s.display, s.colour, s.picture, tile); });
+      display.tile([&] { display_by_steps(of_display, *s.display, s.colour, s.picture, tile); });
   });
   // What they read, none of them overwrites: their starts may be recorded after all have run.
   const int threads = s.executor.threads();

@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cache/kept_images.h"
-#include "cache/remembered.h"
+#include "cache/prepared.h"
 #include "image/colour.h"
 #include "image/memory.h"
 #include "math/constants.h"
@@ -17,74 +16,43 @@
 namespace rainref::puddle {
 namespace {
 
-/// What a process remembers of these; never destroyed, as threads may outlive static objects.
-template <class T>
-cache::Remembered<T>& remembered() {
-  static cache::Remembered<T>& all = *new cache::Remembered<T>;
-  return all;
+Sky make_sky(const Rows& rows, const Image& environment, const bool& is_cube, const bool& is_encoded, const Variant& variant) {
+  Sky sky{prepare_environment(environment, is_cube, is_encoded, variant, rows), {}};
+  if (variant == Variant::corrected) sky.ambient = ambient_radiance(sky.environment.view(), is_cube);
+  return sky;
 }
 
-/// The name of what is made of a picture; "" where nothing is remembered: hashing it would cost for nothing.
-std::string named(cache::Recipe recipe, const Image& image) { return cache::remembered_bytes() == 0 ? "" : recipe.add(image).text(); }
+/// Of the image, or where there is none of asphalt: seed. A checkerboard hides the asphalt of as-published; the corrected ground has relief
+/// all the same.
+Ground make_ground(const Rows& rows, const Image& image, const bool& is_encoded, const std::uint64_t& seed, const bool& is_hidden,
+                   const Variant& variant) {
+  const bool is_own = image.empty();
+  const Image made = !is_own ? Image() : is_hidden ? Image(Format::rgba32f, 1, 1) : make_asphalt(seed);
+  Ground ground{prepare_ground(is_own ? made : image, is_own ? false : is_encoded, variant, rows), {}};
+  if (variant == Variant::corrected) ground.relief = make_relief(ground.tile, is_own, rows);
+  return ground;
+}
 
-std::size_t bytes_of(const TextureData& texture) {
-  const Texture& t = texture.view();
-  if (t.levels == 0) return 0;
-  const int last = t.levels - 1;
-  return sizeof(float) * static_cast<std::size_t>(t.channels) *
-         (static_cast<std::size_t>(t.offset[last]) + static_cast<std::size_t>(t.width[last]) * static_cast<std::size_t>(t.height[last]));
+using BedReads = cache::Only<&Settings::shape, &Settings::seed, &Settings::grid, &Settings::cell_size, &Settings::puddle_depth,
+                             &Settings::bed_columns, &Settings::shore_width>;
+Bed make_bed_and_shore(const int&, const BedReads& reads) {
+  Bed bed{make_bed(reads.of), {}};
+  if (reads.of.shape == Shape::natural) bed.shore = make_shore(reads.of, bed.depths.view());
+  return bed;
 }
 
 }  // namespace
 
 std::shared_ptr<const Sky> sky_of(const Settings& s, const Surroundings& around, const Rows& rows) {
-  const bool corrected = s.variant == Variant::corrected;
-  cache::Recipe recipe("puddle sky");
-  recipe.add(std::uint64_t{corrected}).add(std::uint64_t{around.environment_is_cube}).add(std::uint64_t{around.environment_is_encoded});
-  return remembered<Sky>().get(
-      named(recipe, around.environment), [](const Sky& sky) { return bytes_of(sky.environment); },
-      [&] {
-        Sky sky{prepare_environment(around, s.variant, rows), {}};
-        if (corrected) sky.ambient = ambient_radiance(sky.environment.view(), around.environment_is_cube);
-        return sky;
-      });
+  return cache::prepared("puddle sky", rows, make_sky, around.environment, around.environment_is_cube, around.environment_is_encoded,
+                         s.variant);
 }
-
 std::shared_ptr<const Ground> ground_of(const Settings& s, const Surroundings& around, const Rows& rows) {
-  const bool corrected = s.variant == Variant::corrected, is_own = around.ground.empty();
-  // A checkerboard hides the ground image of as-published; the corrected ground has relief all the same.
-  const bool is_hidden = is_own && !corrected && s.use_checkerboard;
-  cache::Recipe recipe("puddle ground");
-  recipe.add(std::uint64_t{corrected}).add(std::uint64_t{is_own}).add(std::uint64_t{is_hidden}).add(is_own ? s.seed : 0);
-  recipe.add(std::uint64_t{around.ground_is_encoded});
-  return remembered<Ground>().get(
-      named(recipe, around.ground), [](const Ground& ground) { return bytes_of(ground.tile) + bytes_of(ground.relief); },
-      [&] {
-        const Image made = !is_own ? Image() : is_hidden ? Image(Format::rgba32f, 1, 1) : make_asphalt(s.seed);
-        Ground ground{prepare_ground(is_own ? made : around.ground, is_own ? false : around.ground_is_encoded, s.variant, rows), {}};
-        if (corrected) ground.relief = make_relief(ground.tile, is_own, rows);
-        return ground;
-      });
+  const bool is_own = around.ground.empty(), is_hidden = is_own && s.variant == Variant::as_published && s.use_checkerboard;
+  return cache::prepared("puddle ground", rows, make_ground, around.ground, around.ground_is_encoded, is_own ? s.seed : 0, is_hidden,
+                         s.variant);
 }
-
-std::shared_ptr<const Bed> bed_of(const Settings& s) {
-  const bool is_natural = s.shape == Shape::natural;
-  cache::Recipe recipe("puddle bed");
-  recipe.add(std::uint64_t{is_natural}).add(is_natural ? s.seed : 0);
-  recipe.add({static_cast<double>(s.grid[0]), static_cast<double>(s.grid[1]), s.cell_size, s.puddle_depth,
-              static_cast<double>(s.bed_columns), s.shore_width});
-  return remembered<Bed>().get(
-      recipe.text(),
-      [](const Bed& bed) {
-        return bytes_of(bed.depths) +
-               (bed.shore.empty() ? 0 : Image::memory_bytes(bed.shore.format(), bed.shore.width(), bed.shore.height()));
-      },
-      [&] {
-        Bed bed{make_bed(s), {}};
-        if (is_natural) bed.shore = make_shore(s, bed.depths.view());
-        return bed;
-      });
-}
+std::shared_ptr<const Bed> bed_of(const Settings& s) { return cache::prepared("puddle bed", 0, make_bed_and_shore, s); }
 
 namespace {
 
@@ -124,12 +92,11 @@ zeroed::Array<float> recode(const Image& image, bool is_encoded, Variant variant
 
 }  // namespace
 
-TextureData prepare_environment(const Surroundings& s, Variant variant, const Rows& rows) {
-  const Image& image = s.environment;
+TextureData prepare_environment(const Image& image, bool is_cube, bool is_encoded, Variant variant, const Rows& rows) {
   if (image.empty()) throw Error(ExitCode::usage, "environment.image: expected an image, found none");
-  zeroed::Array<float> texels = recode(image, s.environment_is_encoded, variant, rows);
+  zeroed::Array<float> texels = recode(image, is_encoded, variant, rows);
   int width = image.width(), height = image.height();
-  if (s.environment_is_cube) {
+  if (is_cube) {
     if (width == 6 * height) {
       zeroed::Array<float> column(texels.size());
       const std::size_t face_row = static_cast<std::size_t>(height) * 4;
@@ -148,12 +115,12 @@ TextureData prepare_environment(const Surroundings& s, Variant variant, const Ro
                                                image.width(), image.height()));
     }
   }
-  const Address around = s.environment_is_cube ? Address::clamp : Address::repeat;
+  const Address around = is_cube ? Address::clamp : Address::repeat;
   TextureData texture(std::move(texels), 4, width, height, around, Address::clamp);
   if (variant == Variant::corrected) {
     // A cube's levels end where a face is one texel.
     int levels = Texture::max_levels;
-    if (s.environment_is_cube) {
+    if (is_cube) {
       levels = 1;
       for (int side = width; side > 1 && side % 2 == 0; side /= 2) ++levels;
     }

@@ -1,10 +1,10 @@
-// What lies around and under the water, made once for a puddle and shared by the puddles of a process that remembers
-// (cache/remembered.h).
+// What lies around and under the water, made once for the puddles of a process that want the same (cache/prepared.h).
 #pragma once
 
 #include <array>
 #include <memory>
 
+#include "cache/prepared.h"
 #include "image/texture.h"
 #include "rainref/puddle.h"
 
@@ -14,15 +14,18 @@ namespace rainref::puddle {
 struct Sky {
   TextureData environment;
   std::array<float, 3> ambient{};
+  std::size_t bytes() const { return environment.bytes(); }
 };
 /// The ground tile; of the corrected variant also its slopes.
 struct Ground {
   TextureData tile, relief;
+  std::size_t bytes() const { return tile.bytes() + relief.bytes(); }
 };
 /// Depths under the water; `shore` is empty where there is none.
 struct Bed {
   TextureData depths;
   Image shore;
+  std::size_t bytes() const { return depths.bytes() + cache::bytes_of(shore); }
 };
 
 std::shared_ptr<const Sky> sky_of(const Settings& settings, const Surroundings& around, const Rows& rows);
@@ -32,7 +35,7 @@ std::shared_ptr<const Bed> bed_of(const Settings& settings);
 
 /// The environment for shade: as-published display-encoded (a linear picture is encoded by the power 1/2.2, which the
 /// pass undoes), corrected linear with mips. Cube faces that lie in a row are put into a column.
-TextureData prepare_environment(const Surroundings& surroundings, Variant variant, const Rows& rows = rows_here);
+TextureData prepare_environment(const Image& environment, bool is_cube, bool is_encoded, Variant variant, const Rows& rows = rows_here);
 /// The ground tile, likewise; corrected with mips.
 TextureData prepare_ground(const Image& ground, bool is_encoded, Variant variant, const Rows& rows = rows_here);
 

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "cache/kept_images.h"
+#include "cache/prepared.h"
 #include "image/flipped.h"
 #include "parallel/rows.h"
 #include "rainy_glass/host.h"
@@ -17,9 +18,17 @@ namespace {
 
 using scene::Vector3;
 
+struct Seen {
+  Image colour, depth;
+  std::size_t bytes() const { return cache::bytes_of(colour) + cache::bytes_of(depth); }
+};
+
 /// Glazing bars before a pane: dark round profiles, lit a little from the left, at the pane's u = k spacing + spacing / 2.
-void add_bars(const Settings& s, const BackdropOptions& o, Surroundings& around, const Rows& rows) {
-  if (s.shape != Shape::pane || !(o.bar_spacing > 0)) return;
+using BarReads = cache::Only<&BackdropOptions::bar_spacing, &BackdropOptions::bar_width>;
+Seen with_bars(const Rows& rows, const Image& colour, const Image& depth, const GlassReads& glass_reads, const BarReads& bars) {
+  const Settings& s = glass_reads.of;
+  const BackdropOptions& o = bars.of;
+  Seen around{copy_of(colour), copy_of(depth)};
   Image surface, orientation;
   make_surface(s, {}, surface, orientation, rows);
   const auto place = [&](float u) {
@@ -45,6 +54,32 @@ void add_bars(const Settings& s, const BackdropOptions& o, Surroundings& around,
       }
     }
   });
+  for (Image* image : {&around.colour, &around.depth}) image->share();
+  return around;
+}
+void add_bars(const Settings& s, const BackdropOptions& o, Surroundings& around, const Rows& rows) {
+  if (s.shape != Shape::pane || !(o.bar_spacing > 0)) return;
+  const auto seen = cache::prepared("rainy_glass bars", rows, with_bars, around.colour, around.depth, s, o);
+  around.colour = seen->colour.shared();
+  around.depth = seen->depth.shared();
+}
+
+struct Work {
+  const scene::Scenery* street;
+  const parallel::Executor& executor;
+};
+/// The street out of focus, and its depth: in focus it is needed no more.
+std::vector<Image> out_of_focus(const Work& by, const std::string&, const scene::Camera& eye, const int& width, const int& height,
+                                const double& radius) {
+  scene::Scenery::View view = by.street->view(eye, width, height, backdrop_far, by.executor);
+  std::vector<Image> both;
+  both.push_back(defocused(view.colour, radius, by.executor));
+  both.push_back(std::move(view.depth));
+  return both;
+}
+Image panorama_out_of_focus(const Work& by, const Image& panorama, const scene::Camera& eye, const int& width, const int& height,
+                            const double& radius) {
+  return defocused(scene::panorama_view(panorama, eye, width, height, by.executor), radius, by.executor);
 }
 
 }  // namespace
@@ -93,37 +128,28 @@ Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, co
                            const parallel::Executor& executor) {
   const double radius = options.defocus * s.height;
   const scene::Camera eye = camera(s);
-  cache::Recipe recipe(fmt::format("rainy_glass {}", street.name()));
-  recipe.add(s.seed).add(static_cast<std::uint64_t>(s.width)).add(static_cast<std::uint64_t>(s.height));
-  for (const Vector3& v : {eye.position, eye.target, eye.up}) recipe.add({v.x, v.y, v.z});
-  recipe.add({eye.vertical_fov_deg, radius});
-  // Both at once: in focus the street is needed no more.
-  std::vector<Image> kept = cache::images(recipe, {{Format::rgba32f, s.width, s.height}, {Format::r32f, s.width, s.height}}, [&] {
-    scene::Scenery::View view = street.view(eye, s.width, s.height, backdrop_far, executor);
-    std::vector<Image> both;
-    both.push_back(defocused(view.colour, radius, executor));
-    both.push_back(std::move(view.depth));
-    return both;
-  });
+  const std::vector<cache::Shape> shapes{{Format::rgba32f, s.width, s.height}, {Format::r32f, s.width, s.height}};
+  const Rows rows = parallel::rows_of(executor);
+  std::vector<Image> kept = cache::kept("rainy_glass street", shapes, rows, Work{&street, executor}, out_of_focus, street.identity(), eye,
+                                        s.width, s.height, radius);
   Surroundings around;
   around.colour = std::move(kept[0]);
   around.depth = std::move(kept[1]);
   if (s.use_probe) around.probe = street.panorama(1024, 512, eye.position, executor);
-  add_bars(s, options, around, parallel::rows_of(executor));
+  add_bars(s, options, around, rows);
   return around;
 }
 
 Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, const Image& panorama, const parallel::Executor& executor) {
   const double radius = options.defocus * s.height;
   Surroundings around;
-  around.colour = scene::panorama_view(panorama, camera(s), s.width, s.height, executor);
+  const Rows rows = parallel::rows_of(executor);
+  around.colour = cache::kept("rainy_glass panorama", cache::Shape{Format::rgba32f, s.width, s.height}, rows, Work{nullptr, executor},
+                              panorama_out_of_focus, panorama, camera(s), s.width, s.height, radius);
   around.depth = Image(Format::r32f, s.width, s.height);
   for (int y = 0; y < s.height; ++y) std::fill_n(around.depth.row<float>(y), s.width, static_cast<float>(backdrop_far));
-  if (s.use_probe) around.probe = copy_of(panorama);
-  around.colour = cache::image(cache::Recipe("rainy_glass defocused").add({radius}).add(around.colour),
-                               {Format::rgba32f, around.colour.width(), around.colour.height()},
-                               [&] { return defocused(around.colour, radius, executor); });
-  add_bars(s, options, around, parallel::rows_of(executor));
+  if (s.use_probe) around.probe = panorama.shared();
+  add_bars(s, options, around, rows);
   return around;
 }
 

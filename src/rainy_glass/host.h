@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/rows.h"
+#include "cache/recipe.h"
 #include "image/texture.h"
 #include "rainref/image.h"
 #include "rainref/rainy_glass.h"
@@ -50,6 +51,10 @@ std::vector<Droplet> droplets_near(std::span<const Droplet> all, bool corrected,
 /// Those whose water may reach there.
 std::vector<Trail> trails_near(std::span<const Trail> all, int size, int x0, int y0, int x1, int y1);
 
+/// What the glass is made of, besides normals.
+using GlassReads =
+    cache::Only<&Settings::width, &Settings::height, &Settings::shape, &Settings::distance, &Settings::yaw_deg, &Settings::radius,
+                &Settings::camera_position, &Settings::camera_target, &Settings::camera_up, &Settings::vertical_fov_deg>;
 /// Fills surface (rgba32f) and orientation (rgba16f) of the picture's size.
 void make_surface(const Settings& settings, const Image& normals, Image& surface, Image& orientation, const Rows& rows = rows_here);
 /// Least depth of each texel and its eight neighbours, less a margin for rounding: a bilinear lookup that gives more than z

@@ -25,6 +25,12 @@ struct Camera {
   /// Half the height of the image plane at distance 1: tan(fov / 2), within 1e-15 relative. Throws Error(usage) unless
   /// the field of view is above 0 and below 180 degrees.
   double half_height() const;
+  /// For a cache::Recipe.
+  template <class Recipe>
+  void add_to(Recipe& recipe) const {
+    for (const Vector3* v : {&position, &target, &up}) recipe.add_read(*v);
+    recipe.add_read(vertical_fov_deg);
+  }
 };
 
 /// a / |a|, each component by one division (glm::normalize multiplies by a rounded reciprocal); a must not be zero.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cache/prepared.h"
 #include "image/texture.h"
 #include "math/constants.h"
 #include "math/scalar.h"
@@ -24,7 +25,9 @@ using namespace rainref::scalar;
 
 }  // namespace scalar
 
-Image panorama_view(const Image& panorama, const Camera& camera, int width, int height, const parallel::Executor& executor) {
+namespace {
+
+Image traced_view(const parallel::Executor& executor, const Image& panorama, const Camera& camera, const int& width, const int& height) {
   using N = scalar::Scalar<float>;
   constexpr int tile_rows = 8;
   if (panorama.channels() != 4) throw Error(ExitCode::usage, fmt::format("a panorama has four channels, found {}", panorama.channels()));
@@ -52,6 +55,12 @@ Image panorama_view(const Image& panorama, const Camera& camera, int width, int 
     }
   });
   return out;
+}
+
+}  // namespace
+
+Image panorama_view(const Image& panorama, const Camera& camera, int width, int height, const parallel::Executor& executor) {
+  return cache::prepared("panorama view", executor, traced_view, panorama, camera, width, height)->shared();
 }
 
 }  // namespace rainref::scene

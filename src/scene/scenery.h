@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "rainref/executor.h"
@@ -37,8 +37,8 @@ class Scenery {
   enum class Parts : std::uint8_t { nine, three };
 
   virtual ~Scenery() = default;
-  /// Tells it from other sceneries, for what is kept of it.
-  virtual std::string_view name() const = 0;
+  /// Tells it from every other one, for what is kept of it.
+  virtual std::string identity() const = 0;
   /// Every emissive sphere, in a fixed order.
   virtual const std::vector<Lamp>& lamps() const = 0;
   /// What is seen from `origin` along `direction`, which is unit: one ray, not a texel. Under a FloatingPointGuard.

@@ -13,7 +13,7 @@ class TestCard final : public Scenery {
   /// The same for all options.
   static std::shared_ptr<const Scenery> make(const SceneryOptions& options = {});
 
-  std::string_view name() const override { return "test card"; }
+  std::string identity() const override { return "test card"; }
   const std::vector<Lamp>& lamps() const override { return lamps_; }
   Sight look(const Vector3& origin, const Vector3& direction) const override;
   Image panorama(int width, int height, const Vector3& eye, const parallel::Executor& executor) const override;

@@ -118,21 +118,24 @@ void Flow::set_drops(std::span<const drops::Drop> records) {
 
 namespace {
 
-// A member that is added to one of these structs does not compile here before it is in the recipe.
-cache::Recipe recipe_of(const FlowSettings& settings) {
-  const auto& [fps, substeps, pane, gravity, wind, warm_up, drops, splat] = settings;
-  const auto& [corrected, seed, capacity, lifetime, spawn_rate, mass_min, mass_max, inertia_coupling, wind_coupling, drag, rain_rate,
-               smallest_drop, advancing_deg, receding_deg, wind_exposure, wind_drag, mobility, humidity, margin, trail_thickness,
-               film_drying, neck_time] = drops;
-  cache::Recipe recipe("screen_drops warm-up");
-  recipe.add(seed).add(static_cast<std::uint64_t>(capacity)).add(static_cast<std::uint64_t>(substeps)).add(std::uint64_t{corrected});
-  recipe.add({fps,           pane[0],         pane[1],      gravity,          wind,          warm_up,  lifetime,
-              spawn_rate,    mass_min,        mass_max,     inertia_coupling, wind_coupling, drag,     rain_rate,
-              smallest_drop, advancing_deg,   receding_deg, wind_exposure,    wind_drag,     mobility, humidity,
-              margin,        trail_thickness, film_drying,  neck_time});
-  // Of the splat nothing counts before the first frame but the size of the film.
-  return recipe.add(static_cast<std::uint64_t>(splat.width)).add(static_cast<std::uint64_t>(splat.height));
-}
+// What a warm-up is made of: of the splat nothing counts before the first frame but the size of the film. A member that is added to the
+// drops' settings does not compile here before it is read.
+struct WarmUp {
+  cache::Only<&FlowSettings::fps, &FlowSettings::substeps, &FlowSettings::pane, &FlowSettings::gravity, &FlowSettings::wind,
+              &FlowSettings::warm_up>
+      flow;
+  drops::Settings drops;
+  int width, height;
+  void add_to(cache::Recipe& recipe) const {
+    const auto& [corrected, seed, capacity, lifetime, spawn_rate, mass_min, mass_max, inertia_coupling, wind_coupling, drag, rain_rate,
+                 smallest_drop, advancing_deg, receding_deg, wind_exposure, wind_drag, mobility, humidity, margin, trail_thickness,
+                 film_drying, neck_time] = drops;
+    flow.add_to(recipe);
+    recipe.add(seed).add_read(capacity).add_read(corrected).add_read(width).add_read(height);
+    recipe.add({lifetime, spawn_rate, mass_min, mass_max, inertia_coupling, wind_coupling, drag, rain_rate, smallest_drop, advancing_deg,
+                receding_deg, wind_exposure, wind_drag, mobility, humidity, margin, trail_thickness, film_drying, neck_time});
+  }
+};
 
 // Bytes as rows of an image: their count, they, and zeros to the end of the last row.
 constexpr int bytes_in_row = 4096;
@@ -158,11 +161,16 @@ std::vector<std::byte> written(const state::Items& items) {
 
 void warm_up_once(const FlowSettings& settings, const std::function<state::Items()>& list, const std::function<void()>& warm_up) {
   bool is_done = false;
-  const Image kept = cache::image(recipe_of(settings), {Format::r8, bytes_in_row, 0}, [&] {
+  // What runs is the flow that was made of these settings.
+  const std::function<Image()> run = [&] {
     warm_up();
     is_done = true;
     return as_image(written(list()));
-  });
+  };
+  const Image kept = cache::kept(
+      "screen_drops warm-up", cache::Shape{Format::r8, bytes_in_row, 0}, rows_here, run,
+      +[](const std::function<Image()>& by, const WarmUp&) { return by(); },
+      WarmUp{settings, settings.drops, settings.splat.width, settings.splat.height});
   if (is_done) return;
   std::vector<std::byte> bytes;
   for (int y = 0; y < kept.height(); ++y) bytes.insert(bytes.end(), kept.row_bytes(y), kept.row_bytes(y) + kept.width());

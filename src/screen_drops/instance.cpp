@@ -32,7 +32,8 @@ Inputs pictures(const scene::Config& config, const Settings& settings, std::opti
     in.colour = street->view(scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
   } else {
     const effect::PictureSource source(config, "scene.image", files);
-    in.colour = effect::linear_of(source.read(source.shown_in(0), files));
+    const image_io::Picture read = source.read(source.shown_in(0), files);
+    in.colour = source.is_sequence() ? effect::linear_of(read) : effect::linear_once(read);
     if (source.is_sequence()) sequence = source;
   }
   if (settings.variant == Variant::as_published && !config.text("noise.image").empty())

@@ -2,6 +2,7 @@
 #include "rainref/screen_drops.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,6 +11,8 @@
 
 #include "base/floating_point.h"
 #include "blur_pyramid/blur_pyramid.h"
+#include "cache/prepared.h"
+#include "capture/pass_clock.h"
 #include "parallel/rows.h"
 #include "pass/display.h"
 #include "rainref/error.h"
@@ -27,6 +30,48 @@ namespace {
 
 constexpr int tile_rows = 4, cell_rows = 4;
 
+/// The scene's picture with its mip levels, as images and as one texture.
+struct SceneLevels {
+  std::vector<Image> levels;
+  std::unique_ptr<blur_pyramid::LevelTexture> texture;
+  std::size_t bytes() const { return 2 * cache::bytes_of(levels); }
+  void add_to(cache::Recipe& recipe) const { recipe.add_read(levels); }
+};
+SceneLevels make_levels(const parallel::Executor& executor, const Image& colour) {
+  SceneLevels made{scene_levels(colour, parallel::rows_of(executor)), {}};
+  for (Image& level : made.levels) level.share();
+  made.texture = std::make_unique<blur_pyramid::LevelTexture>(made.levels);
+  made.texture->refresh(executor, made.levels);
+  return made;
+}
+
+pass::Run<BackgroundPass> background_run(const SceneLevels& scene, const BackgroundUniforms& uniforms, const std::vector<Tap>& taps,
+                                         bool corrected, Rounding rounding, Image& background) {
+  pass::HostIo<BackgroundPass> io;
+  io.scene.set(scene.texture->view(), scene.levels);
+  if (corrected) io.taps = taps;
+  io.background = background;
+  return {uniforms, corrected, rounding, io};
+}
+Image make_background(const parallel::Executor& executor, const SceneLevels& scene, const BackgroundUniforms& uniforms,
+                      const std::vector<Tap>& taps, const bool& corrected, const Rounding& rounding, const int& width, const int& height) {
+  Image background(Format::rgba16f, width, height);
+  background_run(scene, uniforms, taps, corrected, rounding, background).tiles(executor, tile_rows);
+  return background;
+}
+
+/// As published; as it is stored, and decoded.
+struct Noise {
+  Image stored;
+  TextureData texture;
+  std::size_t bytes() const { return cache::bytes_of(stored) + texture.bytes(); }
+};
+Noise make_noise_map(const int&, const Image& own, const std::uint64_t& seed, const int& side) {
+  Noise made{own.empty() ? make_noise(seed, side) : stored_noise(own), {}};
+  made.texture = TextureData(made.stored, Address::repeat, Address::repeat);
+  return made;
+}
+
 void check_memory(const Settings& s, const FlowSettings* flow) {
   require_memory(fmt::format("run.size {}x{}{}", s.width, s.height, flow ? fmt::format(" with {} drops", flow->drops.capacity) : ""),
                  memory(s, flow).peak());
@@ -41,23 +86,22 @@ struct ScreenDrops::State {
   int frame = 0;
   bool has_background = false;
   bool background_is_recorded = false;  ///< in a run that was saved, it is not recorded once more
-  std::vector<Image> levels;
-  blur_pyramid::LevelTexture scene;
+  std::shared_ptr<const SceneLevels> scene;
+  bool is_film = false;  ///< pictures that pass are not worth remembering
   std::vector<Tap> taps;
   std::array<Layer, layers> grids{};
   std::optional<Flow> flow;
   std::vector<DrawnCell> drawn_cells;
-  Image noise_image, no_height, background, cells, water, colour, picture;
-  TextureData noise;
+  std::shared_ptr<const Noise> noise;
+  Image no_height, background, cells, water, colour, picture;
+  std::vector<Image> earlier_backgrounds;  ///< into whose memory arrays of Python may look
   CodeTable display;
 
   State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing)
       : settings(s),
         executor(e),
         corrected(s.variant == Variant::corrected),
-        levels(scene_levels(in.colour, parallel::rows_of(e))),
-        scene(levels) {
-    scene.refresh(executor, levels);
+        scene(cache::prepared("screen_drops levels", e, make_levels, in.colour)) {
     if (corrected) {
       taps = make_taps(s);
       grids = make_layers(s);
@@ -67,8 +111,7 @@ struct ScreenDrops::State {
       no_height = Image(Format::r16f, 1, 1);
       if (flowing != nullptr) flow.emplace(*flowing, e);
     } else {
-      noise_image = in.noise.empty() ? make_noise(s.seed, s.noise_size) : stored_noise(in.noise);
-      noise = TextureData(noise_image, Address::repeat, Address::repeat);
+      noise = cache::prepared("screen_drops noise", 0, make_noise_map, in.noise, s.seed, s.noise_size);
     }
     background = Image(Format::rgba16f, s.width, s.height);
     water = Image(Format::r8, s.width, s.height);
@@ -83,15 +126,19 @@ struct ScreenDrops::State {
   pass::Moment moment(Recorder* recorder) const {
     return {recorder, shown(), 0, shown() / settings.fps, 1 / settings.fps, settings.rounding};
   }
+  void replace_background(Image by) { earlier_backgrounds.push_back(std::exchange(background, std::move(by))); }
   void blur(const pass::Moment& now) {
-    pass::HostIo<BackgroundPass> io;
-    io.scene.set(scene.view(), levels);
-    if (corrected) io.taps = taps;
-    io.background = background;
-    pass::Run<BackgroundPass> run(background_uniforms(settings), corrected, settings.rounding, io);
+    const BackgroundUniforms u = background_uniforms(settings);
+    pass::Run<BackgroundPass> run = background_run(*scene, u, taps, corrected, settings.rounding, background);
     run.start(now);
-    run.tiles(executor, tile_rows);
-    run.finish(now);
+    const capture::Stopwatch watch;
+    if (is_film)
+      run.tiles(executor, tile_rows);
+    else
+      replace_background(cache::prepared("screen_drops background", executor, make_background, *scene, u, taps, corrected,
+                                         settings.rounding, settings.width, settings.height)
+                             ->shared());
+    run.finish(now, 1, is_film ? 0 : watch.seconds());
   }
   void fill_cells(const pass::Moment& now) {
     const CellsUniforms u = cells_uniforms(settings, grids, shown());
@@ -147,8 +194,8 @@ void ScreenDrops::show_again(const Image& colour) {
   const FloatingPointGuard guard;
   State& s = *state_;
   check_scene(s.settings, colour);
-  s.levels = scene_levels(colour, parallel::rows_of(s.executor));
-  s.scene.refresh(s.executor, s.levels);
+  s.scene = std::make_shared<const SceneLevels>(make_levels(s.executor, colour));
+  if (!std::exchange(s.is_film, true)) s.replace_background(Image(Format::rgba16f, s.settings.width, s.settings.height));
   s.has_background = false;
 }
 
@@ -162,7 +209,7 @@ void ScreenDrops::render(Recorder* recorder) {
   const Rounding rounding = s.settings.rounding;
   const auto bound = [&](auto io) {
     io.background = s.background;
-    io.scene.set(s.scene.view(), s.levels);
+    io.scene.set(s.scene->texture->view(), s.scene->levels);
     io.water = s.water;
     io.colour = s.colour;
     return io;
@@ -177,9 +224,9 @@ void ScreenDrops::render(Recorder* recorder) {
     const std::array<int, 2> flow_size = s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0};
     run(pass::Run<DropsPass>(drops_uniforms(s.settings, s.grids, flow_size), true, rounding, io));
   } else {
-    const BufferView noise(s.noise_image);
+    const BufferView noise(s.noise->stored);
     auto io = bound(pass::HostIo<PublishedDropsPass>());
-    io.noise = s.noise.view();
+    io.noise = s.noise->texture.view();
     io.noise.recorded = &noise;
     run(pass::Run<PublishedDropsPass>(published_drops_uniforms(s.settings, s.shown()), false, rounding, io));
   }

@@ -110,7 +110,7 @@ struct PuddleScene::State {
     camera.up = vector(s.camera_up);
     camera.vertical_fov_deg = s.vertical_fov_deg;
 
-    environment = puddle::prepare_environment(around, s.variant);
+    environment = puddle::prepare_environment(around.environment, around.environment_is_cube, around.environment_is_encoded, s.variant);
     const bool own_ground = around.ground.empty();
     const Image made = own_ground ? puddle::make_asphalt(s.seed) : Image();
     ground = puddle::prepare_ground(own_ground ? made : around.ground, !own_ground && around.ground_is_encoded, s.variant);

@@ -71,12 +71,15 @@ struct Evaluation {
   Image scene, layer, depth_image, noise_image;
   TextureData depth, noise;
   Evaluation(Variant variant, int width, int height)
-      : s(settings(variant)), in(scene_of(width, height)), scene(prepare_scene(in)), layer(prepare_layer(in)) {
+      : s(settings(variant)),
+        in(scene_of(width, height)),
+        scene(prepare_scene(in.colour, in.colour_is_encoded)),
+        layer(prepare_layer(in.layer, in.colour)) {
     s.width = width;
     s.height = height;
     const bool corrected = variant == Variant::corrected;
-    depth_image = prepare_depth(in, s.depth);
-    noise_image = prepare_noise(in, s);
+    depth_image = prepare_depth(in.depth, in.depth_is_distance, in.colour, s.depth);
+    noise_image = prepare_noise(in.noise, s);
     depth = TextureData(depth_image, corrected ? Address::clamp : Address::border, corrected ? Address::clamp : Address::border);
     noise = TextureData(noise_image, corrected ? Address::repeat : Address::border, corrected ? Address::repeat : Address::border);
   }

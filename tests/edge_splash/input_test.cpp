@@ -122,7 +122,7 @@ TEST(EdgeSplashInput, OwnNoiseTilesAndFillsItsRange) {
 TEST(EdgeSplashInput, HalfResolutionKeepsTheMean) {
   Inputs in = inputs_of(8, 8, [](int, int) { return 0.5; });
   in.noise = uniform_noise(32);
-  const Image half = prepare_noise(in, corrected()), whole = prepare_noise(in, published());
+  const Image half = prepare_noise(in.noise, corrected()), whole = prepare_noise(in.noise, published());
   EXPECT_EQ(half.width(), 16);
   EXPECT_EQ(whole.width(), 32);
   double sum = 0;
@@ -139,7 +139,7 @@ TEST(EdgeSplashInput, ColourIsDecodedAndAlphaKept) {
     for (int i = 0; i < 16; ++i) in.colour.row<Unorm8>(y)[i].code = i % 4 == 3 ? 64 : 188;
   }
   in.colour_is_encoded = true;
-  const Image scene = prepare_scene(in);
+  const Image scene = prepare_scene(in.colour, in.colour_is_encoded);
   EXPECT_NEAR(to_float(scene.row<Half>(0)[0]), 0.5029, 1e-3);  // sRGB 188
   EXPECT_NEAR(to_float(scene.row<Half>(0)[3]), 64 / 255.0, 1e-3);
   // As published the alpha is blended like a colour; corrected keeps it.

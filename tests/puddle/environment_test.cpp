@@ -8,6 +8,10 @@
 namespace rainref::puddle::test {
 namespace {
 
+TextureData prepared(const Surroundings& s) {
+  return prepare_environment(s.environment, s.environment_is_cube, s.environment_is_encoded, Variant::corrected);
+}
+
 using Direction = std::array<double, 3>;
 
 Vec3<Double> vec(const Direction& d) { return Vec3<Double>(Double(d[0]), Double(d[1]), Double(d[2])); }
@@ -58,7 +62,7 @@ TextureData paint(int width, int height, bool is_cube) {
       s.environment.row<float>(y)[4 * x] = static_cast<float>(radiance(d));
     }
   }
-  return prepare_environment(s, Variant::corrected);
+  return prepared(s);
 }
 double look(const TextureData& t, bool is_cube, const Direction& d) {
   return scalar::sample_environment(t.view(), is_cube, vec(d), Double(0.0f)).x.v;
@@ -92,15 +96,14 @@ TEST(PuddleEnvironment, FacesInARowAreTheSameCube) {
       }
     }
   }
-  TextureData a = prepare_environment(column, Variant::corrected), b = prepare_environment(row, Variant::corrected);
+  TextureData a = prepared(column), b = prepared(row);
   ASSERT_EQ(b.view().width[0], side);
   ASSERT_EQ(b.view().height[0], 6 * side);
   EXPECT_EQ(std::vector<float>(a.texels(), a.texels() + 96), std::vector<float>(b.texels(), b.texels() + 96));
   Surroundings wrong;
   wrong.environment_is_cube = true;
   wrong.environment = Image(Format::rgba32f, 8, 4);
-  EXPECT_EQ(error_of([&] { prepare_environment(wrong, Variant::corrected); }),
-            "2 environment.image: a cube needs six square faces in a row or a column, found 8x4");
+  EXPECT_EQ(error_of([&] { prepared(wrong); }), "2 environment.image: a cube needs six square faces in a row or a column, found 8x4");
 }
 
 TEST(PuddleEnvironment, RotationTurnsTheLookupAboutTheVertical) {
@@ -156,7 +159,7 @@ TEST(PuddleEnvironment, AmbientRadianceIsTheCosineMeanOfTheUpperHalf) {
         s.environment.row<float>(y)[4 * x] = static_cast<float>(0.5 + 0.3 * d[1]);
       }
     }
-    return prepare_environment(s, Variant::corrected);
+    return prepared(s);
   };
   EXPECT_NEAR(ambient_radiance(paint_linear(128, 64, false).view(), false)[0], 0.7, 5e-4);
   EXPECT_NEAR(ambient_radiance(paint_linear(64, 384, true).view(), true)[0], 0.7, 5e-4);

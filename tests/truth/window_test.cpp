@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "image/images.h"
 #include "truth/rainy_glass_view.h"
@@ -237,7 +238,7 @@ TEST(TracedGlass, WhatStandsBeforeTheGlassIsSeenAsItIs) {
   int bars = 0;
   for (int y = 0; y < c.s.height; ++y) {
     for (int x = 0; x < c.s.width; ++x) {
-      if (c.around.depth.row<float>(y)[x] > c.glass->surface().row<float>(y)[4 * x + 2]) continue;
+      if (std::as_const(c.around.depth).row<float>(y)[x] > c.glass->surface().row<float>(y)[4 * x + 2]) continue;
       ++bars;
       for (int k = 0; k < 3; ++k)
         ASSERT_EQ(to_float(traced.beauty.row<Half>(y)[4 * x + k]), to_float(c.glass->colour().row<Half>(y)[4 * x + k]));

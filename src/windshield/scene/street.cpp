@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "cache/prepared.h"
 #include "image/half_image.h"
 #include "parallel/rows.h"
 
@@ -14,6 +16,17 @@ using View = scene::Scenery::View;
 using Parts = scene::Scenery::Parts;
 
 constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
+
+struct Work {
+  const scene::Scenery& street;
+  const parallel::Executor& executor;
+};
+Keyframe view_of(const Work& by, const std::string&, const scene::Camera& camera, const int& width, const int& height, const Parts& parts) {
+  View view = by.street.view(camera, width, height, street_far, by.executor, parts);
+  Keyframe made{as_half(view.colour, parallel::rows_of(by.executor)), std::move(view.depth)};
+  for (Image* image : {&made.colour, &made.depth}) image->share();
+  return made;
+}
 
 }  // namespace
 
@@ -66,20 +79,25 @@ struct StreetDrive::State {
     return whole * keyframes_in_spacing + std::min(static_cast<int>((distance - whole * spacing) / apart()), keyframes_in_spacing - 1);
   }
   Vector3 place(int k) const { return place_in_street(first, way(k)); }
-  View render(int k, Parts parts) const {
+  /// The camera at keyframe k.
+  scene::Camera camera_at(int k) const {
     const Vector3 start = place(k);
     scene::Camera c = camera;
     c.position = start + in_street(camera.position);
     c.target = start + in_street(camera.target);
     c.up = in_street(camera.up);
-    return street->view(c, width, height, street_far, executor, parts);
+    return c;
+  }
+  Keyframe render(int k, Parts parts) const {
+    const auto made =
+        cache::prepared("windshield view", Work{*street, executor}, view_of, street->identity(), camera_at(k), width, height, parts);
+    return {made->colour.shared(), made->depth.shared()};
   }
   const Keyframe& keyframe(int k) {
     const auto found = keyframes.find(k);
     if (found != keyframes.end()) return found->second;
     // A car at rest may look at its first view for long; those of one that moves pass, two blended.
-    View v = render(k, at_rest && k == 0 ? Parts::nine : Parts::three);
-    return keyframes.emplace(k, Keyframe{as_half(v.colour, parallel::rows_of(executor)), std::move(v.depth)}).first->second;
+    return keyframes.emplace(k, render(k, at_rest && k == 0 ? Parts::nine : Parts::three)).first->second;
   }
 };
 
@@ -94,8 +112,8 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   State& s = *state_;
   if (!moves) {
     if (s.stands) return false;
-    View v = s.render(0, Parts::nine);
-    view.colour = as_half(v.colour, parallel::rows_of(s.executor));
+    Keyframe v = s.render(0, Parts::nine);
+    view.colour = std::move(v.colour);
     view.depth = std::move(v.depth);
     s.stands = true;
     return true;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "cache/prepared.h"
 #include "image/stored_texture.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
@@ -67,6 +68,7 @@ struct ReprojectUniforms {
 struct Keyframe {
   Image colour;  ///< rgba16f
   Image depth;   ///< r32f
+  std::size_t bytes() const { return cache::bytes_of(colour) + cache::bytes_of(depth); }
 };
 /// Rows of the view between two keyframes.
 void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view,
