@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/floating_point.h"
+#include "cache/prepared.h"
 #include "image/flipped.h"
 #include "image_io/write.h"
 #include "night_street/night_street.h"
@@ -20,7 +21,13 @@ namespace {
 /// Memory is refused before anything is made.
 const effect::Effect& fitting(const scene::Config& config) {
   const FloatingPointGuard guard;
-  require_memory(memory_of(config));
+  const effect::RunMemory memory = memory_of(config);
+  try {
+    require_memory(memory);
+  } catch (const Error&) {  // what is remembered of other scenes is in no scene's way
+    cache::forget();
+    require_memory(memory);
+  }
   return *registry::find(config.effect());
 }
 
