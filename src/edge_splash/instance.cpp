@@ -103,6 +103,28 @@ std::vector<image_io::Layer> Instance::layers() const {
 }
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), exposure_}; }
 
-effect::Effect entry() { return {"edge_splash", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
+effect::Effect entry() {
+  const std::vector<std::string> camera{"run.size",      "run.supersample", "camera.position",
+                                        "camera.target", "camera.up",       "camera.vertical_fov_deg"};
+  const std::vector<std::string> seen = effect::joined(camera, {"seed", "scene.source", "scene.image"});
+  const std::vector<std::string> depth =
+      effect::joined(seen, {"scene.depth_image", "scene.depth_encoding", "scene.depth_scale", "scene.near", "scene.far"});
+  return {"edge_splash",
+          {"as-published", "corrected"},
+          parameters(),
+          &effect_info(),
+          memory_of,
+          open_scene,
+          {{"street", {"seed", "scene.source"}},
+           {"night_street view", effect::joined(camera, {"seed", "scene.source", "scene.far"})},
+           {"edge_splash shapes", effect::joined(camera, {"scene.source", "scene.far"})},
+           {"picture", {"scene.image", "scene.depth_image", "scene.layer_image", "scene.noise_image"}},
+           {"depth picture", {"scene.image", "scene.depth_image", "scene.depth_encoding", "scene.depth_scale", "scene.far"}},
+           {"edge_splash clipped depth", effect::joined(camera, {"seed", "scene.source", "scene.near", "scene.far"})},
+           {"edge_splash scene", seen},
+           {"edge_splash depth", effect::joined(depth, {"scene.reversed_depth"})},
+           {"edge_splash layer", effect::joined(seen, {"scene.layer_image"})},
+           {"edge_splash noise", {"seed", "scene.noise_image", "edge_splash.splashes"}}}};
+}
 
 }  // namespace rainref::edge_splash

@@ -15,6 +15,17 @@
 
 namespace rainref::effect {
 
+/// A thing that a scene prepares, remembered by what it reads (cache/prepared.h).
+struct Prepared {
+  std::string name;               ///< of its maker
+  std::vector<std::string> keys;  ///< of which another value makes it again
+};
+/// Keys, and more of them.
+inline std::vector<std::string> joined(std::vector<std::string> keys, const std::vector<std::string>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
 struct Effect {
   std::string name;
   std::vector<std::string> variants;
@@ -24,6 +35,8 @@ struct Effect {
   RunMemory (*memory)(const scene::Config& config);
   /// Reads the scene's input files, which are added to `inputs`, and builds the effect. Throws Error naming key, expected and found.
   std::unique_ptr<Instance> (*open)(const scene::Config& config, const parallel::Executor& executor, Inputs& inputs);
+  /// What it prepares.
+  std::vector<Prepared> prepared = {};
 };
 
 }  // namespace rainref::effect

@@ -109,6 +109,26 @@ std::optional<effect::Display> Instance::display() const {
                          corrected ? effect::Display::Code::srgb : effect::Display::Code::power};
 }
 
-effect::Effect entry() { return {"puddle", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
+effect::Effect entry() {
+  // What the street is seen with where environment.width is 0.
+  const std::vector<std::string> panorama{"environment.width", "puddle.env_rotation", "run.size",
+                                          "run.supersample",   "camera.position",     "camera.vertical_fov_deg"};
+  const std::vector<std::string> depths{
+      "seed", "puddle.shape", "puddle.grid", "puddle.cell_size", "puddle.puddle_depth", "puddle.bed_columns"};
+  return {"puddle",
+          {"as-published", "corrected"},
+          parameters(),
+          &effect_info(),
+          memory_of,
+          open_scene,
+          {{"night_street panorama", panorama},
+           {"picture", {"environment.image", "puddle.ground_image", "rain.shelter_image"}},
+           {"puddle sky", effect::joined(panorama, {"environment.image", "environment.layout"})},
+           {"puddle asphalt", {"seed", "puddle.use_checkerboard"}},
+           {"puddle ground", {"seed", "puddle.ground_image", "puddle.use_checkerboard"}},
+           {"puddle depths", depths},
+           {"puddle bed", effect::joined(depths, {"puddle.shore_width"})},
+           {"puddle display", {"puddle.rounding"}}}};
+}
 
 }  // namespace rainref::puddle

@@ -116,6 +116,47 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
                              });
 }
 
-effect::Effect entry() { return {"rainy_glass", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
+effect::Effect entry() {
+  const std::vector<std::string> camera{"run.size",      "run.supersample", "camera.position",
+                                        "camera.target", "camera.up",       "camera.vertical_fov_deg"};
+  const std::vector<std::string> pane = effect::joined(camera, {"glass.shape", "glass.distance", "glass.yaw", "glass.radius"});
+  const std::vector<std::string> behind{"seed", "scene.panorama", "scene.bar_spacing", "scene.bar_width"};
+  const std::vector<std::string> barred = effect::joined(effect::joined(camera, {"glass.shape", "glass.distance", "glass.yaw"}), behind);
+  const std::vector<std::string> droplets{"seed", "maps.size", "maps.droplets", "maps.largest_droplet", "maps.smallest_droplet"};
+  const std::vector<std::string> trails{"seed", "maps.trails", "maps.trail_half_width"};
+  const std::vector<std::string> stored{"maps.storage", "maps.rounding", "maps.contact_angle"};
+  const std::vector<std::string> raindrops = effect::joined(droplets, stored);
+  const std::vector<std::string> rivulets =
+      effect::joined(effect::joined(trails, stored), {"maps.size", "maps.flow_cells", "maps.flow_gain"});
+  return {"rainy_glass",
+          {"as-published", "corrected"},
+          parameters(),
+          &effect_info(),
+          memory_of,
+          open_scene,
+          {{"street", {"seed"}},
+           {"night_street view", effect::joined(camera, {"seed"})},
+           {"night_street panorama", {"seed", "glass.background", "camera.position"}},
+           {"picture",
+            {"scene.image", "scene.depth_image", "scene.panorama", "glass.normal_image", "glass.probe_image", "maps.raindrops_image",
+             "maps.rivulets_image"}},
+           {"linear picture", {"scene.image", "scene.panorama", "glass.probe_image"}},
+           {"depth picture", {"scene.image", "scene.depth_image", "scene.depth_scale"}},
+           {"panorama view", effect::joined(camera, {"scene.panorama"})},
+           {"rainy_glass street", effect::joined(camera, {"seed", "scene.defocus"})},
+           {"rainy_glass panorama", effect::joined(camera, {"scene.panorama", "scene.defocus"})},
+           {"rainy_glass bars", effect::joined(effect::joined(pane, behind), {"scene.defocus"})},
+           {"rainy_glass scene", effect::joined(barred, {"scene.image", "scene.defocus"})},
+           {"rainy_glass near depth", effect::joined(barred, {"scene.depth_image", "scene.depth_scale"})},
+           {"rainy_glass probe", {"seed", "glass.background", "glass.probe_image", "camera.position", "scene.panorama"}},
+           {"rainy_glass surface", effect::joined(pane, {"glass.normal_image"})},
+           {"rainy_glass droplets", droplets},
+           {"rainy_glass trails", trails},
+           {"rainy_glass lattice", {"seed", "maps.flow_cells"}},
+           {"rainy_glass raindrops", raindrops},
+           {"rainy_glass raindrops decoded", effect::joined(raindrops, {"maps.raindrops_image"})},
+           {"rainy_glass rivulets", rivulets},
+           {"rainy_glass rivulets decoded", effect::joined(rivulets, {"maps.rivulets_image"})}}};
+}
 
 }  // namespace rainref::rainy_glass

@@ -114,6 +114,47 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
   });
 }
 
-effect::Effect entry() { return {"screen_drops", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
+effect::Effect entry() {
+  const std::vector<std::string> camera{"run.size",  "run.supersample",         "camera.position", "camera.target",
+                                        "camera.up", "camera.vertical_fov_deg", "scene.margin"};
+  const std::vector<std::string> seen = effect::joined(camera, {"seed", "scene.image", "scene.panorama"});
+  return {"screen_drops",
+          {"as-published", "corrected"},
+          parameters(),
+          &effect_info(),
+          memory_of,
+          open_scene,
+          {{"street", {"seed"}},
+           {"night_street view", effect::joined(camera, {"seed"})},
+           {"picture", {"scene.image", "scene.panorama", "noise.image"}},
+           {"linear picture", {"scene.image", "scene.panorama"}},
+           {"panorama view", effect::joined(camera, {"scene.panorama"})},
+           {"screen_drops levels", seen},
+           {"screen_drops background", effect::joined(seen, {"background.level", "background.defocus", "drops.rounding"})},
+           {"screen_drops noise", {"seed", "noise.size", "noise.image"}},
+           {"screen_drops warm-up",
+            {"seed",
+             "run.fps",
+             "run.size",
+             "rain.rate",
+             "rain.smallest_drop",
+             "rain.wind",
+             "world.gravity",
+             "glass.height",
+             "flow.on",
+             "flow.advancing_angle",
+             "flow.capacity",
+             "flow.film_drying",
+             "flow.height_size",
+             "flow.humidity",
+             "flow.lifetime",
+             "flow.margin",
+             "flow.mobility",
+             "flow.neck_time",
+             "flow.receding_angle",
+             "flow.substeps",
+             "flow.trail_thickness",
+             "flow.warm_up"}}}};
+}
 
 }  // namespace rainref::screen_drops

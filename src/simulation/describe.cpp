@@ -1,5 +1,7 @@
 #include "simulation/describe.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "registry/registry.h"
@@ -14,6 +16,13 @@ std::string describe_json(const std::string& name) {
   const effect::Effect& e = *registry::find(declared.name);
   const std::vector<scene::Parameter> parameters = scene::scene_parameters(declared, table);
   nlohmann::ordered_json out{{"effect", e.name}, {"variants", e.variants}, {"parameters", scene::parameters_json(parameters)}};
+  for (nlohmann::ordered_json& parameter : out["parameters"]) {
+    const std::string key = parameter["name"];
+    parameter["makes"] = nlohmann::ordered_json::array();
+    for (const effect::Prepared& thing : e.prepared)
+      if (key == "effect" || key == "variant" || std::ranges::find(thing.keys, key) != thing.keys.end())
+        parameter["makes"].push_back(thing.name);
+  }
   out["passes"] = nlohmann::ordered_json::array();
   for (const capture::PassInfo& p : e.info->passes) {
     std::vector<std::string> variants;

@@ -119,6 +119,21 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
   });
 }
 
-effect::Effect entry() { return {"windshield", {"as-published", "corrected"}, parameters(), &effect_info(), memory_of, open_scene}; }
+effect::Effect entry() {
+  const std::vector<std::string> view{"seed",        "scene.clear_lane", "scene.size",    "scene.margin",           "scene.start",
+                                      "scene.moves", "camera.position",  "camera.target", "camera.vertical_fov_deg"};
+  return {"windshield",
+          {"as-published", "corrected"},
+          parameters(),
+          &effect_info(),
+          memory_of,
+          open_scene,
+          {{"street", {"seed", "scene.clear_lane"}},
+           {"night_street view", view},
+           {"windshield view", effect::joined(view, {"scene.keyframes"})},
+           {"picture", {"scene.image", "scene.depth_image", "sequence.first"}},
+           {"linear picture", {"scene.image"}},
+           {"depth picture", {"scene.depth_image", "scene.depth_scale", "scene.image"}}}};
+}
 
 }  // namespace rainref::windshield
