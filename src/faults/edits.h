@@ -84,8 +84,6 @@ std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::in
 std::vector<JointEdit> turned_edits_of(const Probe& p);
 /// Of values blended over each other: the order reversed, or the last two exchanged.
 std::vector<JointEdit> blend_edits_of(const Probe& p);
-/// A factor or a term that stands farther out or farther in than it should. `vectors`: of which it may be a factor.
-std::vector<JointEdit> moved_edits_of(const Probe& p, const std::vector<std::vector<std::int32_t>>& vectors);
 /// Of the components of a vector.
 std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& vector);
 

@@ -260,22 +260,6 @@ TEST(EditFaults, AClampTooManyOrLeftOut) {
   EXPECT_THAT(found(clamped, [](const Numbers& in) { return Numbers{(in[3] - 1) * 3 * in[0]}; }, {0, 1, 3}),
               testing::Contains(StartsWith("clamp left out: ")));
 }
-// w before a root, of which the port multiplies the result; and of a vector.
-TEST(EditFaults, AFactorIsMovedOutward) {
-  const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{sqrt(load(in[0]) * load(in[3])) + load(in[1])}; };
-  EXPECT_THAT(found(right, [](const Numbers& in) { return Numbers{(std::sqrt(in[0]) + in[1]) * in[3]}; }, {}),
-              testing::Contains(StartsWith("moved outward: in.w")));
-  const Pass vector = [](const Numbers& in) {
-    const Perturbed light = Perturbed(3.0f) * load(in[3]);
-    const auto of = [&](float x) { return sqrt(light * load(x)) + Perturbed(0.5f); };
-    return std::vector<Perturbed>{of(in[0]), of(in[1]), of(in[2])};
-  };
-  const auto port = [](const Numbers& in) {
-    const auto of = [&](float x) { return (std::sqrt(3 * x) + 0.5f) * in[3]; };
-    return Numbers{of(in[0]), of(in[1]), of(in[2])};
-  };
-  EXPECT_THAT(found(vector, port, {0.5f, 3}), testing::Contains(StartsWith("moved outward: in.w")));
-}
 // (c x - s y, c y + s x), which the port turns the other way; nothing of it is a number.
 TEST(EditFaults, ARotationByValuesIsTurnedTheOtherWay) {
   const Pass right = [](const Numbers& in) {
@@ -347,14 +331,6 @@ TEST(PlaceFaults, ALiteralIsLeftOutInBothComponents) {
     if (std::abs(given(right, in, d)[0] - in[0] * 3 * in[1]) <= 1e-6f) names.push_back(name_of(d));
   }
   EXPECT_THAT(names, testing::Contains("term left out: 1, in both components"));
-}
-// min(x + y, 1.5) z, of which the port has min(x z + y, 1.5): what multiplies all that is held multiplies one term alone.
-TEST(EditFaults, AFactorIsMovedInward) {
-  const Pass right = [](const Numbers& in) {
-    return std::vector<Perturbed>{min(load(in[0]) + load(in[1]), Perturbed(1.5f)) * load(in[2])};
-  };
-  EXPECT_THAT(found(right, [](const Numbers& in) { return Numbers{std::min(in[0] * in[2] + in[1], 1.5f)}; }, {1.5f}),
-              testing::Contains(AllOf(StartsWith("moved inward: in.z"), HasSubstr("in.x"))));
 }
 // G f with f projected on two vectors, in three calls, of which the port projects on unit vectors: each call has its own projections.
 TEST(EditFaults, AMatrixIsLeftOutForUnitVectorsInEachCall) {
