@@ -165,7 +165,6 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
       for (const Edit& e : value_curve_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
     for (const Nodes& v : lookups_of(p))
       for (const Edit& e : value_curve_edits_of(p, v)) add(p, v, -1, e);
-    for (const JointEdit& e : turned_edits_of(p)) add(p, e.nodes, -1, e.edit);
     for (const JointEdit& e : blend_edits_of(p)) add(p, e.nodes, -1, e.edit);
     // A filter that is taken along rows and then along columns has the same weights in both.
     std::map<std::string, std::pair<Nodes, std::vector<Edit>>> filters;

@@ -80,8 +80,6 @@ std::vector<JointEdit> branch_edits_of(const Probe& p);
 std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node);
 /// Of one value or the components of a vector: a curve that is applied to it, or another one in place of its own.
 std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::int32_t>& values);
-/// Of two sums of products beside each other: their second terms with the other sign.
-std::vector<JointEdit> turned_edits_of(const Probe& p);
 /// Of values blended over each other: the order reversed, or the last two exchanged.
 std::vector<JointEdit> blend_edits_of(const Probe& p);
 /// Of the components of a vector.

@@ -260,19 +260,6 @@ TEST(EditFaults, AClampTooManyOrLeftOut) {
   EXPECT_THAT(found(clamped, [](const Numbers& in) { return Numbers{(in[3] - 1) * 3 * in[0]}; }, {0, 1, 3}),
               testing::Contains(StartsWith("clamp left out: ")));
 }
-// (c x - s y, c y + s x), which the port turns the other way; nothing of it is a number.
-TEST(EditFaults, ARotationByValuesIsTurnedTheOtherWay) {
-  const Pass right = [](const Numbers& in) {
-    const Perturbed x = load(in[0]), y = load(in[1]), c = load(in[2]), s = load(in[3]);
-    return std::vector<Perturbed>{c * x - s * y, c * y + s * x};
-  };
-  EXPECT_THAT(found(right,
-                    [](const Numbers& in) {
-                      return Numbers{in[2] * in[0] + in[3] * in[1], in[2] * in[1] - in[3] * in[0]};
-                    },
-                    {}),
-              testing::Contains(StartsWith("turned the other way: ")));
-}
 // Fog over light over a picture, which the port blends in the other order.
 TEST(EditFaults, BlendsInTheOtherOrder) {
   const auto blend = [](float a, float b, float t) { return a * (1 - t) + b * t; };
