@@ -323,12 +323,6 @@ class Edits {
 
 }  // namespace
 
-std::vector<Edit> rarer_edits_of(const Probe& p, std::int32_t node) {
-  std::vector<Edit> out;
-  for (const auto of : {member_edits_of, unit_edits_of, condition_edits_of})
-    for (Edit& e : of(p, node)) out.push_back(std::move(e));
-  return out;
-}
 std::vector<Edit> edits_of(const Probe& p, std::int32_t node) {
   std::vector<Edit> out;
   Edits(p, node, out).run();

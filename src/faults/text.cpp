@@ -177,11 +177,6 @@ const char* verb_of(Op op) {
          : op == Op::difference ? "is taken from"
                                 : "bounds";
 }
-std::string condition_text(const Probe& p, std::int32_t node) {
-  const Node& n = node_of(p, node);
-  if (n.op == Op::choice) return fmt::format("the condition of {}", words_for(p, node));
-  return fmt::format("{} < {}", words_for(p, n.of[0]), words_for(p, n.of[1]));
-}
 std::string offset_text(int dx, int dy) { return dx == 0 && dy == 0 ? "the texel itself" : fmt::format("({}, {})", dx, dy); }
 
 int gaps(const std::string& text) {
@@ -218,19 +213,6 @@ std::string image_of_channel(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   return dot + 2 == name.size() ? name.substr(0, dot) : std::string();
 }
-std::optional<MemberName> member_of(const std::string& name) {
-  const bool is_any_number = name.empty() || name.find_first_not_of("0123456789.-e+") == npos;
-  if (is_any_number || name.find_first_of("(/") != npos || name.starts_with("-") || name == "row" || name == "column") return {};
-  const std::size_t dot = name.find('.');
-  if (dot == npos) return MemberName{name, ' '};
-  if (dot + 1 >= name.size()) return {};
-  return MemberName{name.substr(0, dot) + name.substr(dot + 2), name[dot + 1]};
-}
-std::string list_of(const std::string& member) {
-  const std::size_t of = member.find(" of ");
-  return of == npos ? "" : member.substr(of);
-}
-
 std::string with_columns(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {

@@ -177,45 +177,6 @@ TEST(EditFaults, AValueOfAfter) {
   };
   EXPECT_THAT(first(right, port, {64}), StartsWith("value of after: in.x - in.z for in.x"));
 }
-// Three constants of a hash, of which the port has the first for all three.
-TEST(EditFaults, OneConstantForAllComponents) {
-  const Pass right = [](const Numbers& in) {
-    const Perturbed a = fract(load(in[0]) * Perturbed(3.1f)), b = fract(load(in[1]) * Perturbed(3.7f)),
-                    c = fract(load(in[2]) * Perturbed(2.3f));
-    return std::vector<Perturbed>{a + b + c};
-  };
-  const auto part = [](float v) { return v - std::floor(v); };
-  EXPECT_THAT(found(right, [&](const Numbers& in) { return Numbers{part(in[0] * 3.1f) + part(in[1] * 3.1f) + part(in[2] * 3.1f)}; },
-                    {2.3f, 3.1f, 3.7f}),
-              testing::Contains(StartsWith("one constant for all: 3.1 for")));
-  EXPECT_THAT(found(right, [&](const Numbers& in) { return Numbers{part(in[0] * 3.7f) + part(in[1] * 3.1f) + part(in[2] * 2.3f)}; },
-                    {2.3f, 3.1f, 3.7f}),
-              testing::Contains(StartsWith("constants exchanged: ")));
-}
-// 2 pi x as an angle and as a factor, each of which the port leaves out.
-TEST(EditFaults, AFactor2PiIsLeftOut) {
-  const Pass right = [](const Numbers& in) {
-    const Perturbed turns = load(in[0]) * Perturbed(3.0f);
-    return std::vector<Perturbed>{sin(Perturbed(6.2831855f) * turns) + Perturbed(18.849556f) * load(in[1])};
-  };
-  EXPECT_THAT(
-      found(right, [](const Numbers& in) { return Numbers{std::sin(6.2831855f * in[0] * 3) + 3 * in[1]}; }, {3, 6.2831855f, 18.849556f}),
-      testing::Contains(StartsWith("factor 2 pi left out: ")));
-}
-// A choice by x < y whose port asks z < w as well.
-TEST(EditFaults, AConditionTooMany) {
-  const Pass right = [](const Numbers& in) {
-    const bool other = load(in[0]) < load(in[2]);
-    const Perturbed unused = select(other, load(in[0]), load(in[1]));
-    return std::vector<Perturbed>{select(load(in[2]) < load(in[3]), Perturbed(1.0f), Perturbed(0.0f)), unused};
-  };
-  EXPECT_THAT(found(right,
-                    [](const Numbers& in) {
-                      return Numbers{in[2] < in[3] && in[0] < in[2] ? 1.0f : 0.0f, in[0] < in[2] ? in[0] : in[1]};
-                    },
-                    {0, 1}),
-              testing::Contains(StartsWith("condition too many: ")));
-}
 // A function of the text that is called with a sum and with a root: both calls have lost the floor.
 TEST(EditFaults, AFunctionThatIsCalledTwiceIsWrongInBothCalls) {
   const auto rounded = [](const Perturbed& x) { return floor(x * Perturbed(3.0f) + Perturbed(0.5f)); };
