@@ -52,8 +52,6 @@ void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
 /// which functions are called with other arguments.
 void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most,
                      bool copies, const std::vector<Probe>& all);
-/// The components of a vector taken for those of another, at each place of the probe where they stand.
-void add_vector_substitutions(std::vector<Fault>& out, const Probe& probe, const std::vector<float>& known, std::size_t most);
 struct Solvable;
 /// What explains all of a few texels. An operand, a result or the components of a vector are first solved for: the numbers that they
 /// would need to be for what the port stored, if any; then what can be made of the values of the invocation, of uniforms and of small

@@ -81,9 +81,4 @@ float number_of(const Probe& p, const Source& s, std::size_t c);
 void take(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
 void take_second(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
 
-/// What is wrong when a source stands at a target.
-What said(const Probe& p, const Target& t, const Source& s, perturbed::Put how, perturbed::Change change);
-/// Where it stands: "for damping" of a result, "in damping * x" of an operand.
-std::string place_text(const Probe& p, const Target& t);
-
 }  // namespace rainref::faults

@@ -133,9 +133,6 @@ std::string text_of(const Probe& p, const Expression& e) {
     if (std::string text = text_so_deep(p, e, depth); text.size() <= 80) return text;
   return text_so_deep(p, e, 1).substr(0, 80);
 }
-std::string place_text(const Probe& p, const Target& t) {
-  return t.operand < 0 ? "for " + words_for(p, t.value_at(p, 0)) : "in " + words_for(p, t.nodes[0]);
-}
 std::string closed(const std::string& text) { return text.find(' ') != npos ? fmt::format("({})", text) : text; }
 std::string changed_text(Change change, const std::string& text) {
   const std::string one = closed(text);
@@ -149,8 +146,6 @@ std::string changed_text(Change change, const std::string& text) {
          : change == Change::inverted ? "1 / " + one
          : change == Change::doubled  ? "2 * " + one
          : change == Change::halved   ? "0.5 * " + one
-         : change == Change::as_half  ? one + " in half precision"
-         : change == Change::as_code  ? one + " in 8 bits"
          : change == Change::cubed    ? one + " cubed"
          : change == Change::smoothed ? "the cubic smoothstep of " + one
                                       : text;
@@ -187,7 +182,6 @@ int gaps(const std::string& text) {
 bool says_nothing(const std::string& text) { return text.find_first_not_of(signs_alone) == npos; }
 bool has_brackets(const std::string& text) { return text.find('(') != npos; }
 bool offers_choice(const std::string& text) { return text.find(" or ") != npos; }
-bool is_quotient(const std::string& text) { return text.find(" / ") != npos; }
 bool has_fraction(const std::string& text) { return text.find("- floor(") != npos; }
 bool names_component_before_gap(const std::string& text) { return text.find("...") != npos && text.find('.') != text.find("..."); }
 std::string first_name(const std::string& text) { return text.substr(0, text.find_first_of(".,")); }

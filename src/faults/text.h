@@ -34,7 +34,6 @@ int gaps(const std::string& text);
 bool says_nothing(const std::string& text);
 bool has_brackets(const std::string& text);
 bool offers_choice(const std::string& text);
-bool is_quotient(const std::string& text);
 /// Whether it has a fraction: x - floor(x).
 bool has_fraction(const std::string& text);
 /// Whether the component of a vector stands before the first of its gaps.

@@ -7,7 +7,6 @@
 #include "math/half.h"
 #include "math/perturbed.h"
 #include "math/rewrites.h"
-#include "math/unorm.h"
 
 namespace rainref::perturbed {
 namespace {
@@ -231,8 +230,6 @@ float changed(float v, Change change) {
       return v > 0 ? v < 1 ? v : 1 : 0;
     case Change::as_half:
       return to_float(to_half(v));
-    case Change::as_code:
-      return to_float(to_unorm8(v));
     case Change::cubed:
       return v * v * v;
     case Change::smoothed:
@@ -252,10 +249,6 @@ float put(float right, float value, Put how) {
       return right + value;
     case Put::minus:
       return right - value;
-    case Put::from:
-      return value - right;
-    case Put::over:
-      return right != 0 ? value / right : right;
     case Put::larger:
       return right < value ? value : right;
     case Put::smaller:

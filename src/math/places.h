@@ -115,12 +115,11 @@ enum class Change : std::uint8_t {
   fraction,
   saturated,
   as_half,  ///< rounded to binary16
-  as_code,  ///< rounded to 8 bits
   cubed,
   smoothed  ///< x x (3 - 2 x)
 };
 /// How it is put there.
-enum class Put : std::uint8_t { instead, times, divided_by, plus, minus, from, over, larger, smaller };
+enum class Put : std::uint8_t { instead, times, divided_by, plus, minus, larger, smaller };
 
 float changed(float value, Change change);
 float put(float right, float value, Put how);

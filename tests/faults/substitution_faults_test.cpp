@@ -1,4 +1,4 @@
-// Wrong variables, vectors wrong in all components, and numbers typed wrong: mistakes in passes written by hand, none of them in a set.
+// Wrong variables and numbers typed wrong: mistakes in passes written by hand, none of them in a set.
 #include "faults/generators.h"
 
 #include <algorithm>

@@ -10,7 +10,6 @@
 
 #include "faults/generators.h"
 #include "faults/solver.h"
-#include "math/half.h"
 
 namespace rainref::faults {
 namespace {
@@ -21,7 +20,6 @@ using perturbed::Perturbed;
 using perturbed::Put;
 using perturbed::Substitution;
 using testing::HasSubstr;
-using testing::StartsWith;
 
 using Numbers = std::vector<float>;
 /// A pass of one invocation: what it gives for what it loads.
@@ -141,27 +139,9 @@ TEST(Synthesis, AResultThatIsUsedTwice) {
     return std::vector<Perturbed>{r * r + w * r, y};
   };
   const auto port = [](const Numbers& in) {
-    const float r = in[0] * 3 / in[1];
-    return Numbers{r * r + in[3] * r, in[1]};
+    return Numbers{in[1] * in[1] + in[3] * in[1], in[1]};
   };
-  EXPECT_THAT(MadeUp(right, port, {3}).first(), testing::AnyOf(StartsWith("wrong value"), StartsWith("factor too many: 1 / in.y")));
-}
-// Of a sum over a loop each term's place is rounded to half precision: no single number is wrong.
-TEST(Synthesis, HalfPrecisionInALoop) {
-  const Pass right = [](const Numbers& in) {
-    Perturbed sum(0.0f);
-    for (std::size_t k = 0; k < 4; ++k) sum = sum + square(load(in[k]) * Perturbed(3.0f));
-    return std::vector<Perturbed>{sum, sum * Perturbed(7.0f)};
-  };
-  const auto port = [](const Numbers& in) {
-    float sum = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const float place = to_float(to_half(in[k] * 3));
-      sum += place * place;
-    }
-    return Numbers{sum, sum * 7};
-  };
-  EXPECT_THAT(MadeUp(right, port, {0, 3, 7}).first(), HasSubstr("half precision"));
+  EXPECT_EQ(MadeUp(right, port, {3}).first(), "wrong value: in.y for in.x * 3");
 }
 // A product of two others where a sum is meant: neither is an operand there.
 TEST(Synthesis, TwoValuesTogether) {
@@ -199,11 +179,8 @@ TEST(Changes, OfANumber) {
   EXPECT_EQ(perturbed::changed(-1.25f, Change::fraction), 0.75f);
   EXPECT_EQ(perturbed::changed(1.5f, Change::saturated), 1);
   EXPECT_EQ(perturbed::changed(1 + 0x1p-20f, Change::as_half), 1);
-  EXPECT_EQ(perturbed::changed(0.5f, Change::as_code), 128 / 255.0f);
   EXPECT_EQ(perturbed::changed(2, Change::cubed), 8);
   EXPECT_EQ(perturbed::changed(0.25f, Change::smoothed), 0.15625f);
-  EXPECT_EQ(perturbed::put(3, 5, Put::from), 2);
-  EXPECT_EQ(perturbed::put(2, 6, Put::over), 3);
   EXPECT_EQ(perturbed::put(3, 5, Put::larger), 5);
   EXPECT_EQ(perturbed::put(3, 5, Put::smaller), 3);
 }
