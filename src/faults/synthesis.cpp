@@ -65,8 +65,6 @@ class Search {
     other_taps();
     if (found_.empty()) slot_by_slot();
     if (found_.empty()) everywhere();
-    if (found_.empty())
-      for (const auto& [t, s] : solved) two_sources(t, s);
     for (const auto& [t, s] : solved) number(t, s);
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (std::size_t k = 0; k < std::min(found_.size(), most_found); ++k) out.push_back(std::move(found_[k].second));
@@ -269,42 +267,6 @@ class Search {
     while (node_of(first_, at).shape != node_of(first_, node).shape) ++at;
     return at;
   }
-
-  /// Of two sources that stand near: what is made of right by both.
-  void two_sources(const Target& t, const Solution& solution) {
-    std::vector<Substitution> places = t.places(first_);
-    const std::size_t n = t.nodes.size();
-    std::vector<Source> sources;
-    for (Source& s : sources_for(first_, t, groups_, {})) {
-      const bool is_before = !s.nodes.empty() && s.nodes[0] < t.nodes[0];
-      if (is_before && gaps(s.text) == 0 && sources.size() < 60) sources.push_back(std::move(s));
-    }
-    std::vector<float> now, numbers(n);
-    for (std::size_t c = 0; c < n; ++c) now.push_back(t.now(first_, c));
-    std::size_t verified = 0;
-    for (const Source& a : sources)
-      for (const Put how : {Put::instead, Put::times, Put::divided_by, Put::plus, Put::minus})
-        for (const Source& b : sources)
-          for (const Put then : {Put::times, Put::divided_by, Put::plus, Put::minus, Put::larger, Put::smaller}) {
-            if (&a == &b || verified >= most_verified_) continue;
-            for (std::size_t c = 0; c < n; ++c)
-              numbers[c] = perturbed::put(perturbed::put(now[c], number_of(first_, a, c), how), number_of(first_, b, c), then);
-            if (!solvers_[0].may_be(solution, numbers)) continue;
-            take(first_, a, t, places);
-            take_second(first_, b, t, places);
-            for (Substitution& place : places) place.change = Change::none, place.how = how, place.second.how = then;
-            ++verified;
-            if (!suits(places)) continue;
-            const std::string right = words_for(first_, t.value_at(first_, 0));
-            const std::string first = how == Put::instead ? a.text : fmt::format("({}) {} {}", right, sign(how), a.text);
-            const std::string wrong = then == Put::larger    ? fmt::format("max({}, {})", first, b.text)
-                                      : then == Put::smaller ? fmt::format("min({}, {})", first, b.text)
-                                                             : fmt::format("({}) {} {}", first, sign(then), b.text);
-            keep(8 + a.effort + b.effort + (how == Put::instead ? 0 : 3), places,
-                 {Kind::wrong_value, {t.operand < 0 ? "there" : "in " + words_for(first_, t.nodes[0]), wrong, right}});
-          }
-  }
-  static const char* sign(Put how) { return how == Put::times ? "*" : how == Put::divided_by ? "/" : how == Put::plus ? "+" : "-"; }
 
   /// A number in its place, or a factor or a term that is one, where the operand itself is none.
   void number(const Target& t, const Solution& solution) {

@@ -77,8 +77,7 @@ std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vect
                                 const std::vector<Source>& numbers);
 /// What a source gives for component c.
 float number_of(const Probe& p, const Source& s, std::size_t c);
-/// Puts a source into the places of a target, as first value or as second.
+/// Puts a source into the places of a target.
 void take(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
-void take_second(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
 
 }  // namespace rainref::faults

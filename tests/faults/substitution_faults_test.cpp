@@ -67,7 +67,7 @@ TEST(Substitutions, AnOperandIsAnotherValueOfTheInvocation) {
   EXPECT_EQ(substituted(sum, Op::sum, other(1, 1), 3), 6 + 3);
   EXPECT_EQ(substituted(sum, Op::sum, other(0, 1, Change::negated), 2), -2 + 5);
   EXPECT_EQ(substituted(sum, Op::sum, other(1, 1, Change::squared, Put::times), 2), 6 + 5 * 4);
-  EXPECT_EQ(substituted(sum, Op::sum, other(1, 1, Change::halved, Put::minus), 3), 6 + (5 - 1.5f));
+  EXPECT_EQ(substituted(sum, Op::sum, other(1, 1, Change::halved, Put::plus), 3), 6 + (5 + 1.5f));
   EXPECT_EQ(substituted(sum, Op::product, other(1, 1), 2), 2 * 2 + 5);
   EXPECT_EQ(substituted(sum, Op::product, other(1, 1), 5), 11) << "what comes later is not there yet";
 }
