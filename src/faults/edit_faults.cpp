@@ -107,12 +107,6 @@ class EditAdder {
   const std::size_t most_;
 };
 
-/// What a function of the text may have otherwise: in several places that only look alike anything else is rather a chance.
-bool is_of_function(Kind kind) {
-  return kind == Kind::another_curve || kind == Kind::length_by_sum || kind == Kind::length_by_longer || kind == Kind::held_for_wrapped ||
-         kind == Kind::wrapped_for_held || kind == Kind::ceiling_for_floor;
-}
-
 /// Adds what edits_at(node) gives of each place, from the results to what they are made of.
 template <class EditsAt>
 void each_place(EditAdder& add, const Probe& p, const EditsAt& edits_at) {
@@ -131,7 +125,7 @@ void each_place(EditAdder& add, const Probe& p, const EditsAt& edits_at) {
 }  // namespace
 
 void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most,
-                     bool copies, const std::vector<Probe>& all) {
+                     const std::vector<Probe>& all) {
   EditAdder add(out, known, most);
   for (const Probe& p : probes) {
     const std::vector<Nodes> vectors = vector_groups_of(p);
@@ -183,7 +177,7 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
         same.push_back(v);
     for (const Nodes& v : same) {
       for (const Edit& e : edits_of(p, v[0])) add(p, v, -1, e);
-      for (const Edit& e : exchanges_of(p, v[0], false)) add(p, v, -1, e);
+      for (const Edit& e : exchanges_of(p, v[0])) add(p, v, -1, e);
     }
     // What is put together otherwise, then parts in each other's place, of which there are most.
     each_place(add, p, [&](std::int32_t at) {
@@ -191,18 +185,18 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
       for (Edit& e : value_curve_edits_of(p, {at})) made.push_back(std::move(e));
       return made;
     });
-    each_place(add, p, [&](std::int32_t at) { return exchanges_of(p, at, copies); });
+    each_place(add, p, [&](std::int32_t at) { return exchanges_of(p, at); });
     // A function of the text that is called several times has an edit in each call.
     for (const SharedPlace& place : shared_places_of(all)) {
       if (add.is_full()) break;
       const Probe& of = all[place.probe];
-      // In the rounds of a loop it is no chance.
+      // In several places that only look alike anything but another curve is rather a chance; in the rounds of a loop it is none.
       const bool is_loop = place.depth == perturbed::by_sequence;
       std::vector<Edit> made = edits_of(of, place.node);
       if (is_loop)
         for (Edit& e : value_curve_edits_of(of, {place.node})) made.push_back(std::move(e));
       for (const Edit& e : made)
-        if (is_loop || is_of_function(e.what.kind)) add.shared(of, place, e);
+        if (is_loop || e.what.kind == Kind::another_curve) add.shared(of, place, e);
     }
   }
 }

@@ -55,8 +55,8 @@ struct Edit {
 };
 /// Of one place.
 std::vector<Edit> edits_of(const Probe& p, std::int32_t node);
-/// Of one place: parts in each other's place. `copies`: one in place of another, too.
-std::vector<Edit> exchanges_of(const Probe& p, std::int32_t node, bool copies);
+/// Of one place: parts in each other's place.
+std::vector<Edit> exchanges_of(const Probe& p, std::int32_t node);
 /// Of an operation that is a polynomial of one number: another curve of it. Empty where it is none.
 std::vector<Edit> curve_edits_of(const Probe& p, std::int32_t node);
 /// Of several places: one edit that belongs to all of them.

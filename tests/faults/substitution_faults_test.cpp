@@ -110,10 +110,6 @@ TEST(Solved, AWrongVariableIsNamed) {
   EXPECT_THAT(first_cause("wave_step", hand::wave_step_corrected, "velocity for the laplacian"),
               HasSubstr("wrong value: wave.x - wave.y for "));
 }
-TEST(Solved, AFactorTooManyIsNamed) {
-  EXPECT_THAT(first_cause("wave_step", hand::wave_step_corrected, "laplacian damped"),
-              HasSubstr("factor of another term: damping of courant_sq * "));
-}
 TEST(Fitted, ANumberTypedWrongIsToldAsTyped) {
   EXPECT_THAT(first_cause("display", hand::puddle_display, "1.505 for 1.055"), HasSubstr("about 1.505 in the port"));
 }
