@@ -1,5 +1,4 @@
 // What stands in place of a filter: a sum of values, each with a number as its weight.
-#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "math/places.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "math/formula.h"
 #include "math/half.h"
