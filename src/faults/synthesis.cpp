@@ -58,7 +58,7 @@ class Search {
       std::vector<float> now;
       for (std::size_t c = 0; c < t.nodes.size(); ++c) now.push_back(t.now(first_, c));
       for (Solution& s : solvers_[0].solutions(t.places(first_), now)) {
-        one_source(t, s);
+        other_values(t, s);
         solved.emplace_back(t, std::move(s));
       }
     }
@@ -87,7 +87,7 @@ class Search {
     found_.emplace_back(effort, std::move(d));
   }
 
-  void one_source(const Target& t, const Solution& solution) {
+  void other_values(const Target& t, const Solution& solution) {
     std::vector<Substitution> places = t.places(first_);
     const std::size_t n = t.nodes.size();
     const std::vector<std::int32_t> meant = t.values(first_);
@@ -143,7 +143,7 @@ class Search {
       Search search(*p_, alone, *known_);
       for (const Target& t : targets_of(first_))
         if (t.nodes.size() == 1)
-          for (const Solution& s : search.solvers_[0].solutions(t.places(first_), {t.now(first_, 0)})) search.one_source(t, s);
+          for (const Solution& s : search.solvers_[0].solutions(t.places(first_), {t.now(first_, 0)})) search.other_values(t, s);
       std::stable_sort(search.found_.begin(), search.found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
       constexpr std::size_t most = 80;
       if (search.found_.size() > most) search.found_.erase(search.found_.begin() + most, search.found_.end());
