@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <cstdlib>
-#include <numeric>
 
 #include <fmt/format.h>
 

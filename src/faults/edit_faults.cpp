@@ -42,11 +42,8 @@ class EditAdder {
   EditAdder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
       : out_(out), known_(std::make_shared<const std::vector<float>>(known)), most_(most) {}
   bool is_full() const { return made_ >= most_; }
-  /// For what is asked after all else: a tenth more.
-  void extend() { most_ += most_ / 10; }
 
-  /// `period`: of places of one shape, met again and again, each one that is so many on, from `occurrence`.
-  void operator()(const Probe& p, const Nodes& nodes, std::int32_t occurrence, const Edit& edit, std::int32_t period = 0) {
+  void operator()(const Probe& p, const Nodes& nodes, std::int32_t occurrence, const Edit& edit) {
     if (is_full() || nodes.size() > Rewrites().size()) return;
     auto formulas = std::make_shared<std::vector<Formula>>();
     bool is_seen = false;
@@ -54,8 +51,7 @@ class EditAdder {
       formulas->push_back(formula_of(edit.made[edit.made.size() == 1 ? 0 : c]));
       is_seen |= shows(p, nodes[c], formulas->back());
     }
-    std::string key = name_of(edit.what) + sentence_of(edit.what) + std::to_string(period);
-    if (!is_seen || !done_.insert({std::move(key), occurrence}).second) return;
+    if (!is_seen || !done_.insert({name_of(edit.what) + sentence_of(edit.what), occurrence}).second) return;
     ++made_;
     Rewrites all{};
     for (std::size_t c = 0; c < nodes.size(); ++c) {
@@ -69,7 +65,6 @@ class EditAdder {
       // Components that look alike are told apart by their order.
       const auto is_same = [&](std::int32_t other) { return node_of(p, other).shape == all[c].shape; };
       if (occurrence < 0 && std::count_if(nodes.begin(), nodes.end(), is_same) > 1) all[c].occurrence = node_of(p, nodes[c]).occurrence;
-      if (period > 0) all[c].occurrence = occurrence, all[c].period = period;
       all[c].formula = &(*formulas)[c];
     }
     Fault& d = out_.emplace_back(edit.what);
@@ -108,14 +103,9 @@ class EditAdder {
   std::vector<Fault>& out_;
   std::shared_ptr<const std::vector<float>> known_;
   std::set<std::pair<std::string, std::int32_t>> done_;
-  std::size_t made_ = 0, most_;
+  std::size_t made_ = 0;
+  const std::size_t most_;
 };
-
-/// What a function of the text may have otherwise: in several places that only look alike anything else is rather a chance.
-bool is_of_function(Kind kind) {
-  return kind == Kind::another_curve || kind == Kind::length_by_sum || kind == Kind::length_by_longer || kind == Kind::held_for_wrapped ||
-         kind == Kind::wrapped_for_held || kind == Kind::ceiling_for_floor;
-}
 
 /// Adds what edits_at(node) gives of each place, from the results to what they are made of.
 template <class EditsAt>
@@ -128,10 +118,6 @@ void each_place(EditAdder& add, const Probe& p, const EditsAt& edits_at) {
     for (const Edit& e : edits_at(at)) {
       if (n.occurrence == 0) add(p, {at}, -1, e);
       if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
-      // Of two or three that are met in each round of a loop.
-      for (const std::int32_t period : {2, 3})
-        if (count > most_alike && count % period == 0 && count <= 8 * period && e.what.kind == Kind::another_member)
-          for (std::int32_t first = 0; first < period; ++first) add(p, {at}, first, e, period);
     }
   }
 }
@@ -139,7 +125,7 @@ void each_place(EditAdder& add, const Probe& p, const EditsAt& edits_at) {
 }  // namespace
 
 void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most,
-                     bool copies, const std::vector<Probe>& all) {
+                     const std::vector<Probe>& all) {
   EditAdder add(out, known, most);
   for (const Probe& p : probes) {
     const std::vector<Nodes> vectors = vector_groups_of(p);
@@ -165,9 +151,7 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
       for (const Edit& e : value_curve_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
     for (const Nodes& v : lookups_of(p))
       for (const Edit& e : value_curve_edits_of(p, v)) add(p, v, -1, e);
-    for (const JointEdit& e : turned_edits_of(p)) add(p, e.nodes, -1, e.edit);
     for (const JointEdit& e : blend_edits_of(p)) add(p, e.nodes, -1, e.edit);
-    for (const JointEdit& e : moved_edits_of(p, vectors)) add(p, e.nodes, -1, e.edit);
     // A filter that is taken along rows and then along columns has the same weights in both.
     std::map<std::string, std::pair<Nodes, std::vector<Edit>>> filters;
     for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;) {
@@ -193,35 +177,27 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
         same.push_back(v);
     for (const Nodes& v : same) {
       for (const Edit& e : edits_of(p, v[0])) add(p, v, -1, e);
-      for (const Edit& e : exchanges_of(p, v[0], false)) add(p, v, -1, e);
+      for (const Edit& e : exchanges_of(p, v[0])) add(p, v, -1, e);
     }
-    // What is put together otherwise, then parts in each other's place, of which there are most, then what is rarer.
+    // What is put together otherwise, then parts in each other's place, of which there are most.
     each_place(add, p, [&](std::int32_t at) {
       std::vector<Edit> made = edits_of(p, at);
       for (Edit& e : value_curve_edits_of(p, {at})) made.push_back(std::move(e));
       return made;
     });
-    each_place(add, p, [&](std::int32_t at) { return exchanges_of(p, at, copies); });
-    add.extend();
-    constexpr std::size_t most_joint = 300;
-    for (const auto of_several : {branch_edits_of, constant_edits_of}) {
-      std::vector<JointEdit> joint = of_several(p);
-      if (joint.size() > most_joint) joint.resize(most_joint);
-      for (const JointEdit& e : joint) add(p, e.nodes, -1, e.edit);
-    }
+    each_place(add, p, [&](std::int32_t at) { return exchanges_of(p, at); });
     // A function of the text that is called several times has an edit in each call.
     for (const SharedPlace& place : shared_places_of(all)) {
       if (add.is_full()) break;
       const Probe& of = all[place.probe];
-      // In the rounds of a loop it is no chance.
+      // In several places that only look alike anything but another curve is rather a chance; in the rounds of a loop it is none.
       const bool is_loop = place.depth == perturbed::by_sequence;
       std::vector<Edit> made = edits_of(of, place.node);
       if (is_loop)
         for (Edit& e : value_curve_edits_of(of, {place.node})) made.push_back(std::move(e));
       for (const Edit& e : made)
-        if (is_loop || is_of_function(e.what.kind)) add.shared(of, place, e);
+        if (is_loop || e.what.kind == Kind::another_curve) add.shared(of, place, e);
     }
-    each_place(add, p, [&](std::int32_t at) { return rarer_edits_of(p, at); });
   }
 }
 

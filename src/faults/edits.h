@@ -55,37 +55,21 @@ struct Edit {
 };
 /// Of one place.
 std::vector<Edit> edits_of(const Probe& p, std::int32_t node);
-/// Of one place: parts in each other's place. `copies`: one in place of another, too.
-std::vector<Edit> exchanges_of(const Probe& p, std::int32_t node, bool copies);
+/// Of one place: parts in each other's place.
+std::vector<Edit> exchanges_of(const Probe& p, std::int32_t node);
 /// Of an operation that is a polynomial of one number: another curve of it. Empty where it is none.
 std::vector<Edit> curve_edits_of(const Probe& p, std::int32_t node);
-/// Of one place: what is made with other things than its own parts.
-std::vector<Edit> rarer_edits_of(const Probe& p, std::int32_t node);
-/// Of an operation that takes a vector of the uniforms or of a record: another one of them.
-std::vector<Edit> member_edits_of(const Probe& p, std::int32_t node);
-/// Of a product with a number, of an angle: a factor 2 pi or pi too many or left out, degrees for radians.
-std::vector<Edit> unit_edits_of(const Probe& p, std::int32_t node);
-/// Of a choice: a condition that was met before beside its own or in place of it. Empty where it is none.
-std::vector<Edit> condition_edits_of(const Probe& p, std::int32_t node);
 /// Of several places: one edit that belongs to all of them.
 struct JointEdit {
   std::vector<std::int32_t> nodes;
   Edit edit;
 };
-/// Numbers that stand in the components of a vector: one for all of them, or exchanged.
-std::vector<JointEdit> constant_edits_of(const Probe& p);
-/// Of choices that stand together and take the same side: the other side for all of them.
-std::vector<JointEdit> branch_edits_of(const Probe& p);
 /// Of a weighted sum: other weights of its terms. Empty where it is none.
 std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node);
 /// Of one value or the components of a vector: a curve that is applied to it, or another one in place of its own.
 std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::int32_t>& values);
-/// Of two sums of products beside each other: their second terms with the other sign.
-std::vector<JointEdit> turned_edits_of(const Probe& p);
 /// Of values blended over each other: the order reversed, or the last two exchanged.
 std::vector<JointEdit> blend_edits_of(const Probe& p);
-/// A factor or a term that stands farther out or farther in than it should. `vectors`: of which it may be a factor.
-std::vector<JointEdit> moved_edits_of(const Probe& p, const std::vector<std::vector<std::int32_t>>& vectors);
 /// Of the components of a vector.
 std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& vector);
 

@@ -47,13 +47,10 @@ void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants
 // ---- the pass text, of what the probes met, at most so many. `known`: as they were made with
 /// The order of steps: a value of before in place of the new one, a factor that is applied too early or too late.
 void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most = 600);
-/// Parts put together otherwise: exchanged, grouped or mapped otherwise, another curve. `copies`: one part in the place of another, too,
-/// which the search of what stands there finds better where it can be asked. `all`: more invocations, of other ways through the pass, in
-/// which functions are called with other arguments.
+/// Parts put together otherwise: exchanged, mapped or blended otherwise, another curve. `all`: more invocations, of other ways through
+/// the pass, in which functions are called with other arguments.
 void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most,
-                     bool copies, const std::vector<Probe>& all);
-/// The components of a vector taken for those of another, at each place of the probe where they stand.
-void add_vector_substitutions(std::vector<Fault>& out, const Probe& probe, const std::vector<float>& known, std::size_t most);
+                     const std::vector<Probe>& all);
 struct Solvable;
 /// What explains all of a few texels. An operand, a result or the components of a vector are first solved for: the numbers that they
 /// would need to be for what the port stored, if any; then what can be made of the values of the invocation, of uniforms and of small

@@ -173,10 +173,8 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   const std::vector<float> own = without_records(known, probes);
   const std::vector<Probe> again = own.size() == known.size() ? probes : probes_again(p.model, probes, own);
   add_edit_faults(orders, {again.begin(), again.begin() + std::min<std::ptrdiff_t>(1, std::ssize(again))}, own,
-                  std::min(most_edits, most_edited / nodes / 5), false, again);
+                  std::min(most_edits, most_edited / nodes / 5), again);
   add_shared_place_faults(orders, again, own);
-  constexpr std::size_t most_vectors = 600;
-  if (!probes.empty()) add_vector_substitutions(orders, probes[0], known, most_vectors);
   return {std::move(all), constants, std::move(orders), again, own};
 }
 
@@ -262,8 +260,7 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list, const std::
   add_shared_place_faults(all, again, own);
   add_order_faults(all, again, own, most);
   add_order_faults(all, alike, {}, most);
-  add_edit_faults(all, {again.begin(), again.begin() + std::min<std::ptrdiff_t>(1, std::ssize(again))}, own, most, true, again);
-  if (!again.empty()) add_vector_substitutions(all, again[0], own, most);
+  add_edit_faults(all, {again.begin(), again.begin() + std::min<std::ptrdiff_t>(1, std::ssize(again))}, own, most, again);
   return {std::move(all), constants, {}, {}, {}};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include "faults/generators.h"
 #include "faults/hypotheses.h"

@@ -1,7 +1,6 @@
 // What a mistake makes of the numbers in a finished list: of passes whose numbers cannot be followed.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 
 #include <fmt/format.h>

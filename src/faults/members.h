@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "scene/uniform_block.h"
 
 namespace rainref::faults {

@@ -39,7 +39,7 @@ struct Row {
   Kind kind;
   const char* of;
 };
-constexpr Row rows[] = {
+constexpr Row mistakes_of_operations[] = {
     {Op::sum, PlaceFault::first, Kind::term_left_out, "*b"},
     {Op::sum, PlaceFault::second, Kind::term_left_out, "*a"},
     {Op::sum, PlaceFault::second_negated, Kind::term_of_other_sign, "*b"},
@@ -159,7 +159,7 @@ std::vector<Mistake> mistakes_at(const Probe& p, std::size_t at) {
     return !(is_of_itself && is_of_factors);
   };
   std::vector<Mistake> out;
-  for (const Row& row : rows) {
+  for (const Row& row : mistakes_of_operations) {
     if (!applies(row)) continue;
     Mistake& m = out.emplace_back(Mistake{row.fault, {kind_of(row)}});
     for (const char* part = row.of; *part; ++part)

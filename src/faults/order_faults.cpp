@@ -1,7 +1,6 @@
 // Mistakes in the order of steps: a value of before in place of the new one, a factor that is applied too early or too late.
 #include "faults/generators.h"
 
-#include <algorithm>
 #include <memory>
 #include <set>
 #include <tuple>

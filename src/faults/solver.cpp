@@ -12,7 +12,6 @@ using perturbed::Substitution;
 void put_numbers(std::vector<Substitution>& places, const std::vector<double>& numbers) {
   for (std::size_t c = 0; c < places.size(); ++c) {
     places[c].back = 0;
-    places[c].second.back = 0;
     places[c].ahead = -1;
     places[c].number = static_cast<float>(numbers[c]);
     places[c].change = places[c].last = perturbed::Change::none;

@@ -27,25 +27,12 @@ using Node = perturbed::Trace::Node;
 
 constexpr std::size_t most_found = 160;
 
-constexpr std::array<Put, 9> puts{Put::instead, Put::times, Put::divided_by, Put::plus,   Put::minus,
-                                  Put::from,    Put::over,  Put::larger,     Put::smaller};
-constexpr std::array<Change, 18> changes{Change::none,    Change::negated,   Change::from_one, Change::magnitude, Change::squared,
-                                         Change::rooted,  Change::inverted,  Change::doubled,  Change::halved,    Change::floored,
-                                         Change::rounded, Change::truncated, Change::fraction, Change::saturated, Change::as_half,
-                                         Change::as_code, Change::cubed,     Change::smoothed};
-/// How many steps off a change and a put are.
-int effort_of(Put how, Change change) {
-  const int put = how == Put::instead ? 0 : how <= Put::minus ? 3 : 4;
-  const int by = change == Change::none ? 0 : change == Change::negated || change == Change::from_one ? 1 : 2;
-  return put + by;
-}
-/// A term of the other sign and a factor upside down are those of the other kind; bounds and whole numbers are made of what is there.
-bool is_plain(Put how, Change change) {
-  if (how == Put::plus || how == Put::minus) return change != Change::negated;
-  if (how == Put::times || how == Put::divided_by) return change != Change::inverted;
-  if (how == Put::over) return change == Change::none;
-  return (how <= Put::from && change <= Change::halved) || change == Change::none || how == Put::instead;
-}
+constexpr std::array<Change, 16> changes{Change::none,     Change::negated,   Change::from_one, Change::magnitude,
+                                         Change::squared,  Change::rooted,    Change::inverted, Change::doubled,
+                                         Change::halved,   Change::floored,   Change::rounded,  Change::truncated,
+                                         Change::fraction, Change::saturated, Change::cubed,    Change::smoothed};
+/// How many steps off a change is.
+int effort_of(Change change) { return change == Change::none ? 0 : change == Change::negated || change == Change::from_one ? 1 : 2; }
 
 /// What may be written for a number by a slip.
 std::vector<float> other_numbers(float v) {
@@ -71,15 +58,13 @@ class Search {
       std::vector<float> now;
       for (std::size_t c = 0; c < t.nodes.size(); ++c) now.push_back(t.now(first_, c));
       for (Solution& s : solvers_[0].solutions(t.places(first_), now)) {
-        one_source(t, s);
+        other_values(t, s);
         solved.emplace_back(t, std::move(s));
       }
     }
     other_taps();
     if (found_.empty()) slot_by_slot();
     if (found_.empty()) everywhere();
-    if (found_.empty())
-      for (const auto& [t, s] : solved) two_sources(t, s);
     for (const auto& [t, s] : solved) number(t, s);
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (std::size_t k = 0; k < std::min(found_.size(), most_found); ++k) out.push_back(std::move(found_[k].second));
@@ -102,43 +87,43 @@ class Search {
     found_.emplace_back(effort, std::move(d));
   }
 
-  void one_source(const Target& t, const Solution& solution) {
+  void other_values(const Target& t, const Solution& solution) {
     std::vector<Substitution> places = t.places(first_);
     const std::size_t n = t.nodes.size();
+    const std::vector<std::int32_t> meant = t.values(first_);
     std::vector<float> now, numbers(n);
     for (std::size_t c = 0; c < n; ++c) now.push_back(t.now(first_, c));
     std::array<std::size_t, 2> verified{};  // values, numbers
-    std::set<std::pair<std::string, std::pair<Put, Change>>> done;
+    const std::string right = words_for(first_, meant[0]);
+    std::set<std::pair<std::string, Change>> done;
     for (const Source& s : sources_for(first_, t, groups_, numbers_.at(n))) {
-      if (s.text == "...") continue;
-      const bool is_number = s.nodes.empty(), is_ratio = is_number && is_quotient(s.text);
-      for (const Put how : puts)
-        for (const Change change : changes) {
-          const bool is_itself = how == Put::instead && !s.nodes.empty() && s.nodes[0] == t.value_at(first_, 0);
-          if (s.nodes.size() == 1 && n == 1 && s.nodes[0] == t.value_at(first_, 0) && how != Put::instead) continue;  // of itself
-          if ((change == Change::as_half || change == Change::as_code) && !is_itself) continue;
-          const bool is_later = !is_number && s.nodes[0] > t.nodes[0];
-          if (is_later && (how != Put::instead || change != Change::none)) continue;
-          if (!is_plain(how, change) || (is_number && s.effort > 0 && (change != Change::none || how == Put::larger))) continue;
-          bool is_same = true, is_trivial = true;
-          for (std::size_t c = 0; c < n; ++c) {
-            const float other = perturbed::changed(number_of(first_, s, c), change);
-            // What happens to be 0 or 1 makes nothing of a term, or leaves it as it is: that has plainer names.
-            is_trivial &= (other == 0 || other == 1 || other == -1) && !(is_number && how == Put::instead);
-            numbers[c] = perturbed::put(now[c], other, how);
-            is_same &= numbers[c] == now[c];
-          }
-          if (is_ratio && (how == Put::divided_by || how == Put::over)) continue;  // there are both
-          if (is_same || is_trivial || verified[is_number] >= most_verified_ || !solvers_[0].may_be(solution, numbers)) continue;
-          if (done.contains({s.text, {how, change}})) continue;
-          take(first_, s, t, places);
-          for (Substitution& place : places) place.change = change, place.how = how;
-          ++verified[is_number];
-          if (!suits(places)) continue;
-          done.insert({s.text, {how, change}});
-          keep(s.effort + effort_of(how, change), places, said(first_, t, s, how, change));
+      // What becomes of the value that is meant there has plainer names.
+      if (s.text == "..." || s.nodes == meant) continue;
+      const bool is_number = s.nodes.empty(), is_later = !is_number && s.nodes[0] > t.nodes[0];
+      for (const Change change : changes) {
+        if (change != Change::none && (is_later || (is_number && s.effort > 0))) continue;
+        bool is_same = true, is_trivial = !is_number;
+        for (std::size_t c = 0; c < n; ++c) {
+          numbers[c] = perturbed::changed(number_of(first_, s, c), change);
+          // What happens to be 0 or 1 makes nothing of a term, or leaves it as it is: that has plainer names.
+          is_trivial &= numbers[c] == 0 || numbers[c] == 1 || numbers[c] == -1;
+          is_same &= numbers[c] == now[c];
         }
+        if (is_same || is_trivial || verified[is_number] >= most_verified_ || !solvers_[0].may_be(solution, numbers)) continue;
+        const std::string wrong = changed_text(change, s.text);
+        if (wrong == right || done.contains({s.text, change})) continue;
+        take(first_, s, t, places);
+        for (Substitution& place : places) place.change = change;
+        ++verified[is_number];
+        if (!suits(places)) continue;
+        done.insert({s.text, change});
+        keep(s.effort + effort_of(change), places, wrong_value(t, wrong));
+      }
     }
+  }
+  What wrong_value(const Target& t, const std::string& wrong) const {
+    const std::string right = words_for(first_, t.value_at(first_, 0));
+    return {Kind::wrong_value, {t.operand < 0 ? "for " + right : "in " + words_for(first_, t.nodes[0]), wrong, right}};
   }
 
   /// Where two slots or three fail whose places look unlike each other, (-y, x) turned: each slot by itself, and what is said alike of
@@ -158,7 +143,7 @@ class Search {
       Search search(*p_, alone, *known_);
       for (const Target& t : targets_of(first_))
         if (t.nodes.size() == 1)
-          for (const Solution& s : search.solvers_[0].solutions(t.places(first_), {t.now(first_, 0)})) search.one_source(t, s);
+          for (const Solution& s : search.solvers_[0].solutions(t.places(first_), {t.now(first_, 0)})) search.other_values(t, s);
       std::stable_sort(search.found_.begin(), search.found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
       constexpr std::size_t most = 80;
       if (search.found_.size() > most) search.found_.erase(search.found_.begin() + most, search.found_.end());
@@ -177,8 +162,7 @@ class Search {
     }
   }
 
-  /// Where numbers cannot be solved for, at places met again and again or that decide by steps: each value that stands near, and the
-  /// number itself cut, rounded or held, are tried.
+  /// Where numbers cannot be solved for, at places met again and again or that decide by steps: each value that stands near is tried.
   void everywhere() {
     std::vector<Target> all;
     std::set<std::uint32_t> done;
@@ -199,7 +183,6 @@ class Search {
     const std::size_t most_asked = nodes > 1000 ? 1 : 4;
     std::vector<std::vector<float>> right;
     for (std::size_t k = 0; k < std::min(most_asked, solvers_.size()); ++k) right.push_back(solvers_[k].values({}));
-    const std::vector<int> uses = uses_of(first_.trace);
     const std::vector<Source> none;
     for (const Target& t : all) {
       std::vector<Substitution> places = t.places(first_);
@@ -212,49 +195,34 @@ class Search {
         }
       if (!counts) continue;
       const std::int32_t value = t.value_at(first_, 0);
-      for (const Change change : {Change::as_half, Change::as_code, Change::floored, Change::rounded, Change::truncated, Change::fraction,
-                                  Change::saturated, Change::magnitude, Change::cubed, Change::from_one}) {
-        for (Substitution& place : places) place.how = Put::times, place.back = 0, place.number = 1, place.last = change;
-        if (left == 0 || value < 0) break;
+      const std::string own = words_for(first_, value);
+      for (Substitution& place : places) place.how = Put::instead;
+      for (const Source& s : numbers_.at(t.nodes.size())) {
+        if (left == 0 || s.effort > 0 || s.text == own) continue;
+        take(first_, s, t, places);
         --left;
-        if (suits(places)) keep(1, places, said(first_, t, {t.values(first_), {}, words_for(first_, value), 0}, Put::instead, change));
+        if (suits(places)) keep(s.effort, places, wrong_value(t, s.text));
       }
-      for (Substitution& place : places) place.last = place.change = Change::none;
-      for (const Source& s : numbers_.at(t.nodes.size()))
-        for (const Put how : {Put::times, Put::divided_by, Put::instead}) {
-          if (left == 0 || s.effort > 0) continue;
-          take(first_, s, t, places);
-          for (Substitution& place : places) place.how = how;
-          --left;
-          if (suits(places)) keep(s.effort + effort_of(how, Change::none), places, said(first_, t, s, how, Change::none));
-        }
       // Another literal or uniform there alone.
       if (value >= 0 && node_of(first_, value).op == Op::constant)
         for (const float number : other_numbers(node_of(first_, value).value)) {
-          for (Substitution& place : places)
-            place.how = Put::instead, place.back = 0, place.ahead = -1, place.number = number, place.change = Change::none;
+          for (Substitution& place : places) place.back = 0, place.ahead = -1, place.number = number;
           if (left == 0) break;
           --left;
-          const std::string own = words_for(first_, value), where = words_for(first_, t.nodes[0]);
-          if (suits(places)) keep(6, places, {Kind::another_value_there, {where, own, fmt::format("{:.6g}", number)}});
+          if (suits(places))
+            keep(6, places, {Kind::another_value_there, {words_for(first_, t.nodes[0]), own, fmt::format("{:.6g}", number)}});
         }
       std::size_t tried = 0;
       for (const Source& s : sources_for(first_, t, groups_, none)) {
-        if (left < 3 || ++tried > 200) break;
-        if (s.text == "..." || (value >= 0 && !s.nodes.empty() && s.nodes[0] == value)) continue;
+        if (left < 2 || ++tried > 200) break;
+        if (s.text == "..." || s.text == own || (value >= 0 && !s.nodes.empty() && s.nodes[0] == value)) continue;
         take(first_, s, t, places);
         for (const Change change : {Change::none, Change::smoothed}) {
           if (change == Change::smoothed && tried > 30) break;
-          for (Substitution& place : places) place.how = Put::instead, place.change = change;
+          for (Substitution& place : places) place.change = change;
           --left;
-          if (suits(places)) keep(s.effort, places, said(first_, t, s, Put::instead, change));
+          if (suits(places)) keep(s.effort, places, wrong_value(t, changed_text(change, s.text)));
         }
-        // A value that counts at several places, as a weight, with one factor more.
-        const bool is_shared = t.operand == Substitution::result && uses[static_cast<std::size_t>(t.nodes[0])] > 1;
-        if (!is_shared || gaps(s.text) > 0 || tried > 60) continue;
-        for (Substitution& place : places) place.how = Put::times, place.change = Change::none;
-        --left;
-        if (suits(places)) keep(s.effort + effort_of(Put::times, Change::none), places, said(first_, t, s, Put::times, Change::none));
       }
     }
   }
@@ -299,42 +267,6 @@ class Search {
     while (node_of(first_, at).shape != node_of(first_, node).shape) ++at;
     return at;
   }
-
-  /// Of two sources that stand near: what is made of right by both.
-  void two_sources(const Target& t, const Solution& solution) {
-    std::vector<Substitution> places = t.places(first_);
-    const std::size_t n = t.nodes.size();
-    std::vector<Source> sources;
-    for (Source& s : sources_for(first_, t, groups_, {})) {
-      const bool is_before = !s.nodes.empty() && s.nodes[0] < t.nodes[0];
-      if (is_before && gaps(s.text) == 0 && sources.size() < 60) sources.push_back(std::move(s));
-    }
-    std::vector<float> now, numbers(n);
-    for (std::size_t c = 0; c < n; ++c) now.push_back(t.now(first_, c));
-    std::size_t verified = 0;
-    for (const Source& a : sources)
-      for (const Put how : {Put::instead, Put::times, Put::divided_by, Put::plus, Put::minus})
-        for (const Source& b : sources)
-          for (const Put then : {Put::times, Put::divided_by, Put::plus, Put::minus, Put::larger, Put::smaller}) {
-            if (&a == &b || verified >= most_verified_) continue;
-            for (std::size_t c = 0; c < n; ++c)
-              numbers[c] = perturbed::put(perturbed::put(now[c], number_of(first_, a, c), how), number_of(first_, b, c), then);
-            if (!solvers_[0].may_be(solution, numbers)) continue;
-            take(first_, a, t, places);
-            take_second(first_, b, t, places);
-            for (Substitution& place : places) place.change = Change::none, place.how = how, place.second.how = then;
-            ++verified;
-            if (!suits(places)) continue;
-            const std::string right = words_for(first_, t.value_at(first_, 0));
-            const std::string first = how == Put::instead ? a.text : fmt::format("({}) {} {}", right, sign(how), a.text);
-            const std::string wrong = then == Put::larger    ? fmt::format("max({}, {})", first, b.text)
-                                      : then == Put::smaller ? fmt::format("min({}, {})", first, b.text)
-                                                             : fmt::format("({}) {} {}", first, sign(then), b.text);
-            keep(8 + a.effort + b.effort + effort_of(how, Change::none), places,
-                 {Kind::wrong_value, {t.operand < 0 ? "there" : place_text(first_, t), wrong, right}});
-          }
-  }
-  static const char* sign(Put how) { return how == Put::times ? "*" : how == Put::divided_by ? "/" : how == Put::plus ? "+" : "-"; }
 
   /// A number in its place, or a factor or a term that is one, where the operand itself is none.
   void number(const Target& t, const Solution& solution) {

@@ -59,7 +59,6 @@ std::int32_t steps_back(const Probe& p, std::int32_t source, std::int32_t target
 
 bool is_leaf(Op op) { return op == Op::constant || op == Op::load || op == Op::fetch || op == Op::index; }
 
-/// The components of vectors: of different shapes and one text, or two or three of one shape.
 std::vector<std::vector<std::int32_t>> vectors_in(const Probe& p) {
   std::vector<std::vector<std::int32_t>> out;
   for (const std::vector<std::size_t>& v : vector_values_of(p))
@@ -97,7 +96,6 @@ std::vector<Target> targets_of(const Probe& p) {
   return out;
 }
 
-/// Uniforms by their names, whether the pass uses them or not, and small numbers.
 std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
   std::vector<Source> out;
   // Whole numbers after the others.
@@ -167,7 +165,6 @@ void add_later(const Probe& p, const Target& t, std::vector<Source>& out) {
 
 }  // namespace
 
-/// Values met before a target, nearest first, and numbers.
 std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vector<std::vector<std::int32_t>>& groups,
                                 const std::vector<Source>& numbers) {
   std::vector<Source> out = numbers;  // few, and asked first: of many that nearly fit not all are
@@ -203,7 +200,6 @@ float number_of(const Probe& p, const Source& s, std::size_t c) {
   if (s.nodes.empty()) return s.numbers[s.numbers.size() == 1 ? 0 : c];
   return node_of(p, s.nodes[s.nodes.size() == 1 ? 0 : c]).value;
 }
-/// Puts a source into the places of a target.
 void take(const Probe& p, const Source& s, const Target& t, std::vector<Substitution>& places) {
   for (std::size_t c = 0; c < places.size(); ++c) {
     places[c].ahead = -1;
@@ -217,13 +213,6 @@ void take(const Probe& p, const Source& s, const Target& t, std::vector<Substitu
     const bool is_later = node > t.nodes[c];
     places[c].ahead = is_later ? node_of(p, node).occurrence : -1;
     places[c].back = is_later ? 0 : steps_back(p, node, t.nodes[c]);
-  }
-}
-void take_second(const Probe& p, const Source& s, const Target& t, std::vector<Substitution>& places) {
-  for (std::size_t c = 0; c < places.size(); ++c) {
-    const std::int32_t node = s.nodes[s.nodes.size() == 1 ? 0 : c];
-    places[c].second.source = node_of(p, node).shape;
-    places[c].second.back = steps_back(p, node, t.nodes[c]);
   }
 }
 

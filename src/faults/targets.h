@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "faults/probe.h"
@@ -77,13 +76,7 @@ std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vect
                                 const std::vector<Source>& numbers);
 /// What a source gives for component c.
 float number_of(const Probe& p, const Source& s, std::size_t c);
-/// Puts a source into the places of a target, as first value or as second.
+/// Puts a source into the places of a target.
 void take(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
-void take_second(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
-
-/// What is wrong when a source stands at a target.
-What said(const Probe& p, const Target& t, const Source& s, perturbed::Put how, perturbed::Change change);
-/// Where it stands: "for damping" of a result, "in damping * x" of an operand.
-std::string place_text(const Probe& p, const Target& t);
 
 }  // namespace rainref::faults

@@ -133,9 +133,6 @@ std::string text_of(const Probe& p, const Expression& e) {
     if (std::string text = text_so_deep(p, e, depth); text.size() <= 80) return text;
   return text_so_deep(p, e, 1).substr(0, 80);
 }
-std::string place_text(const Probe& p, const Target& t) {
-  return t.operand < 0 ? "for " + words_for(p, t.value_at(p, 0)) : "in " + words_for(p, t.nodes[0]);
-}
 std::string closed(const std::string& text) { return text.find(' ') != npos ? fmt::format("({})", text) : text; }
 std::string changed_text(Change change, const std::string& text) {
   const std::string one = closed(text);
@@ -149,8 +146,6 @@ std::string changed_text(Change change, const std::string& text) {
          : change == Change::inverted ? "1 / " + one
          : change == Change::doubled  ? "2 * " + one
          : change == Change::halved   ? "0.5 * " + one
-         : change == Change::as_half  ? one + " in half precision"
-         : change == Change::as_code  ? one + " in 8 bits"
          : change == Change::cubed    ? one + " cubed"
          : change == Change::smoothed ? "the cubic smoothstep of " + one
                                       : text;
@@ -177,11 +172,6 @@ const char* verb_of(Op op) {
          : op == Op::difference ? "is taken from"
                                 : "bounds";
 }
-std::string condition_text(const Probe& p, std::int32_t node) {
-  const Node& n = node_of(p, node);
-  if (n.op == Op::choice) return fmt::format("the condition of {}", words_for(p, node));
-  return fmt::format("{} < {}", words_for(p, n.of[0]), words_for(p, n.of[1]));
-}
 std::string offset_text(int dx, int dy) { return dx == 0 && dy == 0 ? "the texel itself" : fmt::format("({}, {})", dx, dy); }
 
 int gaps(const std::string& text) {
@@ -192,7 +182,6 @@ int gaps(const std::string& text) {
 bool says_nothing(const std::string& text) { return text.find_first_not_of(signs_alone) == npos; }
 bool has_brackets(const std::string& text) { return text.find('(') != npos; }
 bool offers_choice(const std::string& text) { return text.find(" or ") != npos; }
-bool is_quotient(const std::string& text) { return text.find(" / ") != npos; }
 bool has_fraction(const std::string& text) { return text.find("- floor(") != npos; }
 bool names_component_before_gap(const std::string& text) { return text.find("...") != npos && text.find('.') != text.find("..."); }
 std::string first_name(const std::string& text) { return text.substr(0, text.find_first_of(".,")); }
@@ -218,19 +207,6 @@ std::string image_of_channel(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   return dot + 2 == name.size() ? name.substr(0, dot) : std::string();
 }
-std::optional<MemberName> member_of(const std::string& name) {
-  const bool is_any_number = name.empty() || name.find_first_not_of("0123456789.-e+") == npos;
-  if (is_any_number || name.find_first_of("(/") != npos || name.starts_with("-") || name == "row" || name == "column") return {};
-  const std::size_t dot = name.find('.');
-  if (dot == npos) return MemberName{name, ' '};
-  if (dot + 1 >= name.size()) return {};
-  return MemberName{name.substr(0, dot) + name.substr(dot + 2), name[dot + 1]};
-}
-std::string list_of(const std::string& member) {
-  const std::size_t of = member.find(" of ");
-  return of == npos ? "" : member.substr(of);
-}
-
 std::string with_columns(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {

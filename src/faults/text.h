@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "faults/edits.h"
@@ -26,8 +25,6 @@ const char* bend_name(perturbed::Op op);
 std::string function_text(const Probe& p, const perturbed::Trace::Node& n);
 /// "multiplies", "divides", "is added to", "is taken from"; else "bounds".
 const char* verb_of(perturbed::Op op);
-/// What a comparison or a choice decides by.
-std::string condition_text(const Probe& p, std::int32_t node);
 /// "(1, 0)", "the texel itself".
 std::string offset_text(int dx, int dy);
 
@@ -37,7 +34,6 @@ int gaps(const std::string& text);
 bool says_nothing(const std::string& text);
 bool has_brackets(const std::string& text);
 bool offers_choice(const std::string& text);
-bool is_quotient(const std::string& text);
 /// Whether it has a fraction: x - floor(x).
 bool has_fraction(const std::string& text);
 /// Whether the component of a vector stands before the first of its gaps.
@@ -61,14 +57,6 @@ std::string made_of_too(const std::string& name, const std::string& other);
 bool names_member(const std::string& name, const std::string& member);
 /// The image whose channel it is; "" of others.
 std::string image_of_channel(const std::string& name);
-/// "axis.x of wipers": the member "axis of wipers" and its component 'x'; of a scalar ' '. None of numbers and of what is made.
-struct MemberName {
-  std::string name;
-  char component;
-};
-std::optional<MemberName> member_of(const std::string& name);
-/// " of wipers", or "" of a uniform.
-std::string list_of(const std::string& member);
 
 // Texts that are alike but for the component of a vector.
 /// Column and row as a component, as those of a texel's place.

@@ -1,5 +1,5 @@
 // What is done to a value, or to the components of a vector, too much or otherwise: an encoding, a tone curve, a clamp, a packing;
-// another curve of one number in place of a polynomial of it; blends and turns of several values.
+// another curve of one number in place of a polynomial of it; blends of several values.
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -198,33 +198,6 @@ std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::in
   for (const Curve& curve : colour_curves()) {
     Edit& e = out.emplace_back(Edit{{}, {Kind::another_curve_for, {text, curve.formula, of, right}}});
     for (const Own& one : own) e.made.push_back(curve.make(one.of));
-  }
-  return out;
-}
-
-std::vector<JointEdit> turned_edits_of(const Probe& p) {
-  std::vector<JointEdit> out;
-  constexpr std::int32_t near = 9;
-  constexpr std::size_t most = 80;
-  const auto is_product = [&](std::int32_t i) { return i >= 0 && (node_of(p, i).op == Op::product || node_of(p, i).op == Op::negation); };
-  std::vector<std::int32_t> all;
-  for (std::int32_t at = 0; at < static_cast<std::int32_t>(p.trace.nodes.size()); ++at) {
-    const Node& n = node_of(p, at);
-    if ((n.op == Op::sum || n.op == Op::difference) && n.occurrence == 0 && is_product(n.of[0]) && is_product(n.of[1])) all.push_back(at);
-  }
-  for (std::size_t i = 0; i + 1 < all.size() && out.size() < most; ++i) {
-    const std::int32_t a = all[i], b = all[i + 1];
-    if (b - a > near || node_of(p, a).shape == node_of(p, b).shape) continue;
-    JointEdit& one = out.emplace_back();
-    one.nodes = {a, b};
-    std::vector<std::string> terms;
-    for (const std::int32_t at : one.nodes) {
-      Expression e = expression_of(p, at, 1);
-      e.step.op = e.step.op == Op::sum ? Op::difference : Op::sum;
-      terms.push_back(words_for(p, node_of(p, at).of[1]));
-      one.edit.made.push_back(std::move(e));
-    }
-    one.edit.what = {Kind::pair_turned, {words_for(p, a), words_for(p, b), terms[0], terms[1]}};
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// What stands in place of a vector: its components exchanged or turned, a matrix left out or transposed.
+// What stands in place of a vector: its components exchanged, a matrix left out or transposed.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -86,11 +86,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
     if (std::all_of(made.begin(), made.end(), can_be_had)) out.push_back({std::move(made), {kind, std::move(of)}});
   };
   const auto component = [&](std::size_t from, std::size_t to) {
-    if (from == to) {
-      Expression own = expression_of(p, v[from], 1);
-      return own;
-    }
-    return elsewhere(p, v[from], v[to], v);
+    return from == to ? expression_of(p, v[from], 1) : elsewhere(p, v[from], v[to], v);
   };
   const auto listed = [&](const std::vector<std::int32_t>& nodes) {
     std::string text;
@@ -105,27 +101,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
       for (std::size_t k = 0; k < n; ++k) made.push_back(component(k == i ? j : k == j ? i : k, k));
       add(made, Kind::components_exchanged,
           {vector, component_name(static_cast<int>(i)), component_name(static_cast<int>(j)), words_for(p, v[i]), words_for(p, v[j])});
-      if (n != 2) continue;
-      for (const std::size_t turned : {0u, 1u}) {
-        std::vector<Expression> other = made;
-        other[turned] = operation(Op::negation, {other[turned]});
-        add(other, turned == 0 ? Kind::turned_by_quarter : Kind::turned_back_by_quarter, {vector});
-      }
     }
-
-  // One operand of each component in the other one.
-  for (const std::size_t k : {0u, 1u}) {
-    const std::vector<std::int32_t> all = operands(p, v, k);
-    if (all.empty() || n != 2 || all[0] == all[1] || operands(p, v, 1 - k).empty()) continue;
-    std::vector<Expression> made;
-    for (const std::size_t c : {0u, 1u}) {
-      Expression e = expression_of(p, v[c], 1);
-      if (!e.is_operation() || e.of.size() != 2) break;
-      e.of[k] = elsewhere(p, all[1 - c], v[c], v);
-      made.push_back(std::move(e));
-    }
-    if (made.size() == n) add(std::move(made), Kind::exchanged_between_components, {vector, words_for(p, all[0]), words_for(p, all[1])});
-  }
 
   // Of something that takes a matrix times a vector: the vector as it is, there alone.
   for (const std::size_t k : {0u, 1u}) {
@@ -179,39 +155,23 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
       if (e.coefficient >= 0) return out;
       e = {t.coefficient, t.is_negative};
     }
-  const auto multiplied = [&](const auto& entry, Kind kind, const std::string& text) {
-    std::vector<Expression> made;
-    for (std::size_t r = 0; r < n; ++r) {
-      Expression sum = number_of(0);
-      bool is_first = true;
-      for (std::size_t c = 0; c < n; ++c) {
-        const Entry e = entry(r, c);
-        if (e.coefficient < 0) continue;
-        Expression term = product(elsewhere(p, e.coefficient, v[r], v), elsewhere(p, columns[c], v[r], v));
-        if (e.is_negative) term = operation(Op::negation, {std::move(term)});
-        sum = is_first ? std::move(term) : operation(Op::sum, {std::move(sum), std::move(term)});
-        is_first = false;
-      }
-      made.push_back(std::move(sum));
-    }
-    add(std::move(made), kind, {vector, text});
-  };
+  std::vector<Expression> transposed;
   std::vector<std::int32_t> beside;
-  for (std::size_t r = 0; r < n; ++r)
-    for (std::size_t c = 0; c < n; ++c)
+  for (std::size_t r = 0; r < n; ++r) {
+    Expression sum = number_of(0);
+    bool is_first = true;
+    for (std::size_t c = 0; c < n; ++c) {
       if (r != c && m[r][c].coefficient >= 0) beside.push_back(m[r][c].coefficient);
-  const std::string off_diagonal = listed(beside);
-  multiplied([&](std::size_t r, std::size_t c) { return m[c][r]; }, Kind::matrix_transposed, off_diagonal);
-  multiplied([&](std::size_t r, std::size_t c) { return r == c ? m[r][c] : Entry{}; }, Kind::matrix_by_diagonal, off_diagonal);
-  if (n == 2) {
-    const auto turned = [&](std::size_t r, std::size_t c) {
-      Entry e = m[r][c];
-      if (r != c) e.is_negative = !e.is_negative;
-      return e;
-    };
-    multiplied(turned, Kind::matrix_turned, off_diagonal);
-    multiplied([&](std::size_t r, std::size_t c) { return m[r][1 - c]; }, Kind::matrix_columns_exchanged, of_vector);
+      const Entry& e = m[c][r];
+      if (e.coefficient < 0) continue;
+      Expression term = product(elsewhere(p, e.coefficient, v[r], v), elsewhere(p, columns[c], v[r], v));
+      if (e.is_negative) term = operation(Op::negation, {std::move(term)});
+      sum = is_first ? std::move(term) : operation(Op::sum, {std::move(sum), std::move(term)});
+      is_first = false;
+    }
+    transposed.push_back(std::move(sum));
   }
+  add(std::move(transposed), Kind::matrix_transposed, {vector, listed(beside)});
   return out;
 }
 

@@ -1,5 +1,4 @@
 // What stands in place of a filter: a sum of values, each with a number as its weight.
-#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,7 +15,7 @@ namespace {
 using perturbed::FormulaStep;
 using perturbed::Op;
 
-struct Tap {
+struct Term {
   float weight;
   Expression value;
 };
@@ -32,7 +31,7 @@ bool is_weighted(const Probe& p, std::int32_t node) {
   }
   return false;
 }
-bool collect(const Probe& p, const Expression& e, float weight, std::vector<Tap>& out, bool is_top = false) {
+bool collect(const Probe& p, const Expression& e, float weight, std::vector<Term>& out, bool is_top = false) {
   if (!is_top && is_weighted(p, e.node)) {
     out.push_back({weight, as_part(e)});
     return true;
@@ -55,34 +54,34 @@ std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node) {
   std::vector<Edit> out;
   const Op op = node_of(p, node).op;
   if (op != Op::sum && op != Op::product && op != Op::quotient) return out;
-  std::vector<Tap> taps;
+  std::vector<Term> terms;
   std::set<float> weights;
-  if (!collect(p, expression_of(p, node, 4), 1, taps, true) || taps.size() < 3) return out;
+  if (!collect(p, expression_of(p, node, 4), 1, terms, true) || terms.size() < 3) return out;
   float total = 0;
-  for (const Tap& t : taps) weights.insert(t.weight), total += t.weight;
+  for (const Term& t : terms) weights.insert(t.weight), total += t.weight;
   if (weights.size() < 2) return out;
   const auto sum_with = [&](const auto& weight_of) {
     Expression sum;
-    for (std::size_t k = 0; k < taps.size(); ++k) {
-      Expression term = operation(Op::product, {number_of(weight_of(taps[k])), taps[k].value});
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      Expression term = operation(Op::product, {number_of(weight_of(terms[k])), terms[k].value});
       sum = k == 0 ? std::move(term) : operation(Op::sum, {std::move(sum), std::move(term)});
     }
     return sum;
   };
   std::string text;
-  for (const Tap& t : taps) text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", t.weight);
-  const float equal = total / static_cast<float>(taps.size());
+  for (const Term& t : terms) text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", t.weight);
+  const float equal = total / static_cast<float>(terms.size());
   const std::string all = words_for(p, node);
   const auto number = [](float v) { return fmt::format("{:.4g}", v); };
   if (equal != 0)
     out.push_back(
-        {{sum_with([&](const Tap&) { return equal; })}, {Kind::equal_weights, {all, number(equal), text, std::to_string(taps.size())}}});
+        {{sum_with([&](const Term&) { return equal; })}, {Kind::equal_weights, {all, number(equal), text, std::to_string(terms.size())}}});
   for (const float a : weights)
     for (const float b : weights)
       if (a < b)
-        out.push_back({{sum_with([&](const Tap& t) { return t.weight == a   ? b
-                                                            : t.weight == b ? a
-                                                                            : t.weight; })},
+        out.push_back({{sum_with([&](const Term& t) { return t.weight == a   ? b
+                                                             : t.weight == b ? a
+                                                                             : t.weight; })},
                        {Kind::weights_exchanged, {all, number(a), number(b), text}}});
   return out;
 }

@@ -25,8 +25,7 @@ std::optional<float> at_end(const std::array<std::int8_t, 6>& path, const std::a
 std::optional<float> met(const FormulaStep& step, const Trace& trace, std::size_t before) {
   std::int32_t back = step.back;
   for (std::size_t n = before; n-- > 0;)
-    if (trace.nodes[n].shape == step.shape && --back == 0)
-      return step.kind == FormulaStep::Kind::decided ? trace.nodes[n].with[2] : trace.nodes[n].value;
+    if (trace.nodes[n].shape == step.shape && --back == 0) return trace.nodes[n].value;
   return {};
 }
 

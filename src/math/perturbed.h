@@ -7,7 +7,7 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 

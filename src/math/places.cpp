@@ -1,13 +1,11 @@
 #include "math/places.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "math/formula.h"
 #include "math/half.h"
 #include "math/perturbed.h"
 #include "math/rewrites.h"
-#include "math/unorm.h"
 
 namespace rainref::perturbed {
 namespace {
@@ -231,8 +229,6 @@ float changed(float v, Change change) {
       return v > 0 ? v < 1 ? v : 1 : 0;
     case Change::as_half:
       return to_float(to_half(v));
-    case Change::as_code:
-      return to_float(to_unorm8(v));
     case Change::cubed:
       return v * v * v;
     case Change::smoothed:
@@ -246,20 +242,8 @@ float put(float right, float value, Put how) {
       return value;
     case Put::times:
       return right * value;
-    case Put::divided_by:
-      return value != 0 ? right / value : right;
     case Put::plus:
       return right + value;
-    case Put::minus:
-      return right - value;
-    case Put::from:
-      return value - right;
-    case Put::over:
-      return right != 0 ? value / right : right;
-    case Put::larger:
-      return right < value ? value : right;
-    case Put::smaller:
-      return value < right ? value : right;
   }
   return right;
 }
@@ -267,27 +251,21 @@ float put(float right, float value, Put how) {
 void Substitutions::start() {
   seen.assign(all.size(), 0);
   met.resize(all.size());
-  for (auto& of : met)
-    for (std::vector<float>& values : of) values.clear();  // their room is kept: this is done for each invocation
+  for (std::vector<float>& values : met) values.clear();  // their room is kept: this is done for each invocation
 }
 void Substitutions::meet(std::uint32_t shape, float value) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (is_looking && all[k].ahead >= 0 && all[k].source == shape) right[k].push_back(value);
-    if (all[k].back > 0 && all[k].source == shape) met[k][0].push_back(value);
-    if (all[k].second.back > 0 && all[k].second.source == shape) met[k][1].push_back(value);
+    if (all[k].back > 0 && all[k].source == shape) met[k].push_back(value);
   }
 }
 float Substitutions::value_for(std::size_t k, float meant) const {
   const Substitution& s = all[k];
-  const auto back = static_cast<std::size_t>(s.back), second = static_cast<std::size_t>(s.second.back);
-  if (back > met[k][0].size() || second > met[k][1].size()) return meant;
+  const auto back = static_cast<std::size_t>(s.back);
+  if (back > met[k].size()) return meant;
   if (s.ahead >= 0 && (k >= right.size() || static_cast<std::size_t>(s.ahead) >= right[k].size())) return meant;
-  const float other = s.ahead >= 0 ? right[k][static_cast<std::size_t>(s.ahead)]
-                      : back == 0  ? s.number
-                                   : met[k][0][met[k][0].size() - back];
-  float v = put(meant, changed(other, s.change), s.how);
-  if (second > 0) v = put(v, changed(met[k][1][met[k][1].size() - second], s.second.change), s.second.how);
-  return changed(v, s.last);
+  const float other = s.ahead >= 0 ? right[k][static_cast<std::size_t>(s.ahead)] : back == 0 ? s.number : met[k][met[k].size() - back];
+  return changed(put(meant, changed(other, s.change), s.how), s.last);
 }
 
 RewriteScope::RewriteScope(const Rewrites& r) : saved_(rewrites) { rewrites = r; }

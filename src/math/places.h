@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <vector>
 
@@ -115,23 +114,15 @@ enum class Change : std::uint8_t {
   fraction,
   saturated,
   as_half,  ///< rounded to binary16
-  as_code,  ///< rounded to 8 bits
   cubed,
   smoothed  ///< x x (3 - 2 x)
 };
 /// How it is put there.
-enum class Put : std::uint8_t { instead, times, divided_by, plus, minus, from, over, larger, smaller };
+enum class Put : std::uint8_t { instead, times, plus };
 
 float changed(float value, Change change);
 float put(float right, float value, Put how);
 
-/// A further value that is put to the first.
-struct Second {
-  std::uint32_t source = 0;  ///< as Substitution's
-  std::int32_t back = 0;     ///< 0: there is none
-  Change change = Change::none;
-  Put how = Put::times;
-};
 /// Another value for one operand at a place, or for its result: one that was met before in the invocation, or a number.
 struct Substitution {
   std::uint32_t shape = 0;
@@ -142,7 +133,6 @@ struct Substitution {
   float number = 0;
   Change change = Change::none;
   Put how = Put::instead;
-  Second second = {};
   Change last = Change::none;  ///< of all of it
   std::int32_t ahead = -1;     ///< which one of `source` in the invocation as it should be, of what is met only later; -1: see `back`
 
@@ -151,10 +141,10 @@ struct Substitution {
 /// Those of one mistake, and what is met for them in an invocation.
 struct Substitutions {
   std::vector<Substitution> all;
-  std::vector<std::int32_t> seen = {};                      ///< of each place so far
-  std::vector<std::array<std::vector<float>, 2>> met = {};  ///< of each source and second source, in order
-  std::vector<std::vector<float>> right = {};               ///< of each source, in the invocation as it should be
-  bool is_looking = false;                                  ///< that invocation is made: nothing is changed in it
+  std::vector<std::int32_t> seen = {};         ///< of each place so far
+  std::vector<std::vector<float>> met = {};    ///< of each source, in order
+  std::vector<std::vector<float>> right = {};  ///< of each source, in the invocation as it should be
+  bool is_looking = false;                     ///< that invocation is made: nothing is changed in it
 
   /// Whether a value is met only later: then the invocation is made as it should be first, by run().
   template <class Run>

@@ -32,8 +32,7 @@ struct FormulaStep {
     part,       ///< the operand at the end of `path` from the place: which operand, which of that, ...; -1 ends it
     number,
     itself,  ///< what the place gives as it is
-    met,     ///< what was met `back` times ago of a shape
-    decided  ///< 1 or 0: the condition of a choice met so long ago
+    met      ///< what was met `back` times ago of a shape
   };
   Kind kind = Kind::operation;
   Op op = Op::sum;

@@ -41,8 +41,7 @@ Numbers given(const Pass& pass, const Numbers& in, const Fault& d) {
   return out;
 }
 /// Names of what is tried of `right` that gives what `port` gives, at three inputs; "none" where nothing does.
-std::vector<std::string> found(const Pass& right, const std::function<Numbers(const Numbers&)>& port, Numbers literals,
-                               bool copies = false) {
+std::vector<std::string> found(const Pass& right, const std::function<Numbers(const Numbers&)>& port, Numbers literals) {
   std::sort(literals.begin(), literals.end());
   const std::vector<Numbers> inputs{{0.31f, 0.72f, 0.19f, 1.7f}, {0.83f, 0.27f, 0.55f, 2.3f}, {0.47f, 0.91f, 0.66f, 1.2f}};
   Probe probe{{0, 0}, {}, {}};
@@ -60,7 +59,7 @@ std::vector<std::string> found(const Pass& right, const std::function<Numbers(co
                                                  : "");
   }
   std::vector<Fault> all;
-  add_edit_faults(all, {probe}, literals, 100000, copies, {probe});
+  add_edit_faults(all, {probe}, literals, 100000, {probe});
   std::vector<std::string> names;
   for (const Fault& d : all)
     if (std::all_of(inputs.begin(), inputs.end(), [&](const Numbers& in) {
@@ -105,13 +104,6 @@ TEST(EditFaults, TwoPartsAreExchanged) {
     return Numbers{v - std::floor(v)};
   };
   EXPECT_EQ(first(right, port), "exchanged: in.x and in.y");
-}
-// max(x, y) w, of which the port multiplies x alone; and x / (y w), which the port takes for x / y w.
-TEST(EditFaults, PartsAreGroupedOtherwise) {
-  const Pass larger = [](const Numbers& in) { return std::vector<Perturbed>{max(load(in[0]), load(in[1])) * load(in[3])}; };
-  EXPECT_EQ(first(larger, [](const Numbers& in) { return Numbers{std::max(in[0] * in[3], in[1])}; }), "factor of one side: in.w");
-  const Pass quotient = [](const Numbers& in) { return std::vector<Perturbed>{load(in[0]) / (load(in[1]) * load(in[3]))}; };
-  EXPECT_THAT(first(quotient, [](const Numbers& in) { return Numbers{in[0] / in[1] * in[3]}; }), StartsWith("grouped otherwise"));
 }
 // 2 (x y + z w) - 1, of which the port unpacks y and w each.
 TEST(EditFaults, AMapOfASumIsTakenOfItsParts) {
@@ -177,45 +169,6 @@ TEST(EditFaults, AValueOfAfter) {
   };
   EXPECT_THAT(first(right, port, {64}), StartsWith("value of after: in.x - in.z for in.x"));
 }
-// Three constants of a hash, of which the port has the first for all three.
-TEST(EditFaults, OneConstantForAllComponents) {
-  const Pass right = [](const Numbers& in) {
-    const Perturbed a = fract(load(in[0]) * Perturbed(3.1f)), b = fract(load(in[1]) * Perturbed(3.7f)),
-                    c = fract(load(in[2]) * Perturbed(2.3f));
-    return std::vector<Perturbed>{a + b + c};
-  };
-  const auto part = [](float v) { return v - std::floor(v); };
-  EXPECT_THAT(found(right, [&](const Numbers& in) { return Numbers{part(in[0] * 3.1f) + part(in[1] * 3.1f) + part(in[2] * 3.1f)}; },
-                    {2.3f, 3.1f, 3.7f}),
-              testing::Contains(StartsWith("one constant for all: 3.1 for")));
-  EXPECT_THAT(found(right, [&](const Numbers& in) { return Numbers{part(in[0] * 3.7f) + part(in[1] * 3.1f) + part(in[2] * 2.3f)}; },
-                    {2.3f, 3.1f, 3.7f}),
-              testing::Contains(StartsWith("constants exchanged: ")));
-}
-// 2 pi x as an angle and as a factor, each of which the port leaves out.
-TEST(EditFaults, AFactor2PiIsLeftOut) {
-  const Pass right = [](const Numbers& in) {
-    const Perturbed turns = load(in[0]) * Perturbed(3.0f);
-    return std::vector<Perturbed>{sin(Perturbed(6.2831855f) * turns) + Perturbed(18.849556f) * load(in[1])};
-  };
-  EXPECT_THAT(
-      found(right, [](const Numbers& in) { return Numbers{std::sin(6.2831855f * in[0] * 3) + 3 * in[1]}; }, {3, 6.2831855f, 18.849556f}),
-      testing::Contains(StartsWith("factor 2 pi left out: ")));
-}
-// A choice by x < y whose port asks z < w as well.
-TEST(EditFaults, AConditionTooMany) {
-  const Pass right = [](const Numbers& in) {
-    const bool other = load(in[0]) < load(in[2]);
-    const Perturbed unused = select(other, load(in[0]), load(in[1]));
-    return std::vector<Perturbed>{select(load(in[2]) < load(in[3]), Perturbed(1.0f), Perturbed(0.0f)), unused};
-  };
-  EXPECT_THAT(found(right,
-                    [](const Numbers& in) {
-                      return Numbers{in[2] < in[3] && in[0] < in[2] ? 1.0f : 0.0f, in[0] < in[2] ? in[0] : in[1]};
-                    },
-                    {0, 1}),
-              testing::Contains(StartsWith("condition too many: ")));
-}
 // A function of the text that is called with a sum and with a root: both calls have lost the floor.
 TEST(EditFaults, AFunctionThatIsCalledTwiceIsWrongInBothCalls) {
   const auto rounded = [](const Perturbed& x) { return floor(x * Perturbed(3.0f) + Perturbed(0.5f)); };
@@ -246,48 +199,19 @@ TEST(EditFaults, ACurveThatIsTooMuchOrAnotherOne) {
                     {2.2f}),
               testing::Contains(StartsWith("another curve: the sRGB curve, from code to light")));
 }
-// 3 (x - 1) held to [0, 1] where it is not, and the reverse.
-TEST(EditFaults, AClampTooManyOrLeftOut) {
+// 3 (x - 1) held to [0, 1] where it is not.
+TEST(EditFaults, AClampTooMany) {
   const Pass right = [](const Numbers& in) {
     return std::vector<Perturbed>{(load(in[3]) - Perturbed(1.0f)) * Perturbed(3.0f) + load(in[0])};
   };
   const auto held = [](float x) { return std::min(std::max(x, 0.0f), 1.0f); };
   EXPECT_THAT(first(right, [&](const Numbers& in) { return Numbers{held((in[3] - 1) * 3) + in[0]}; }, {1, 3}), StartsWith("held: "));
-  const Pass clamped = [](const Numbers& in) {
-    return std::vector<Perturbed>{min(max((load(in[3]) - Perturbed(1.0f)) * Perturbed(3.0f), Perturbed(0.0f)), Perturbed(1.0f)) *
-                                  load(in[0])};
-  };
-  EXPECT_THAT(found(clamped, [](const Numbers& in) { return Numbers{(in[3] - 1) * 3 * in[0]}; }, {0, 1, 3}),
-              testing::Contains(StartsWith("clamp left out: ")));
 }
-// w before a root, of which the port multiplies the result; and of a vector.
-TEST(EditFaults, AFactorIsMovedOutward) {
-  const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{sqrt(load(in[0]) * load(in[3])) + load(in[1])}; };
-  EXPECT_THAT(found(right, [](const Numbers& in) { return Numbers{(std::sqrt(in[0]) + in[1]) * in[3]}; }, {}),
-              testing::Contains(StartsWith("moved outward: in.w")));
-  const Pass vector = [](const Numbers& in) {
-    const Perturbed light = Perturbed(3.0f) * load(in[3]);
-    const auto of = [&](float x) { return sqrt(light * load(x)) + Perturbed(0.5f); };
-    return std::vector<Perturbed>{of(in[0]), of(in[1]), of(in[2])};
-  };
-  const auto port = [](const Numbers& in) {
-    const auto of = [&](float x) { return (std::sqrt(3 * x) + 0.5f) * in[3]; };
-    return Numbers{of(in[0]), of(in[1]), of(in[2])};
-  };
-  EXPECT_THAT(found(vector, port, {0.5f, 3}), testing::Contains(StartsWith("moved outward: in.w")));
-}
-// (c x - s y, c y + s x), which the port turns the other way; nothing of it is a number.
-TEST(EditFaults, ARotationByValuesIsTurnedTheOtherWay) {
-  const Pass right = [](const Numbers& in) {
-    const Perturbed x = load(in[0]), y = load(in[1]), c = load(in[2]), s = load(in[3]);
-    return std::vector<Perturbed>{c * x - s * y, c * y + s * x};
-  };
-  EXPECT_THAT(found(right,
-                    [](const Numbers& in) {
-                      return Numbers{in[2] * in[0] + in[3] * in[1], in[2] * in[1] - in[3] * in[0]};
-                    },
-                    {}),
-              testing::Contains(StartsWith("turned the other way: ")));
+// max(x, y z), of which the port has a blend from x to y by z.
+TEST(EditFaults, ABlendInPlaceOfTheLarger) {
+  const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{max(load(in[0]), load(in[1]) * load(in[2])) * load(in[3])}; };
+  EXPECT_EQ(first(right, [](const Numbers& in) { return Numbers{(in[0] * (1 - in[2]) + in[1] * in[2]) * in[3]}; }),
+            "blended for the larger or smaller: mix(in.x, in.y, in.z)");
 }
 // Fog over light over a picture, which the port blends in the other order.
 TEST(EditFaults, BlendsInTheOtherOrder) {
@@ -297,17 +221,6 @@ TEST(EditFaults, BlendsInTheOtherOrder) {
   };
   EXPECT_THAT(found(right, [&](const Numbers& in) { return Numbers{blend(blend(in[0], 5, in[2]), 3, in[1])}; }, {3, 5}),
               testing::Contains(StartsWith("order of ")));
-}
-// square(x + y) as the sum of squares, and a root of a sum as the sum of roots.
-TEST(EditFaults, AFunctionIsTakenOfEachTerm) {
-  const Pass right = [](const Numbers& in) {
-    return std::vector<Perturbed>{square(load(in[0]) + load(in[1])) + sqrt(load(in[2]) + load(in[3]))};
-  };
-  EXPECT_THAT(found(right, [](const Numbers& in) { return Numbers{in[0] * in[0] + in[1] * in[1] + std::sqrt(in[2] + in[3])}; }, {}),
-              testing::Contains(StartsWith("function of each term: ")));
-  EXPECT_THAT(
-      found(right, [](const Numbers& in) { return Numbers{(in[0] + in[1]) * (in[0] + in[1]) + std::sqrt(in[2]) + std::sqrt(in[3])}; }, {}),
-      testing::Contains(StartsWith("function of each term: ")));
 }
 // A vector in other axes where its own is meant, in one of the two places that take it.
 TEST(EditFaults, AMatrixIsLeftOutInOnePlace) {
@@ -347,14 +260,6 @@ TEST(PlaceFaults, ALiteralIsLeftOutInBothComponents) {
     if (std::abs(given(right, in, d)[0] - in[0] * 3 * in[1]) <= 1e-6f) names.push_back(name_of(d));
   }
   EXPECT_THAT(names, testing::Contains("term left out: 1, in both components"));
-}
-// min(x + y, 1.5) z, of which the port has min(x z + y, 1.5): what multiplies all that is held multiplies one term alone.
-TEST(EditFaults, AFactorIsMovedInward) {
-  const Pass right = [](const Numbers& in) {
-    return std::vector<Perturbed>{min(load(in[0]) + load(in[1]), Perturbed(1.5f)) * load(in[2])};
-  };
-  EXPECT_THAT(found(right, [](const Numbers& in) { return Numbers{std::min(in[0] * in[2] + in[1], 1.5f)}; }, {1.5f}),
-              testing::Contains(AllOf(StartsWith("moved inward: in.z"), HasSubstr("in.x"))));
 }
 // G f with f projected on two vectors, in three calls, of which the port projects on unit vectors: each call has its own projections.
 TEST(EditFaults, AMatrixIsLeftOutForUnitVectorsInEachCall) {

@@ -180,7 +180,7 @@ inline std::vector<Pass> windshield_passes() {
        {
            {"pixel corner", {"half a texel of the pixel's centre missing"}},
            {"glass coordinates not divided", {"factor left out: 1 /", "division left out: by max(("}},
-           {"aspect forgotten", {"without the aspect ratio", "factor too many: height / width"}},
+           {"aspect forgotten", {"without the aspect ratio"}},
            {"nearest normals", {"nearest for linear: normal"}},
            {"height and mask swapped", {"inputs height and mask exchanged"}},
            {"wet is the mask", {"input mask from 1 down", "complement left out: 1 - min(max(mask"}},

@@ -10,7 +10,6 @@
 
 #include "faults/generators.h"
 #include "faults/solver.h"
-#include "math/half.h"
 
 namespace rainref::faults {
 namespace {
@@ -20,8 +19,6 @@ using perturbed::Op;
 using perturbed::Perturbed;
 using perturbed::Put;
 using perturbed::Substitution;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 using Numbers = std::vector<float>;
 /// A pass of one invocation: what it gives for what it loads.
@@ -140,37 +137,8 @@ TEST(Synthesis, AResultThatIsUsedTwice) {
     const Perturbed x = load(in[0]), y = load(in[1]), w = load(in[3]), r = x * Perturbed(3.0f);
     return std::vector<Perturbed>{r * r + w * r, y};
   };
-  const auto port = [](const Numbers& in) {
-    const float r = in[0] * 3 / in[1];
-    return Numbers{r * r + in[3] * r, in[1]};
-  };
-  EXPECT_THAT(MadeUp(right, port, {3}).first(), testing::AnyOf(StartsWith("wrong value"), StartsWith("factor too many: 1 / in.y")));
-}
-// Of a sum over a loop each term's place is rounded to half precision: no single number is wrong.
-TEST(Synthesis, HalfPrecisionInALoop) {
-  const Pass right = [](const Numbers& in) {
-    Perturbed sum(0.0f);
-    for (std::size_t k = 0; k < 4; ++k) sum = sum + square(load(in[k]) * Perturbed(3.0f));
-    return std::vector<Perturbed>{sum, sum * Perturbed(7.0f)};
-  };
-  const auto port = [](const Numbers& in) {
-    float sum = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const float place = to_float(to_half(in[k] * 3));
-      sum += place * place;
-    }
-    return Numbers{sum, sum * 7};
-  };
-  EXPECT_THAT(MadeUp(right, port, {0, 3, 7}).first(), HasSubstr("half precision"));
-}
-// A product of two others where a sum is meant: neither is an operand there.
-TEST(Synthesis, TwoValuesTogether) {
-  const Pass right = [](const Numbers& in) {
-    const Perturbed x = load(in[0]), y = load(in[1]), z = load(in[2]), w = load(in[3]);
-    return std::vector<Perturbed>{exp(x * y) + w, z};
-  };
-  const auto port = [](const Numbers& in) { return Numbers{std::exp(in[0] * in[1] * in[2] + in[3]) + in[3], in[2]}; };
-  EXPECT_THAT(MadeUp(right, port, {}).first(), testing::AllOf(HasSubstr("in.z"), HasSubstr("in.w")));
+  const auto port = [](const Numbers& in) { return Numbers{in[1] * in[1] + in[3] * in[1], in[1]}; };
+  EXPECT_EQ(MadeUp(right, port, {3}).first(), "wrong value: in.y for in.x * 3");
 }
 // What a conforming device may give is no mistake, and what nothing near gives has no cause.
 TEST(Synthesis, WhatIsRightHasNoCauseAndWhatIsStrangeHasNone) {
@@ -199,13 +167,11 @@ TEST(Changes, OfANumber) {
   EXPECT_EQ(perturbed::changed(-1.25f, Change::fraction), 0.75f);
   EXPECT_EQ(perturbed::changed(1.5f, Change::saturated), 1);
   EXPECT_EQ(perturbed::changed(1 + 0x1p-20f, Change::as_half), 1);
-  EXPECT_EQ(perturbed::changed(0.5f, Change::as_code), 128 / 255.0f);
   EXPECT_EQ(perturbed::changed(2, Change::cubed), 8);
   EXPECT_EQ(perturbed::changed(0.25f, Change::smoothed), 0.15625f);
-  EXPECT_EQ(perturbed::put(3, 5, Put::from), 2);
-  EXPECT_EQ(perturbed::put(2, 6, Put::over), 3);
-  EXPECT_EQ(perturbed::put(3, 5, Put::larger), 5);
-  EXPECT_EQ(perturbed::put(3, 5, Put::smaller), 3);
+  EXPECT_EQ(perturbed::put(3, 5, Put::instead), 5);
+  EXPECT_EQ(perturbed::put(3, 5, Put::times), 15);
+  EXPECT_EQ(perturbed::put(3, 5, Put::plus), 8);
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ TEST(BestCauses, OfAboutEqualOnesTheEarlierIsBelieved) {
 }
 TEST(BestCauses, WhatWasSolvedForDoesNotWinByBitsThatItMeetsByChance) {
   const Tried plain = cause({Kind::term_left_out, {"", "x"}}, 11, 100, true);
-  EXPECT_EQ(best_causes({cause({Kind::cubed_factor_too_many, {"", "y"}}, 28, 100, true), plain})[0].name, plain.name);
+  EXPECT_EQ(best_causes({cause({Kind::wrong_value, {"", "y", "x"}}, 28, 100, true), plain})[0].name, plain.name);
   EXPECT_EQ(best_causes({plain, cause({Kind::wrong_value, {"", "y", "x"}}, 96, 100, true)})[0].name, "wrong value: y for x");
 }
 TEST(BestCauses, OfEqualOnesThoseOfFewPlacesAreMeant) {

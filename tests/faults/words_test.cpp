@@ -55,8 +55,7 @@ TEST(Words, OfAnExpressionTheNameKnowsWhatItLeavesOut) {
 TEST(Words, NumbersAreRankedByTheirKind) {
   EXPECT_TRUE(What({Kind::number_times_pi, {"speed"}}).is_odd_number());
   EXPECT_FALSE(What({Kind::number_doubled, {"speed"}}).is_odd_number());
-  EXPECT_TRUE(What({Kind::cubed_factor_too_many, {"", "speed"}}).is_odd_number());
-  EXPECT_FALSE(What({Kind::cubed_factor_too_many, {"", "speed"}, Reach::all}).is_odd_number());
+  EXPECT_FALSE(What({Kind::number_times_pi, {"speed"}, Reach::all}).is_odd_number());
   What fitted{Kind::another_value, {"the literal 4"}}, inverted{Kind::number_inverted, {"the literal 4"}};
   EXPECT_EQ(weight_of(fitted), 4);
   EXPECT_EQ(weight_of(inverted), 0);
