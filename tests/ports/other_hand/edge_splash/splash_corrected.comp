@@ -56,23 +56,23 @@ void main() {
   float reach = clamp(given.reach * nearest, given.reach_min, given.reach_max);
   int r = int(floor(reach + 0.5));
 
-  // The nine places, row by row from below.
-  float q[9];
-  float z[9];
-  for (int k = 0; k < 9; ++k) {
-    ivec2 offset = ivec2(k % 3 - 1, k / 3 - 1);
-    q[k] = nearness(here + r * offset);
-    z[k] = 1.0 / q[k];
+  // Sobel's sums, place by place; a place in the middle of a side counts twice.
+  vec2 gradient = vec2(0.0);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      float z = 1.0 / nearness(here + r * ivec2(dx, dy));
+      ivec2 weight = ivec2(dx * (2 - abs(dy)), dy * (2 - abs(dx)));
+      gradient += z * vec2(weight);
+    }
   }
-  vec2 gradient;
-  gradient.x = (z[2] - z[0]) + 2.0 * (z[5] - z[3]) + (z[8] - z[6]);
-  gradient.y = (z[6] - z[0]) + 2.0 * (z[7] - z[1]) + (z[8] - z[2]);
   float steep = length(gradient);
 
-  float upright = abs((q[7] + q[1]) - 2.0 * own);
-  float level = abs((q[3] + q[5]) - 2.0 * own);
-  float largest = max(max(max(q[1], q[7]), max(q[3], q[5])), own);
-  float bend = max(upright, level) / largest;
+  vec2 before = vec2(nearness(here - ivec2(r, 0)), nearness(here - ivec2(0, r)));
+  vec2 after = vec2(nearness(here + ivec2(r, 0)), nearness(here + ivec2(0, r)));
+  vec2 second = abs((before + after) - 2.0 * own);
+  vec2 larger = max(before, after);
+  float largest = max(max(larger.x, larger.y), own);
+  float bend = max(second.x, second.y) / largest;
   float edge_here = ramp(given.step_low, given.step_high, steep) * ramp(given.bend_low, given.bend_high, bend);
 
   vec2 sight = centre * given.pixel - given.half_size;

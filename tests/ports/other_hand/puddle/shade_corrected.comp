@@ -56,6 +56,8 @@ float thrown_back(float c) {
   vec2 both = vec2((INDEX * c - t) / (INDEX * c + t), (c - INDEX * t) / (c + INDEX * t));
   return 0.5 * dot(both, both);
 }
+// How many of four bounds a value reaches.
+float reached(float value, vec4 bounds) { return dot(vec4(greaterThanEqual(vec4(value), bounds)), vec4(1.0)); }
 
 void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy);
@@ -74,12 +76,8 @@ void main() {
   float wet = smoothstep(0.0, given.shore_width, depth);
 
   float footprint = given.ground_footprint * range / max(-view.y, 0.02);
-  float level = 0.0;
-  float bound = 1.41421356;
-  for (int k = 0; k < 12; ++k) {
-    if (footprint >= bound) level += 1.0;
-    bound *= 2.0;
-  }
+  vec4 bounds = 1.41421356 * vec4(1.0, 2.0, 4.0, 8.0);
+  float level = reached(footprint, bounds) + reached(footprint, 16.0 * bounds) + reached(footprint, 256.0 * bounds);
 
   vec3 up = surface.xyz;
   if (wet < 1.0) {

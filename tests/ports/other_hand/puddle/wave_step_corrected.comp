@@ -65,7 +65,8 @@ void main() {
   vec2 centre = vec2(here) + 0.5;
   float kept = 1.0;
   if (given.rim_damping > 0.0) {
-    vec2 margin = min(centre, vec2(given.size) - centre);
+    vec4 margin = vec4(centre, given.size - centre);
+    margin.xy = min(margin.xy, margin.zw);
     float deep = max(1.0 - given.rim_inverse * min(margin.x, margin.y), 0.0);
     kept = 1.0 - given.rim_damping * (deep * deep);
     own.y = given.rest + kept * (own.y - given.rest);

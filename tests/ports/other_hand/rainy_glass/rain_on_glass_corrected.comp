@@ -104,7 +104,7 @@ void main() {
     vec3 a = vec3(n.z * k, 0.0, -n.x * k);
     vec3 b = vec3(n.y * a.z, n.z * a.x - n.x * a.z, -n.y * a.x);
     vec3 rise = slope.x * a + slope.y * b;
-    vec2 prism = given.bend * vec2(dot(rise, given.right), dot(rise, given.up));
+    vec2 prism = given.bend * (rise * mat2x3(given.right, given.up));
     vec2 centre = (vec2(here) + 0.5) * given.pixel;
     vec2 half_size = vec2(given.half_width, given.half_height);
     if (given.use_probe != 0) {

@@ -53,9 +53,10 @@ void main() {
   ivec2 here = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(here, imageSize(colour)))) return;
   vec3 q = vec3(vec2(here) + 0.5, 1.0);
-  float m = dot(given.w_row, q);
+  vec3 projected = q * mat3(given.u_row, given.v_row, given.w_row);
+  float m = projected.z;
   float inverse = 1.0 / max(m, 1e-6);
-  vec2 place = vec2(dot(given.u_row, q), dot(given.v_row, q)) * inverse;
+  vec2 place = projected.xy * inverse;
   vec2 held = clamp(place, 0.0, 1.0);
   if (m <= 1e-6 || held != place) {
     imageStore(colour, here, vec4(given.cabin, 1.0));
@@ -76,7 +77,8 @@ void main() {
   vec3 seen = mix(dry, behind(bent, 0.0), visible);
 
   if (visible > 0.0) {
-    vec3 facing = -(slope.x * given.plane_x + slope.y * given.plane_y + slope.z * given.outward);
+    mat3 axes = mat3(given.plane_x, given.plane_y, given.outward);
+    vec3 facing = -(axes * slope);
     vec3 eye = -normalize(vec3(plane, 1.0));
     for (int k = 0; k < given.glint_count; ++k) {
       vec3 half_way = glints[k].direction + eye;

@@ -22,9 +22,8 @@ void main() {
   vec2 rise;
   rise.x = water(here + ivec2(1, 0)) - water(here - ivec2(1, 0));
   rise.y = water(here + ivec2(0, 1)) - water(here - ivec2(0, 1));
-  vec2 slope;
-  slope.x = given.slope_x * rise.x;
-  slope.y = given.slope_shear * rise.x + given.slope_y * rise.y;
+  mat2 to_slopes = mat2(given.slope_x, given.slope_shear, 0.0, given.slope_y);
+  vec2 slope = to_slopes * rise;
   vec3 direction = normalize(vec3(-wet * slope, 1.0));
   imageStore(normal, here, vec4(direction, 1.0));
 }

@@ -37,13 +37,14 @@ layout(binding = 4) uniform writeonly image2D height_out;
 layout(binding = 5) uniform writeonly image2D mask;
 layout(binding = 6) uniform writeonly image2D wiped_out;
 
-// Distance of a place, seen from the pivot, to a blade along an axis.
+// Squared distance of a place, seen from the pivot, to a blade along an axis.
 float to_blade(vec2 from_pivot, vec2 axis, float inner, float outer) {
   vec2 start = inner * axis;
   vec2 span = outer * axis - start;
   vec2 offset = from_pivot - start;
   float along = clamp(dot(offset, span) / max(dot(span, span), 1e-12), 0.0, 1.0);
-  return length(offset - along * span);
+  vec2 off = offset - along * span;
+  return dot(off, off);
 }
 float turn(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -64,8 +65,9 @@ void main() {
     float behind = max(-dot(arm, before + now), 0.0);
     float ring = max(max(wipers[k].inner_radius - far, far - wipers[k].outer_radius), 0.0);
     float distance_to = ring + 2.0 * (beside + behind);
-    distance_to = min(distance_to, to_blade(arm, before, wipers[k].inner_radius, wipers[k].outer_radius));
-    distance_to = min(distance_to, to_blade(arm, now, wipers[k].inner_radius, wipers[k].outer_radius));
+    float blade_before = to_blade(arm, before, wipers[k].inner_radius, wipers[k].outer_radius);
+    float blade_now = to_blade(arm, now, wipers[k].inner_radius, wipers[k].outer_radius);
+    distance_to = min(distance_to, sqrt(min(blade_before, blade_now)));
     float cover = clamp(0.5 + (wipers[k].half_width - distance_to) / given.edge_width, 0.0, 1.0);
     covered = max(covered, cover);
   }
