@@ -63,10 +63,11 @@ def peers_table(result):
     return table(["row", "peer", *map(str, counts), "goal"], lines) if lines else ""
 
 
-def passes_table(result):
-    """The rate of each corrected pass on all threads; "" without one."""
+def passes_table(result, goals_only=False):
+    """The rate of each corrected pass on all threads, or of those that have a goal; "" without one."""
     lines = [[f"`{s['row'].replace('/corrected', '')}`", rate_text(s["rate"], s["unit"]), "" if s["ratio"] is None else rows.judged(s["ratio"], s["goal"]),
-              "" if s["stream"] is None else f"{s['stream']:.0f}"] for s in rows.on_all_threads(result) if "/as-published" not in s["row"]]
+              "" if s["stream"] is None else f"{s['stream']:.0f}"] for s in rows.on_all_threads(result)
+             if "/as-published" not in s["row"] and (s["goal"] is not None or not goals_only)]
     return table(["row", "rate", "over one thread", "stream %"], lines) if lines else ""
 
 
@@ -82,8 +83,8 @@ def without_folders(reason):
     return re.sub(r"(?<![\w./])/(?:[^/\s,;:']+/)*([^/\s,;:']+)", r"\1", reason.replace(os.getcwd() + os.sep, ""))
 
 
-def markdown(result, pictures):
-    """The tables of a run. pictures: folder and stem of its plots, as a link goes there."""
+def markdown(result, pictures, goals_only=False):
+    """The tables of a run. pictures: folder and stem of its plots, as a link goes there; goals_only: of the passes those that have a goal."""
     m = result["machine"]
     out = [f"{m['processor']}, {m['cores']} cores, {', '.join(filter(None, (m['simd'], m['caches'])))}, {m['memory_gib']} GiB. {idle_text(result)} "
            f"{len(result['rows'])} rows in {result.get('seconds', 0)} s. Bold: a goal is missed.", ""]
@@ -99,7 +100,7 @@ def markdown(result, pictures):
         return "\n".join(out)
     if text := peers_table(result):
         out += ["How many times as fast as a peer, by the number of threads; beside a goal that is missed, the percentage of its stream that the row reaches:", "", text]
-    if text := passes_table(result):
+    if text := passes_table(result, goals_only):
         out += ["Passes as corrected on all threads, medians" + (f"; goal of waves of 2048 and 4096 columns over one thread: {rows.GOAL_SCALING}:" if max(row["threads"] for row in result["rows"]) == 16 else ":"), "", text]
     for name in plots.PLOTS:
         out += [f"![{name}]({pictures}{name}.svg)", ""]
@@ -122,7 +123,7 @@ def made(folder):
         result, stem = read(os.path.join(folder, name)), name[: -len(".json")]
         files.update({os.path.join(folder, path): text for path, text in write_plots(result, stem + ".").items()})
         again = "**This run is to be made again, for what is absent.** " if result["skipped"] else ""
-        parts.append(f"## {result.get('title', stem)}\n\n{again}{markdown(result, 'performance/' + stem + '.')}")
+        parts.append(f"## {result.get('title', stem)}\n\n{again}{markdown(result, 'performance/' + stem + '.', goals_only=True)}")
     for name in sorted(os.listdir(folder)):
         if name.startswith("growth") and name.endswith(".json"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:
