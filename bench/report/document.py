@@ -65,11 +65,11 @@ def peers_table(result, goals_only=False):
     return table(["row", "peer", *map(str, counts), "goal"], lines) if lines else ""
 
 
-def passes_table(result, goals_only=False):
-    """The rate of each corrected pass on all threads, or of those that have a goal; "" without one."""
+def passes_table(result, misses_only=False):
+    """The rate of each corrected pass on all threads, or of those that miss a goal; "" without one."""
     lines = [[f"`{s['row'].replace('/corrected', '')}`", rate_text(s["rate"], s["unit"]), "" if s["ratio"] is None else rows.judged(s["ratio"], s["goal"]),
               "" if s["stream"] is None else f"{s['stream']:.0f}"] for s in rows.on_all_threads(result)
-             if "/as-published" not in s["row"] and (s["goal"] is not None or not goals_only)]
+             if "/as-published" not in s["row"] and (not misses_only or s["goal"] is not None and s["ratio"] < s["goal"])]
     return table(["row", "rate", "over one thread", "stream %"], lines) if lines else ""
 
 
@@ -86,7 +86,8 @@ def without_folders(reason):
 
 
 def markdown(result, pictures, goals_only=False):
-    """The tables of a run. pictures: folder and stem of its plots, as a link goes there; goals_only: the rows that have a goal."""
+    """The tables of a run. pictures: folder and stem of its plots, as a link goes there; goals_only: without starts and passes
+    that miss no goal, and without peers that have none."""
     m = result["machine"]
     out = [f"{m['processor']}, {m['cores']} cores, {', '.join(filter(None, (m['simd'], m['caches'])))}, {m['memory_gib']} GiB. {idle_text(result)} "
            f"{len(result['rows'])} rows in {result.get('seconds', 0)} s. Bold: a goal is missed.", ""]
@@ -96,6 +97,8 @@ def markdown(result, pictures, goals_only=False):
     out += [f"- Absent from this run: {'; '.join(names)}: {reason}" for reason, names in reasons.items()]
     if result["skipped"]:
         out.append("")
+    if goals_only:
+        result = {**result, "starts": [start for start in result.get("starts", []) if start["kept_s"] > frames.GOAL_START]}
     if whole := frames.markdown(result):
         out += [whole]
     if not result["rows"]:
@@ -103,7 +106,7 @@ def markdown(result, pictures, goals_only=False):
     if text := peers_table(result, goals_only):
         out += ["Speed relative to a peer, by the number of threads. Beside a missed goal stands the percentage of its stream that the row reaches:", "", text]
     if text := passes_table(result, goals_only):
-        out += ["Corrected passes on all threads, medians" + (f"; goal over one thread for waves of 2048 and 4096 columns: {rows.GOAL_SCALING}:" if max(row["threads"] for row in result["rows"]) == 16 else ":"), "", text]
+        out += [f"Corrected passes {'that miss a goal ' if goals_only else ''}on all threads, medians" + (f"; goal over one thread for waves of 2048 and 4096 columns: {rows.GOAL_SCALING}:" if max(row["threads"] for row in result["rows"]) == 16 else ":"), "", text]
     for name in plots.PLOTS:
         out += [f"![{name}]({pictures}{name}.svg)", ""]
     return "\n".join(out)
