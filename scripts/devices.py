@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """What the files of docs/devices say together (src/web/pages/census.html and examples/ports/wgsl/census.mjs make them).
 
-scripts/devices.py table     the tables of docs/notes/devices.md
-scripts/devices.py write     puts them there
+scripts/devices.py table     the tables of docs/notes/devices.md, and the largest error of each function
+scripts/devices.py write     puts the former there
 scripts/devices.py typical   each number of src/judge/profiles/typical.toml against what was measured; exit code 1 where a device lies outside
                              that is not known to, or a known one no longer does
 """
@@ -109,14 +109,17 @@ def tables(found):
         weights = {"texels": weight_words(h["filter"]["texels"]), "levels": weight_words(h["filter"]["levels"])}
         habits.append([file(stem), same(stores), f"{h['srgb8_store']['render']['furthest']:.3f}", h["load"]["unorm8"], same(weights),
                        same(h["contraction"]), order_words(h["order"]), same(h["subnormals"])])
-    names = list(next(iter(found.values()))["habits"]["accuracy"])
-    spelled = {name: re.sub(r"^(.*?)(, (?:to|1/2) .*)?$", r"`\1`\2", name) for name in names}
-    errors = [[spelled[name]] + [error_words(c["habits"]["accuracy"][name]) for c in found.values()] for name in names]
     return "\n".join([
         table(["file", "device", "run by", "passes of all small packs under `webgpu`"], who),
-        table(["file", "stores to halves", "sRGB store, furthest code", "loads of 8 bits", "sampler's weights", "`a * b + c`", "order", "subnormal floats"], habits),
-        "Largest errors, in ULP, or absolute as a power of two where the function has zeros:\n",
-        table(["function"] + [f"{stem}" for stem in found], errors)])
+        table(["file", "stores to halves", "sRGB store, furthest code", "loads of 8 bits", "sampler's weights", "`a * b + c`", "order", "subnormal floats"], habits)])
+
+
+def errors(found):
+    """The largest error of each function: in ULP, or absolute as a power of two if the function has zeros."""
+    names = list(next(iter(found.values()))["habits"]["accuracy"])
+    spelled = {name: re.sub(r"^(.*?)(, (?:to|1/2) .*)?$", r"`\1`\2", name) for name in names}
+    return table(["largest error of"] + list(found),
+                 [[spelled[name]] + [error_words(c["habits"]["accuracy"][name]) for c in found.values()] for name in names])
 
 
 def document_with(text, made):
@@ -354,7 +357,7 @@ def main(arguments):
         sys.exit("usage: scripts/devices.py table|write|typical")
     found = devices(ROOT / "docs/devices")
     if verb == "table":
-        print(tables(found), end="")
+        print(tables(found), errors(found), sep="\n", end="")
     elif verb == "write":
         DOCUMENT.write_text(document_with(DOCUMENT.read_text(), tables(found)))
     else:

@@ -10,6 +10,7 @@ from pictures import ROOT
 
 GALLERY = ROOT / "docs/gallery"
 SHEET = GALLERY / "sheet.jpg"
+KEYS = ROOT / "docs/gallery.toml"  # what each picture shows: a table for each scene
 COLUMNS, TILE = 6, (240, 135)  # of the sheet
 # Frames to show where a scene's last one is not the best, or takes long: a drive in full rain, a wiper in the middle of its stroke, glass
 # that was under a bridge for half a second.
@@ -65,7 +66,7 @@ def values_of(table, prefix=""):
 
 
 def parameters(name, scene):
-    """A picture's scene as the page shows it: to be pasted into a file at the root of the sources, so files of the scene are named from there."""
+    """A picture's scene as docs/gallery.toml holds it: to be pasted into a file at the root of the sources, so files are named from there."""
     path = ROOT / f"scenes/{name}.toml"
     own = values_of(tomllib.loads(path.read_text()))
     lines = [f'effect = "{own["effect"]}"']
@@ -79,19 +80,24 @@ def parameters(name, scene):
     return lines
 
 
-def section(name, scene):
+def section(name):
     return "\n".join([
-        f"### {name}", "", f"![{name}]({picture_of(name).name})", "", sentence(name), "", "```toml", *parameters(name, scene), "```", "```sh",
+        f"### {name}", "", f"[![{name}]({picture_of(name).name})](../../scenes/{name}.toml)", "", sentence(name), "", "```sh",
         " ".join(command(name)), "```", ""])
 
 
-def known_sections():
-    """Those of the page as it stands."""
-    page = GALLERY / "README.md"
-    if not page.exists():
+def known_scenes():
+    """{name: its keys}, as docs/gallery.toml stands."""
+    if not KEYS.exists():
         return {}
-    parts = re.split(r"(?m)^### ", page.read_text())[1:]
-    return {part.split("\n", 1)[0]: re.search(r"```toml\n(.*?)```", part, re.S).group(1) for part in parts}
+    parts = re.split(r'(?m)^\["(.*)"\]\n', KEYS.read_text())
+    return dict(zip(parts[1::2], parts[2::2]))
+
+
+def write_keys(names, texts):
+    head = "# What differs from the defaults in the picture of each scene in docs/gallery. Written by scripts/gallery; a test compares it with the scenes.\n"
+    tables = ["\n".join([f'["{name}"]', *parameters(name, texts[name].strip()), ""]) for name in names]
+    KEYS.write_text(head + "\n" + "\n".join(tables))
 
 
 def write_sheet(names):
@@ -103,17 +109,16 @@ def write_sheet(names):
     pictures.ffmpeg(*sources, *pictures.exact("-filter_complex", tiles + joined, "-frames:v", 1), SHEET)
 
 
-def write_page(names, texts):
+def write_page(names):
     page = ["# Gallery", "", "<!-- scripts/gallery writes this page. -->", "",
-            f"Every scene of [scenes](../../scenes), {pictures.WIDTH} pixels wide: its picture, what it says of itself, its keys that are not as by default "
-            "(`rainref describe EFFECT`), and the command that makes the picture in its own size. The keys are a scene of their own: a file of them at the "
-            "root of the sources runs. `--first` only saves time. Made by `scripts/gallery`.", "", "![All of them](sheet.jpg)", ""]
+            "For anyone who looks for a scene to start from. Each picture links to its scene file; below it stands the command that makes it in full size. "
+            "`--first` skips frames to save time. [gallery.toml](../gallery.toml) lists what differs from the defaults.", "", "![All of them](sheet.jpg)", ""]
     group = ""
     for name in names:
         if name.split("/")[0] != group:
             group = name.split("/")[0]
             page += [f"## {'To be looked at' if group == 'gallery' else group}", ""]
-        page.append(section(name, texts[name]))
+        page.append(section(name))
     (GALLERY / "README.md").write_text("\n".join(page).rstrip() + "\n")
 
 
@@ -127,7 +132,7 @@ def main():
         if name not in names + others + ["--page"]:
             sys.exit(f"{name}: expected --check, --check-all, --page, or some of {', '.join(names + others)}")
     GALLERY.mkdir(exist_ok=True)
-    texts = known_sections()
+    texts = known_scenes()
     made = {file: listed[file] for file in others}
     for file in others:
         if wanted and file not in wanted:
@@ -155,7 +160,8 @@ def main():
         write_sheet(names)
     sheet = SHEET.relative_to(ROOT).as_posix()
     made[sheet] = pictures.Picture(sheet, pictures.sha_of(SHEET), pictures.NONE, pictures.NONE, "all of docs/gallery")
-    write_page(names, texts)
+    write_page(names)
+    write_keys(names, texts)
     pictures.write_list(made)
     total = sum(p.stat().st_size for p in GALLERY.iterdir())
     print(f"{len(names)} scenes, {total / 1e6:.1f} MB in docs/gallery", file=sys.stderr)

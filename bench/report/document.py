@@ -50,10 +50,12 @@ def idle_text(result):
     return text + (f"; others took {others} % of it during the run." if others is not None else ".")
 
 
-def peers_table(result):
-    """A line for each row and peer, with the ratio by the number of threads; "" without peers."""
+def peers_table(result, goals_only=False):
+    """A line for each row and peer, or of those that have a goal, with the ratio by the number of threads; "" without peers."""
     ratios, goals = {}, {}
     for c in rows.comparisons(result):
+        if goals_only and c["goal"] is None:
+            continue
         stream = f" ({c['stream']:.0f} %)" if c["goal"] is not None and c["ratio"] < c["goal"] and c["stream"] is not None else ""
         key = (c["peer"], c["row"])
         ratios.setdefault(key, {})[c["threads"]] = rows.judged(c["ratio"], c["goal"]) + stream
@@ -63,10 +65,11 @@ def peers_table(result):
     return table(["row", "peer", *map(str, counts), "goal"], lines) if lines else ""
 
 
-def passes_table(result):
-    """The rate of each corrected pass on all threads; "" without one."""
+def passes_table(result, misses_only=False):
+    """The rate of each corrected pass on all threads, or of those that miss a goal; "" without one."""
     lines = [[f"`{s['row'].replace('/corrected', '')}`", rate_text(s["rate"], s["unit"]), "" if s["ratio"] is None else rows.judged(s["ratio"], s["goal"]),
-              "" if s["stream"] is None else f"{s['stream']:.0f}"] for s in rows.on_all_threads(result) if "/as-published" not in s["row"]]
+              "" if s["stream"] is None else f"{s['stream']:.0f}"] for s in rows.on_all_threads(result)
+             if "/as-published" not in s["row"] and (not misses_only or s["goal"] is not None and s["ratio"] < s["goal"])]
     return table(["row", "rate", "over one thread", "stream %"], lines) if lines else ""
 
 
@@ -82,8 +85,9 @@ def without_folders(reason):
     return re.sub(r"(?<![\w./])/(?:[^/\s,;:']+/)*([^/\s,;:']+)", r"\1", reason.replace(os.getcwd() + os.sep, ""))
 
 
-def markdown(result, pictures):
-    """The tables of a run. pictures: folder and stem of its plots, as a link goes there."""
+def markdown(result, pictures, goals_only=False):
+    """The tables of a run. pictures: folder and stem of its plots, as a link goes there; goals_only: without starts and passes
+    that miss no goal, and without peers that have none."""
     m = result["machine"]
     out = [f"{m['processor']}, {m['cores']} cores, {', '.join(filter(None, (m['simd'], m['caches'])))}, {m['memory_gib']} GiB. {idle_text(result)} "
            f"{len(result['rows'])} rows in {result.get('seconds', 0)} s. Bold: a goal is missed.", ""]
@@ -93,14 +97,16 @@ def markdown(result, pictures):
     out += [f"- Absent from this run: {'; '.join(names)}: {reason}" for reason, names in reasons.items()]
     if result["skipped"]:
         out.append("")
+    if goals_only:
+        result = {**result, "starts": [start for start in result.get("starts", []) if start["kept_s"] > frames.GOAL_START]}
     if whole := frames.markdown(result):
         out += [whole]
     if not result["rows"]:
         return "\n".join(out)
-    if text := peers_table(result):
-        out += ["How many times as fast as a peer, by the number of threads; beside a goal that is missed, the percentage of its stream that the row reaches:", "", text]
-    if text := passes_table(result):
-        out += ["Passes as corrected on all threads, medians" + (f"; goal of waves of 2048 and 4096 columns over one thread: {rows.GOAL_SCALING}:" if max(row["threads"] for row in result["rows"]) == 16 else ":"), "", text]
+    if text := peers_table(result, goals_only):
+        out += ["Speed relative to a peer, by the number of threads. Beside a missed goal stands the percentage of its stream that the row reaches:", "", text]
+    if text := passes_table(result, goals_only):
+        out += [f"Corrected passes {'that miss a goal ' if goals_only else ''}on all threads, medians" + (f"; goal over one thread for waves of 2048 and 4096 columns: {rows.GOAL_SCALING}:" if max(row["threads"] for row in result["rows"]) == 16 else ":"), "", text]
     for name in plots.PLOTS:
         out += [f"![{name}]({pictures}{name}.svg)", ""]
     return "\n".join(out)
@@ -121,13 +127,13 @@ def made(folder):
             continue
         result, stem = read(os.path.join(folder, name)), name[: -len(".json")]
         files.update({os.path.join(folder, path): text for path, text in write_plots(result, stem + ".").items()})
-        again = "**This run is to be made again, for what is absent.** " if result["skipped"] else ""
-        parts.append(f"## {result.get('title', stem)}\n\n{again}{markdown(result, 'performance/' + stem + '.')}")
+        again = "**This run is to be made again, because something is absent.** " if result["skipped"] else ""
+        parts.append(f"## {result.get('title', stem)}\n\n{again}{markdown(result, 'performance/' + stem + '.', goals_only=True)}")
     for name in sorted(os.listdir(folder)):
         if name.startswith("growth") and name.endswith(".json"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:
                 result = json.load(file)
-            parts.append(f"## Growth, {result['machine']['cores']} cores\n\n{growth.markdown(result)}")
+            parts.append(f"## Growth, {result['machine']['cores']} cores\n\n{growth.verdict(result)}")
     files[None] = "\n".join(parts)
     return files
 

@@ -73,12 +73,12 @@ def markdown(result):
         spread = max(50 * (row["q3_ms"] - row["q1_ms"]) / row["median_ms"] for row in result["frames"])
         lines = [[f"`{scene}`", *(f"{of[n]['median_ms']:.3g}" for n in counts),
                   rows.judged(of[1]["median_ms"] / of[counts[-1]]["median_ms"], least)] for scene, of in times.items()]
-        parts.append(f"Milliseconds of a frame without its picture, by the number of threads: the mean of {FRAMES} but for the first and the last, quartiles within ± {spread:.0f} %" +
+        parts.append(f"Milliseconds of a frame without its picture, by the number of threads (mean of {FRAMES} frames without the first and the last); quartiles within ± {spread:.0f} %" +
                      (f"; goal over one thread: {least}:\n\n" if least else ":\n\n") + rows.table(["scene", *map(str, counts), "over one thread"], lines))
     lines = [[f"`{row['scene']}`", f"{row['kept_s']:.2f}" if row["kept_s"] <= GOAL_START else f"**{row['kept_s']:.2f}**",
               *(f"{row[key]:.2f}" if key in row else "" for key in ("frame_s", "png_s", "first_s"))] for row in result.get("starts", [])]
     if lines:
-        parts.append("Seconds from the command, on all threads, until the first frame begins, is computed, and is written; then without what is "
-                     f"the same in every run and was kept; goal of the first: {GOAL_START}:\n\n" +
-                     rows.table(["scene", "begins", "computed", "a PNG", "nothing kept, computed"], lines))
+        parts.append("Seconds from the command, on all threads, until the first frame begins, is computed, and is written as PNG; then until it is computed "
+                     f"without kept images. Goal of the first: {GOAL_START}:\n\n" +
+                     rows.table(["scene", "begins", "computed", "PNG", "computed, no kept images"], lines))
     return "\n".join(parts)

@@ -115,6 +115,10 @@ def markdown(result):
     text = said + "\n\n" + table(["series", "from", "taken MiB", "to", "taken MiB", "stated MiB", "s", "stated bytes an item", "taken"], lines)
     for s in result["skipped"]:
         text += f"\n- Skipped: {s['series']}, {s['size']}: {s['reason']}"
-    text += "".join(f"\n- **Grew**: {fault}" for fault in result["faults"])
-    return text + ("\n" if result["skipped"] or result["faults"] else "") + \
-        ("" if result["faults"] else f"\nNothing took more than a tenth and {PROGRAM_SLACK:g} MiB (the program's own pages) beyond what is stated, and nothing grew with frames.\n")
+    return text + ("\n" if result["skipped"] else "") + "\n" + verdict(result)
+
+
+def verdict(result):
+    """What took more than is stated, or that nothing did."""
+    return "".join(f"- **Grew**: {fault}\n" for fault in result["faults"]) or \
+        f"Nothing took more than a tenth and {PROGRAM_SLACK:g} MiB (the program's own pages) beyond what is stated, and nothing grew with frames.\n"

@@ -1,4 +1,4 @@
-// docs/gallery holds every scene, with commands that rainref takes and the parameters that they have.
+// docs/gallery holds every scene, with commands that rainref takes; docs/gallery.toml holds the parameters that they have.
 #include <map>
 #include <regex>
 
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Section {
-  std::string text, picture, parameters, command;
+  std::string text, picture, parameters, command;  ///< the parameters are those of docs/gallery.toml
 };
 
 class Gallery : public testing::Test {
@@ -38,9 +38,15 @@ class Gallery : public testing::Test {
                                           : s.text.substr(begin + from.size(), s.text.find(to, begin + from.size()) - begin - from.size());
       };
       s.picture = between("](", ")");
-      s.parameters = between("```toml\n", "```");
       s.command = between("```sh\n", "\n```");
       EXPECT_TRUE(sections.emplace(at[k].second, s).second) << at[k].second << " is there twice";
+    }
+    const std::string keys = "\n" + contents(root / "docs/gallery.toml");
+    for (auto& [name, section] : sections) {
+      const std::string table = "\n[\"" + name + "\"]\n";
+      const std::size_t begin = keys.find(table);
+      if (begin == std::string::npos) continue;
+      section.parameters = keys.substr(begin + table.size(), keys.find("\n[\"", begin + 1) - begin - table.size());
     }
   }
   fs::path root = test::source_folder(), folder = root / "docs/gallery";
@@ -71,8 +77,8 @@ std::string scene_of(const scene::Config& config) {
   return "";
 }
 
-// The command line's own parser takes each command, and the scene that it then loads is that of the page's keys, in a file at the root.
-TEST_F(Gallery, CommandsParseAndTheKeysOnThePageAreTheirScenes) {
+// The command line's own parser takes each command, and the scene that it then loads is that of the keys, in a file at the root.
+TEST_F(Gallery, CommandsParseAndTheKeysAreTheirScenes) {
   const TemporaryFolder pasted;
   for (const auto& [name, section] : sections) {
     SCOPED_TRACE(section.command);
@@ -97,13 +103,13 @@ TEST_F(Gallery, CommandsParseAndTheKeysOnThePageAreTheirScenes) {
     if (frames > 1) {
       EXPECT_EQ(value("--first"), std::to_string(frames - 1));
     }
-    SceneOptions page;
-    page.scene = pasted / "pasted.toml";
-    page.overrides.push_back("run.frames=" + std::to_string(frames));
-    put(page.scene, section.parameters);
-    const scene::Config on_page = load_scene(page);
-    EXPECT_EQ(scene_of(on_page), scene_of(config)) << "scripts/gallery " << name << " makes it anew";
-    for (const scene::Config::Entry& e : on_page.entries()) {
+    SceneOptions alone;
+    alone.scene = pasted / "pasted.toml";
+    alone.overrides.push_back("run.frames=" + std::to_string(frames));
+    put(alone.scene, section.parameters);
+    const scene::Config of_keys = load_scene(alone);
+    EXPECT_EQ(scene_of(of_keys), scene_of(config)) << "scripts/gallery " << name << " makes it anew";
+    for (const scene::Config::Entry& e : of_keys.entries()) {
       const auto* file = std::get_if<std::string>(&e.value);
       if (!file || file->empty() || !effect::names_files(e.parameter.key)) continue;
       EXPECT_TRUE(fs::exists(root / *file)) << *file;

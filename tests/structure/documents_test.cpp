@@ -191,7 +191,7 @@ TEST(Documents, SourcesNameDocumentsThatExist) {
   EXPECT_GT(checked, 10);
 }
 
-/// Why what stands in backticks in docs/notes/seeds.md is nowhere, or "": a file, a scene key of an effect, or a suite of tests.
+/// Why what stands in backticks in statements.txt is nowhere, or "": a file, a scene key of an effect, or a suite of tests.
 std::string missing_place(const std::string& place, const std::string& manifests, const std::string& tests) {
   if (place.find('/') != std::string::npos && std::regex_search(place, std::regex("\\.(h|cpp|toml)$")))
     return fs::exists(root / place) || fs::exists(root / "src" / place) ? "" : "no such file";
@@ -210,7 +210,7 @@ TEST(Documents, TheSourcesNamePlacesThatExist) {
   for (const auto& pack : fs::directory_iterator(RAINREF_PACKS)) manifests += contents(pack.path() / "manifest.json");
   for (const auto& file : fs::recursive_directory_iterator(root / "tests"))
     if (file.path().extension() == ".cpp") tests += contents(file.path());
-  const std::string prose = parts_of(contents(root / "docs/notes/seeds.md")).prose;
+  const std::string prose = parts_of(contents(root / "tests/structure/statements.txt")).prose;
   std::istringstream places(spans_of(prose).code);
   int checked = 0;
   for (std::string place; std::getline(places, place);) {

@@ -121,7 +121,7 @@ double share_apart(const std::vector<std::uint8_t>& a, const std::vector<std::ui
   return apart / (static_cast<double>(a.size()) / 4);
 }
 // The scene shows what it is for: against the same glass without rain, without persistence and without a blade. Measured: 0.327, 0.325 and
-// 0.192; cleared in each frame the drops are seen in 0.014 of the pixels (docs/notes/seeds.md).
+// 0.192; cleared in each frame the drops are seen in 0.014 of the pixels.
 TEST(Persist, TheSceneOfTrailsShowsTrailsAndAWipedArc) {
   const auto trails = trails_scene({}), dry = trails_scene({"windshield.spawn_rate=0"});
   const auto cleared = trails_scene({"windshield.height_tau=0"}), unwiped = trails_scene({"wipers.count=0"});
