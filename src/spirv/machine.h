@@ -14,6 +14,8 @@
 
 #include <fmt/format.h>
 
+#include "capture/traced_program.h"
+#include "math/perturbed.h"
 #include "spirv/glsl_functions.h"
 #include "spirv/module.h"
 #include "spirv/numbers.h"
@@ -61,6 +63,8 @@ class Invocation {
   void begin(const Numbers& numbers);
   /// Goes on to the end or to a barrier, or to the end of a block alone. Throws Refusal for what cannot be executed.
   Stop run(bool one_block = false);
+  /// From now on takes down which instruction and which call each node of the trace is made by. The trace must be in force while it runs.
+  void follow(capture::ProgramTrace& trace) requires std::is_same_v<N, perturbed::Perturbed> { trace_ = &trace; }
   /// The barrier at which it stopped.
   const Code& barrier() const { return module_.code[pc_ - 1]; }
 
@@ -89,6 +93,20 @@ class Invocation {
   void store(const Code& code);
   void exchange(const Code& code);
   void use_image(const Code& code);
+  void note_nodes(const Code& code);
+  /// In a trace an integer keeps, as its number, where it comes from, and so does a number that is made of it.
+  template <Kind out>
+  void carry(Slot<N>& to, const Slot<N>& a, const Slot<N>& b) {
+    if constexpr (std::is_same_v<N, perturbed::Perturbed> && (out == Kind::integer || out == Kind::floating)) {
+      if (!trace_) return;
+      const N made = N::of(out == Kind::integer ? static_cast<float>(signed_word(to.word)) : to.number.v);
+      if (a.number.node() >= 0 || b.number.node() >= 0)
+        to.number = N::met(perturbed::Op::stored, made, a.number, b.number);
+      else if (out == Kind::integer)
+        to.number = N();
+    }
+  }
+  void copy(const Slot<N>* from, std::uint32_t n, Slot<N>* to);
   std::byte* bytes(const Code& code, const Slot<N>* pointer, bool writes);
   Slot<N>* slots(const Code& code, const Slot<N>* pointer);
   const Resource<N>& resource(const Code& code, const Slot<N>& handle) const;
@@ -108,6 +126,7 @@ class Invocation {
         to[k].number = of();
       else
         to[k].word = of();
+      if constexpr (in != Kind::floating || out != Kind::floating) carry<out>(to[k], a[k], b[k]);
     }
   }
 
@@ -117,6 +136,8 @@ class Invocation {
   std::vector<Frame> frames_;
   std::uint32_t function_ = 0, base_ = 0, pc_ = 0, block_ = 0;
   std::uint64_t steps_ = 0;
+  capture::ProgramTrace* trace_ = nullptr;
+  std::int32_t call_ = -1;
 };
 
 template <class N>
@@ -153,9 +174,14 @@ void Invocation<N>::begin(const Numbers& numbers) {
                           {(local[2] * size[1] + local[1]) * size[0] + local[0]}};
   for (const BuiltInPlace& b : module_.built_ins) {
     const Three& value = values[static_cast<std::uint32_t>(b.what) - static_cast<std::uint32_t>(BuiltIn::num_workgroups)];
-    for (std::uint32_t k = 0; k < b.slots; ++k) stack_[b.slot + k].word = value[k];
+    for (std::uint32_t k = 0; k < b.slots; ++k) {
+      stack_[b.slot + k].word = value[k];
+      if constexpr (std::is_same_v<N, perturbed::Perturbed>)
+        if (trace_) stack_[b.slot + k].number = N::index(static_cast<int>(value[k]));
+    }
   }
   frames_.clear();
+  call_ = -1;
   function_ = module_.entry;
   base_ = static_cast<std::uint32_t>(machine_.start.size());
   block_ = module_.functions[function_].entry;
@@ -193,8 +219,24 @@ Stop Invocation<N>::run(bool one_block) {
         return Stop::barrier;
       default:
         execute(code);
+        note_nodes(code);
     }
   }
+}
+
+template <class N>
+void Invocation<N>::note_nodes(const Code& code) {
+  if constexpr (std::is_same_v<N, perturbed::Perturbed>)
+    for (std::uint32_t part = 0; trace_ && trace_->steps.size() < trace_->values.nodes.size(); ++part)
+      trace_->steps.push_back({static_cast<std::uint32_t>(&code - module_.code.data()), call_, part});
+}
+/// Values that go from one place to another: in a trace each is a node of its own.
+template <class N>
+void Invocation<N>::copy(const Slot<N>* from, std::uint32_t n, Slot<N>* to) {
+  std::copy(from, from + n, to);
+  if constexpr (std::is_same_v<N, perturbed::Perturbed>)
+    for (std::uint32_t k = 0; trace_ && k < n; ++k)
+      if (to[k].number.node() >= 0) to[k].number = to[k].number.as_stored();
 }
 
 template <class N>
@@ -241,6 +283,10 @@ void Invocation<N>::call(const Code& code) {
     std::copy(from, from + arguments[k + 2], stack_.data() + base + arguments[k + 1]);
     steps_ += arguments[k + 2] / 16;
   }
+  if (trace_) {
+    trace_->calls.push_back({static_cast<std::uint32_t>(&code - module_.code.data()), call_});
+    call_ = static_cast<std::int32_t>(trace_->calls.size()) - 1;
+  }
   frames_.push_back({function_, base_, pc_, block_, code.to});
   function_ = callee;
   base_ = base;
@@ -253,6 +299,7 @@ bool Invocation<N>::leave(const Code& code) {
   if (frames_.empty()) return true;
   const Frame frame = frames_.back();
   frames_.pop_back();
+  if (trace_) call_ = trace_->calls[static_cast<std::size_t>(call_)].caller;
   const Slot<N>* value = at(code.in[0]);
   base_ = frame.base;
   if (code.n > 0) std::copy(value, value + code.n, at(frame.result));

@@ -75,8 +75,7 @@ template <class N>
 void Invocation<N>::store(const Code& code) {
   const Slot<N>*const pointer = at(code.in[0]), *const from = at(code.in[1]);
   if (static_cast<Memory>(code.sub) != Memory::buffer) {
-    std::copy(from, from + code.n, slots(code, pointer));
-    return;
+    return copy(from, code.n, slots(code, pointer));
   }
   std::byte* const to = bytes(code, pointer, true);
   const std::uint32_t* leaves = module_.pool.data() + code.pool;
@@ -125,7 +124,15 @@ void Invocation<N>::use_image(const Code& code) {
   const auto whole = [&](std::size_t operand, std::uint32_t k) { return std::int64_t{signed_word(at(code.in[operand])[k].word)}; };
   N texel[4];
   const auto give = [&] {
-    for (std::uint32_t k = 0; k < 4; ++k) to[k].number = texel[k];
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      to[k].number = texel[k];
+      // In a trace a texel comes from its place, too.
+      if constexpr (std::is_same_v<N, perturbed::Perturbed>) {
+        const Slot<N>* const place = at(code.in[1]);
+        if (trace_ && texel[k].node() >= 0)
+          to[k].number = N::met(perturbed::Op::lookup, texel[k], texel[k], place[0].number, place[1].number);
+      }
+    }
   };
   switch (code.op) {
     case Op::ImageWrite:
@@ -137,7 +144,9 @@ void Invocation<N>::use_image(const Code& code) {
         if (is_inside) r.storage->read(static_cast<int>(x), static_cast<int>(y), texel);
         return give();
       }
-      for (std::uint32_t k = 0; k < code.m; ++k) texel[k] = at(code.in[2])[k].number;
+      std::array<Slot<N>, 4> stored;
+      copy(at(code.in[2]), code.m, stored.data());
+      for (std::uint32_t k = 0; k < code.m; ++k) texel[k] = stored[k].number;
       if (is_inside) r.storage->write(static_cast<int>(x), static_cast<int>(y), texel, static_cast<int>(code.m));
       return;
     }

@@ -178,11 +178,12 @@ void Invocation<N>::rearrange(const Code& code) {
     case Op::CompositeConstruct:
       for (std::uint32_t k = 0; k < code.pool_count; k += 2) {
         const Slot<N>* const part = at(static_cast<Place>(parts[k]));
-        to = std::copy(part, part + parts[k + 1], to);
+        copy(part, parts[k + 1], to);
+        to += parts[k + 1];
       }
       return;
     case Op::VectorShuffle:
-      for (std::uint32_t k = 0; k < code.pool_count; ++k) to[k] = *at(static_cast<Place>(parts[k]));
+      for (std::uint32_t k = 0; k < code.pool_count; ++k) copy(at(static_cast<Place>(parts[k])), 1, to + k);
       return;
     default: {
       const std::uint32_t index = at(code.in[1])->word;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/traced_program.h"
 #include "spirv/refusal.h"
 #include "spirv/types.h"
 
@@ -76,7 +77,8 @@ struct Module {
   Module(std::span<const std::byte> bytes, std::string module_name, const Specialization& specialization = {});
 
   std::string name;
-  std::vector<std::string> files;  ///< of the shader's source; the first is ""
+  std::vector<std::string> files;    ///< of the shader's source; the first is ""
+  std::vector<std::string> sources;  ///< their texts, as far as the module carries them; it may have fewer
   Types types;
   std::vector<Cell> globals;  ///< constants, pointers to variables, variables of the invocation
   std::vector<BuiltInPlace> built_ins;
@@ -90,6 +92,8 @@ struct Module {
   std::vector<std::uint32_t> pool;
   bool is_cooperative = false;  ///< invocations of a workgroup wait for each other or share memory
 
+  /// Where an instruction stands in the shader's source.
+  capture::SourceLine source_line(std::uint32_t instruction) const;
   [[noreturn]] void refuse(std::uint32_t file, std::uint32_t line, const std::string& sentence) const;
   [[noreturn]] void refuse(const Code& at, const std::string& sentence) const { refuse(at.file, at.line, sentence); }
 };

@@ -1,6 +1,7 @@
 #include "spirv/parser.h"
 
 #include <cstring>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,15 @@ constexpr std::uint32_t magic = 0x07230203, most_words = 1u << 20, most_invocati
 Module::Module(std::span<const std::byte> bytes, std::string module_name, const Specialization& specialization)
     : name(std::move(module_name)), files{""} {
   Parser(*this, bytes, specialization).parse();
+}
+capture::SourceLine Module::source_line(std::uint32_t instruction) const {
+  const Code& at = code[instruction];
+  capture::SourceLine out{files[at.file], at.line};
+  if (at.line == 0 || at.file >= sources.size()) return out;
+  std::istringstream text(sources[at.file]);
+  for (std::uint32_t k = 0; k < at.line; ++k)
+    if (!std::getline(text, out.text)) out.text.clear();
+  return out;
 }
 void Module::refuse(std::uint32_t file, std::uint32_t line, const std::string& sentence) const {
   throw Refusal(name, {files[file], static_cast<int>(line)}, sentence);
@@ -105,6 +115,14 @@ void Parser::add_text(const Raw& raw) {
   made.number = static_cast<std::uint32_t>(module_.files.size());
   module_.files.push_back(text(raw, 1));
 }
+// The text of a file, in one piece or several.
+void Parser::add_source(const Raw& raw) {
+  const bool goes_on = raw.op == Op::SourceContinued;
+  if (!goes_on) source_ = raw.words.size() > 3 && id(raw, 2).what == What::text ? id(raw, 2).number : 0;
+  if (source_ == 0) return;
+  module_.sources.resize(module_.files.size());
+  module_.sources[source_] += text(raw, goes_on ? 0 : 3);
+}
 void Parser::add_name(const Raw& raw) { names_[word(raw, 0)] = text(raw, 1); }
 void Parser::add_import(const Raw& raw) {
   const std::string set = text(raw, 1);
@@ -163,6 +181,9 @@ void Parser::take_line(const Raw& raw) {
         if (id(raw, 4).what == What::text) {
           Id& source = define(raw, 1, What::text);
           source.number = number;
+          // The text is a string as names of files are, which the module has among them.
+          module_.sources.resize(module_.files.size());
+          if (raw.words.size() > 5 && id(raw, 5).what == What::text) module_.sources[number] = module_.files[id(raw, 5).number];
         }
         return;
       }

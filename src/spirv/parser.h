@@ -45,6 +45,7 @@ class Parser {
   void check_memory_model(const Raw& raw);
   void add_name(const Raw& raw);
   void add_text(const Raw& raw);
+  void add_source(const Raw& raw);
   void add_entry(const Raw& raw);
   void add_function(const Raw& raw);
   void set_group(const Raw& raw);
@@ -143,7 +144,7 @@ class Parser {
   std::map<std::uint32_t, Decorations> decorations_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Decorations> member_decorations_;
   std::vector<Body> bodies_;
-  std::uint32_t entry_id_ = 0, file_ = 0, line_ = 0;
+  std::uint32_t entry_id_ = 0, file_ = 0, line_ = 0, source_ = 0;
   bool is_group_decorated_ = false;
   std::vector<std::uint32_t> group_ids_;
   // What belongs to the function at hand.

@@ -35,11 +35,11 @@ int values_of(const capture::PassCase& c) {
   return values;
 }
 
-class SpirvModel final : public capture::PassModel {
+class SpirvModel final : public capture::TracedProgram {
  public:
   SpirvModel(const capture::PassCase& c, const CaseOutput& first, std::unique_ptr<Module> module, std::unique_ptr<CaseBinding> binding,
              const Limits& limits)
-      : PassModel(first.array.width, first.array.height, values_of(c)),
+      : TracedProgram(first.array.width, first.array.height, values_of(c)),
         case_(c),
         module_(std::move(module)),
         binding_(std::move(binding)),
@@ -48,10 +48,19 @@ class SpirvModel final : public capture::PassModel {
   void evaluate(int x, int y, scalar::Scalar<double>* out) const override { run(x, y, out); }
   void evaluate(int x, int y, perturbed::Perturbed* out) const override { run(x, y, out); }
   void enclose(int x, int y, const float*, enclosed::Enclosure* out) const override { run(x, y, out); }
+  void trace(int x, int y, capture::ProgramTrace& out) const override {
+    perturbed::Behaviour behaviour;
+    behaviour.trace = &out.values;
+    const perturbed::Scope scope(behaviour);
+    std::vector<perturbed::Perturbed> values(static_cast<std::size_t>(this->values()));
+    run(x, y, values.data(), &out);
+    for (const perturbed::Perturbed& v : values) out.outputs.push_back(v.node());
+  }
+  capture::SourceLine line(std::uint32_t instruction) const override { return module_->source_line(instruction); }
 
  private:
   template <class N>
-  void run(int x, int y, N* out) const {
+  void run(int x, int y, N* out, [[maybe_unused]] capture::ProgramTrace* trace = nullptr) const {
     const FloatingPointGuard guard;
     std::map<const CaseOutput*, OwnTexel<N>> written;
     std::vector<Resource<N>> resources;
@@ -64,9 +73,14 @@ class SpirvModel final : public capture::PassModel {
     }
     Machine<N> machine(*module_, resources, limits_);
     Invocation<N> invocation(machine);
+    if constexpr (std::is_same_v<N, perturbed::Perturbed>)
+      if (trace) invocation.follow(*trace);
     const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
     const Three& size = module_->group;
     invocation.begin({binding_->groups(), {column / size[0], row / size[1], 0}, {column % size[0], row % size[1], 0}});
+    if constexpr (std::is_same_v<N, perturbed::Perturbed>)
+      for (std::uint32_t part = 0; trace && trace->steps.size() < trace->values.nodes.size(); ++part)
+        trace->steps.push_back({capture::ProgramTrace::given, -1, part});
     invocation.run();
     for (const CaseOutput& o : case_.outputs) {
       if (!is_asked(o)) continue;
@@ -83,8 +97,8 @@ class SpirvModel final : public capture::PassModel {
 
 }  // namespace
 
-std::unique_ptr<capture::PassModel> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
-                                                const std::string& name, const Limits& limits) {
+std::unique_ptr<capture::TracedProgram> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
+                                                    const std::string& name, const Limits& limits) {
   auto module = std::make_unique<Module>(spirv, name, specialization_of(program, c));
   const auto is_list = [&](const std::string& output) { return c.output(output) != nullptr && c.output(output)->array.is_records; };
   if (module->is_cooperative || program.one_group || std::any_of(program.outputs.begin(), program.outputs.end(), is_list))

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "capture/pass_model.h"
+#include "capture/traced_program.h"
 #include "spirv/bindings.h"
 
 namespace rainref::spirv {
@@ -15,7 +15,7 @@ namespace rainref::spirv {
 /// judged by envelope, output after output, and 0 where the program writes none. The case and the program must outlive it. Throws as
 /// execute(); Refusal also where invocations work together or a list is written: float alone executes those. Evaluation throws Refusal for
 /// what cannot be executed.
-std::unique_ptr<capture::PassModel> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
-                                                const std::string& name, const Limits& limits = {});
+std::unique_ptr<capture::TracedProgram> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
+                                                    const std::string& name, const Limits& limits = {});
 
 }  // namespace rainref::spirv
