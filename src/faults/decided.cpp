@@ -52,7 +52,8 @@ bool is_a_number(const FailedRun& f, const judge::OutputJudgement& o, Texel t) {
 
 std::optional<Cause> decided(const TexelReplay& run, const TexelReplay* other) {
   std::optional<Tried> best;
-  for (const Tried& c : run.causes(run.decidable()))
+  const std::vector<Fault> faults = run.decidable();
+  for (const Tried& c : run.causes(faults))
     if (is_decisive(c) && (!best || points(c) > points(*best))) best = c;
   if (!best) return std::nullopt;
   for (const Tried& c : run.causes(run.of_finished()))
@@ -67,6 +68,7 @@ std::optional<Cause> decided(const TexelReplay& run, const TexelReplay* other) {
     best->inside += there->inside;
     best->of += there->of;
   }
+  add_lines(run, nullptr, *best, {*best}, {});
   return *best;
 }
 

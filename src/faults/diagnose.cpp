@@ -76,6 +76,8 @@ std::vector<Cause> causes_of_texels(const FailedRun& f, const SearchLimit& limit
   TexelReplay run = texels_of(f);
   std::optional<TexelReplay> other;
   if (f.other) other.emplace(texels_of(*f.other));
+  if (f.program) run.take(*f.program);
+  if (other && f.other->program) other->take(*f.other->program);
   run.limit(limit);
   if (other) other->limit(limit);
   if (std::optional<Cause> sure = decided(run, other ? &*other : nullptr)) return {std::move(*sure)};

@@ -225,10 +225,28 @@ void FaultyPass::store(Texel at, StoredTexel& out) const {
 }
 
 std::vector<perturbed::Perturbed> FaultyPass::values(Texel at) const {
+  perturbed::Trace trace;
+  return evaluated(at, fault_.rewrites ? &trace : nullptr, false);
+}
+void FaultyPass::trace(Texel at, perturbed::Trace& right, perturbed::Trace& wrong) const {
+  evaluated(at, &right, true);
+  evaluated(at, &wrong, false);
+}
+std::vector<perturbed::Perturbed> FaultyPass::evaluated(Texel at, perturbed::Trace* trace, bool is_right) const {
   perturbed::Behaviour behaviour = fault_.behaviour;
   std::vector<float> loads;
-  perturbed::Trace trace;
-  if (fault_.rewrites) behaviour.trace = &trace;
+  behaviour.trace = trace;
+  if (is_right) {
+    if (fault_.at_texel) fault_.at_texel(at, behaviour, loads);
+    const std::vector<float>* const known = behaviour.known;
+    behaviour = {};
+    behaviour.known = known;
+    behaviour.trace = trace;
+    const perturbed::Scope scope(behaviour);
+    std::vector<perturbed::Perturbed> values(slots_.size());
+    model_.evaluate(at.x, at.y, values.data());
+    return values;
+  }
   perturbed::Substitutions substitutions{fault_.substitutions};
   if (!substitutions.all.empty()) behaviour.substitutions = &substitutions, substitutions.start();
   if (fault_.at_texel) fault_.at_texel(at, behaviour, loads);
@@ -236,7 +254,10 @@ std::vector<perturbed::Perturbed> FaultyPass::values(Texel at) const {
   const perturbed::RewriteScope rewriting(fault_.rewrites.value_or(perturbed::Rewrites()));
   const perturbed::Scope scope(behaviour);
   std::vector<perturbed::Perturbed> values(slots_.size());
-  const auto evaluate = [&] { (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data()); };
+  const auto evaluate = [&] {
+    if (trace) *trace = {};
+    (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());
+  };
   substitutions.look_ahead(evaluate);
   evaluate();
   return values;

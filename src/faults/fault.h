@@ -81,8 +81,12 @@ class FaultyPass {
   /// What it gives at a texel, and the bytes of that with halves stored by `mode`, unless the fault says how. Of evaluated faults only.
   std::vector<perturbed::Perturbed> values(Texel at) const;
   void store(const std::vector<perturbed::Perturbed>& values, judge::HalfMode mode, StoredTexel& out) const;
+  /// What is done at a texel with the mistake and without it, so that the same node has the same shape in both. Of evaluated faults only.
+  void trace(Texel at, perturbed::Trace& right, perturbed::Trace& wrong) const;
 
  private:
+  std::vector<perturbed::Perturbed> evaluated(Texel at, perturbed::Trace* trace, bool is_right) const;
+
   const Fault& fault_;
   const capture::PassModel& model_;
   judge::HalfMode mode_;

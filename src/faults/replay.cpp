@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <map>
 #include <set>
 #include <sstream>
@@ -56,7 +57,7 @@ std::vector<Fault> named(Replay& run, const Names& names, const Names& solved) {
 }
 
 /// Adds how well the causes that explain something explain another run.
-void check_in(Replay& other, std::vector<Tried>& causes) {
+void check_in(Replay& other, std::vector<Tried>& causes, std::vector<Fault>& all) {
   Names names;
   bool is_any_fitted = false;
   for (const Tried& c : causes) {
@@ -65,7 +66,7 @@ void check_in(Replay& other, std::vector<Tried>& causes) {
     is_any_fitted |= is_fitted(c);
   }
   if (names.empty()) return;
-  std::vector<Fault> all = named(other, names, solved_of(causes));
+  all = named(other, names, solved_of(causes));
   if (is_any_fitted)
     for (Fault& d : other.fitted())
       if (names.contains(name_of(d))) all.push_back(std::move(d));
@@ -91,6 +92,7 @@ void check_in(Replay& other, std::vector<Tried>& causes) {
     c.bad += found->second.bad;
     c.is_likely &= found->second.is_likely;
     c.misfit = std::max(c.misfit, found->second.misfit);
+    c.other_fault = found->second.fault;
   }
 }
 
@@ -228,19 +230,51 @@ std::vector<Tried> tried(const Replay& replay, const parallel::Executor& executo
       } catch (const Error&) {
         made = untried(d, of, of_records);  // the altered case is none that the pass can run
       }
+      made.fault = &d;
     }
   });
   return out;
 }
 
+void add_lines(const Replay& run, const Replay* other, Tried& best, const std::vector<Tried>& causes, const std::set<std::string>& alike) {
+  constexpr std::size_t most_causes = 8;
+  if (best.inside * 3 < best.of) return;
+  std::vector<const Tried*> asked;
+  for (const Tried& c : causes)
+    if (c.fault && (c.name == best.name || alike.contains(c.name)) && c.inside * 3 >= c.of) asked.push_back(&c);
+  std::stable_sort(asked.begin(), asked.end(), [&](const Tried* a, const Tried* b) {
+    if ((a->name == best.name) != (b->name == best.name)) return a->name == best.name;
+    return far_fetched(*a) < far_fetched(*b);
+  });
+  asked.resize(std::min(asked.size(), most_causes));
+  constexpr std::size_t most_lines = 3;
+  for (const Tried* c : asked) {
+    if (best.lines.size() >= most_lines) break;
+    std::vector<Followed> followed;
+    run.follow(*c->fault, followed);
+    if (other && c->other_fault && !followed.empty()) other->follow(*c->other_fault, followed);
+    if (followed.empty()) continue;
+    for (const FoundLine& found : lines_of_mistake(followed, c->what.is_of_function()))
+      if (const std::optional<judge::ShaderLine> line = run.line(found);
+          line && std::find(best.lines.begin(), best.lines.end(), *line) == best.lines.end())
+        best.lines.push_back(*line);
+  }
+}
+
 std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
-  std::vector<Tried> causes = run.causes(run.plain());
+  std::deque<std::vector<Fault>> faults;  // that causes point to
+  std::vector<Tried> causes;
+  const auto try_all = [&](std::vector<Fault> all) {
+    faults.push_back(std::move(all));
+    return run.causes(faults.back());
+  };
+  causes = try_all(run.plain());
   // Where nearly all of it is explained by what is plain, what is less so is not needed.
   Names sought;
   const auto explains_little = [&] { return std::none_of(causes.begin(), causes.end(), [](const Tried& c) { return score(c) >= 1.5; }); };
   for (const auto more : {&Replay::deeper, &Replay::solved, &Replay::fitted}) {
     if (is_plain || is_explained(causes) || run.is_time_over()) continue;
-    for (Tried& c : run.causes((run.*more)())) {
+    for (Tried& c : try_all((run.*more)())) {
       sought.insert(c.name);
       causes.push_back(std::move(c));
     }
@@ -248,9 +282,9 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   if (!is_plain && !run.is_time_over() && explains_little() && run.widen()) {
     if (other) other->widen();
     for (const auto again : {&Replay::plain, &Replay::deeper})
-      for (Tried& c : run.causes((run.*again)())) causes.push_back(std::move(c));
+      for (Tried& c : try_all((run.*again)())) causes.push_back(std::move(c));
   }
-  if (other && !run.is_time_over()) check_in(*other, causes);
+  if (other && !run.is_time_over()) check_in(*other, causes, faults.emplace_back());
   std::vector<Tried> best = best_causes(causes);
   if (best.empty()) return {};
   const Names solved = solved_of(causes);
@@ -281,6 +315,7 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
     for (const Tried& c : causes)
       if (alike.contains(c.name) || far_fetched(c) > far_fetched(best.front())) same.erase(c.name);
     const std::string own = best.front().sentence;
+    add_lines(run, other, best.front(), causes, alike);
     say_one_of(best.front(), causes, alike);
     say_one_of(best.front(), causes, same, 2, as_much, own);
     return said();
@@ -298,6 +333,7 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   if ((is_fitted(best.front()) || best.front().what.is_odd_number()) && best.front().explained * 50 < best.front().of * 49)
     best.front().is_likely = false;
   // What could not be asked elsewhere is not said to give the same.
+  add_lines(run, other, best.front(), causes, there.alike);
   if (best.front().is_likely)
     say_one_of(best.front(), causes, there.alike);
   else

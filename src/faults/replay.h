@@ -3,11 +3,15 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "faults/fault.h"
 #include "faults/search_limit.h"
+#include "faults/shader_line.h"
 #include "rainref/executor.h"
 
 namespace rainref::faults {
@@ -17,10 +21,12 @@ struct Tried : judge::Cause {
   Tried() = default;
   /// With its words.
   Tried(What made, judge::Cause figures, double how_far = 0);
-  What what;                 ///< by which it is ranked
-  double misfit = 0;         ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
-  bool is_untested = false;  ///< another run could not be asked about it
-  std::int64_t bad = 0;      ///< texels that passed and that the mistake moves away from where the port is
+  What what;                           ///< by which it is ranked
+  double misfit = 0;                   ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
+  bool is_untested = false;            ///< another run could not be asked about it
+  std::int64_t bad = 0;                ///< texels that passed and that the mistake moves away from where the port is
+  const Fault* fault = nullptr;        ///< the mistake itself, as long as who asked for it keeps it
+  const Fault* other_fault = nullptr;  ///< the same of another run
 };
 
 /// Places that a mistake leaves unexplained, and those that passed and would not have with it.
@@ -47,6 +53,11 @@ class Replay {
   virtual std::unique_ptr<Replay> elsewhere() const = 0;
   /// What the pass gives with a mistake, at some places; empty where it cannot be made. Of a fault without a name: without one.
   virtual std::vector<float> given(const Fault& d) const = 0;
+
+  /// Adds some invocations in which a mistake gives the port's bits, followed in the port's shader too; none where there is no shader.
+  virtual void follow(const Fault&, std::vector<Followed>&) const {}
+  /// A line of that shader; nothing where it does not say its lines.
+  virtual std::optional<judge::ShaderLine> line(const FoundLine&) const { return {}; }
 
   /// From now on causes() tries nothing more once the time is over. The limit must outlive the replay.
   void limit(const SearchLimit& to) { limit_ = &to; }
@@ -85,6 +96,10 @@ inline const capture::PassModel& no_model() {
   static const capture::ListPass none("", nullptr);
   return none;
 }
+
+/// Adds where the best cause, and those of `causes` that give the same (`alike`: their names), stand in the port's shader. What leaves most
+/// of the failures unexplained, or is not what the shader itself gives, says nothing of its lines.
+void add_lines(const Replay& run, const Replay* other, Tried& best, const std::vector<Tried>& causes, const std::set<std::string>& alike);
 
 /// What explains a run, best first. `other`: another failing run of the pass, or null: what explains both is believed. A cause is
 /// likely where no rival, which would be another mistake elsewhere, explains as much; none is when the time was over before all were tried.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "capture/traced_program.h"
 #include "faults/probe.h"
 #include "faults/replay.h"
 #include "rainref/executor.h"
@@ -38,6 +39,10 @@ class TexelReplay : public Replay {
   std::vector<Tried> causes(const std::vector<Fault>& all) const override;
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
+  void follow(const Fault& d, std::vector<Followed>& out) const override;
+  std::optional<judge::ShaderLine> line(const FoundLine& found) const override;
+  /// The port's own program, on this run. It must outlive the replay.
+  void take(const capture::TracedProgram& program) { program_ = &program; }
   /// Mistakes that need no search, and those of finished buffers that are as plain.
   std::vector<Fault> decidable() const;
   std::vector<Fault> of_finished() const;
@@ -62,6 +67,7 @@ class TexelReplay : public Replay {
   Leeway leeway_;
   double passing_per_failing_ = 0;
   bool is_wide_ = false;
+  const capture::TracedProgram* program_ = nullptr;
   Constants constants_;
   std::vector<Fault> orders_;  ///< for deeper()
   std::vector<Probe> probes_;  ///< for solved()

@@ -34,6 +34,7 @@ constexpr unsigned lost = 128;       ///< a list that lacks the very records tha
 constexpr unsigned empty = 256;      ///< nothing is written
 constexpr unsigned late = 512;       ///< a list that is as it was before the pass
 constexpr unsigned bare = 1024;      ///< its weight says all, whatever its words leave out
+constexpr unsigned lookup = 2048;    ///< how an image is looked up, wherever it is
 }  // namespace trait
 
 /// Where a mistake is made beside the place that its words name.
@@ -66,6 +67,8 @@ struct What {
   bool is_of_all_components() const { return reach == Reach::all; }
   /// A place that is met several times, as a function of the text that is called: one mistake there by another name.
   bool is_of_each_place() const { return reach >= Reach::each_call && reach <= Reach::each_vector; }
+  /// Of how an image is looked up wherever it is: the mistake stands where that is done for all.
+  bool is_of_function() const { return is(trait::lookup); }
   /// A number that has another value without a plain reason.
   bool is_odd_number() const { return is(trait::odd) && reach == Reach::one; }
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capture/pack_read.h"
+#include "capture/traced_program.h"
 #include "judge/evaluations.h"
 #include "judge/judge.h"
 #include "judge/verdict.h"
@@ -45,6 +46,7 @@ struct FailedRun {
   /// What is asked about is warned of and does not fail: `judgement` has it as failing. What is plain is tried alone, which bounds the
   /// time.
   bool is_warned = false;
+  const capture::TracedProgram* program = nullptr;  ///< the port's own, on this run; null: it is not at hand
 };
 /// What would explain its failures, and what they share. The judge itself knows no mistakes: faults/diagnose.h does.
 using Explain = std::function<Explanation(const FailedRun&)>;

@@ -134,6 +134,15 @@ struct CaseJudgement {
   std::vector<OutputJudgement> outputs;
 };
 
+/// A place in a port's shader that a cause points at.
+struct ShaderLine {
+  std::string file;
+  int line = 0;
+  std::string text;  ///< of the line, without the blanks around it; "" where the program does not carry its source
+  int until = 0;     ///< where a step is missing: it belongs after `line` and not after this one. Else 0
+  friend bool operator==(const ShaderLine&, const ShaderLine&) = default;
+};
+
 /// What would explain the failures of a pass.
 struct Cause {
   std::string name, sentence;
@@ -142,6 +151,8 @@ struct Cause {
   std::int64_t inside = 0;     ///< failing texels that it comes near: as near as the envelope is usually wide
   bool of_records = false;     ///< of a list: ids that are missing, too many, or wrong, in place of texels
   bool is_likely = false;      ///< it explains nearly all of them; otherwise it may be the cause
+  /// Where it stands in the port's shader, where that is given: one line, or several where causes that give the same bits stand in several.
+  std::vector<ShaderLine> lines = {};
 };
 /// Why a pass fails, and where.
 struct Explanation {

@@ -8,6 +8,7 @@
 #include "judge/races.h"
 #include "judge/shadow.h"
 #include "judging/shader_answer.h"
+#include "rainref/error.h"
 #include "spirv/bindings.h"
 
 namespace rainref::judging {
@@ -19,11 +20,18 @@ class JudgeCall {
   explicit JudgeCall(const FolderOptions& o) : options(o) {
     options.buffers = std::make_shared<judge::ReadBuffers>();
     options.explain = nullptr;
+    if (!o.spirv.empty()) programs = spirv::read_programs(o.spirv);
     if (!o.seeks_causes) return;
     options.explain = [this, &o](const judge::FailedRun& failed) {
       if (o.at_cause) o.at_cause(failed.pass.name);
       const faults::SearchLimit limit(o.causes_within * failed.share);
-      judge::Explanation why = faults::diagnose_within(limit, failed);
+      const std::unique_ptr<capture::TracedProgram> program = program_of(failed);
+      const std::unique_ptr<capture::TracedProgram> other_program = failed.other ? program_of(*failed.other) : nullptr;
+      judge::FailedRun with_program = failed, other = failed.other ? *failed.other : failed;
+      with_program.program = program.get();
+      other.program = other_program.get();
+      if (failed.other) with_program.other = &other;
+      judge::Explanation why = faults::diagnose_within(limit, with_program);
       if (limit.was_met() && (cut_short_.empty() || cut_short_.back() != failed.pass.name)) cut_short_.push_back(failed.pass.name);
       return why;
     };
@@ -32,6 +40,7 @@ class JudgeCall {
   JudgeCall& operator=(const JudgeCall&) = delete;
 
   judge::ValidateOptions options;
+  Programs programs;  ///< the port's own
 
   /// What is to be said of the searches that ended early.
   void add_notes(judge::PortJudgement& judgement) const {
@@ -41,6 +50,13 @@ class JudgeCall {
   }
 
  private:
+  /// The port's program of a pass, where its invocations can be followed. Why they cannot, ask_shaders() says.
+  std::unique_ptr<capture::TracedProgram> program_of(const judge::FailedRun& failed) const try {
+    return program_model(programs, failed.judged.formula, failed.run.c);
+  } catch (const Error&) {
+    return nullptr;
+  }
+
   std::vector<std::string> cut_short_;
 };
 
@@ -76,7 +92,7 @@ Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std:
   judge::PortJudgement judgement = judge::validate(*pack, runs.front(), call.options);
   call.add_notes(judgement);
   if (runs.size() > 1) find_races(*pack, runs, call.options, judgement);
-  if (!o.spirv.empty()) ask_shaders(*pack, runs.front(), o.spirv, call.options, judgement);
+  if (!call.programs.empty()) ask_shaders(*pack, runs.front(), call.programs, call.options, judgement);
   return with_verdict(std::move(judgement), reports::page_source(pack, runs.front(), call.options.buffers), o);
 }
 

@@ -58,7 +58,7 @@ std::optional<bool> may_give(const PassModel& model, const std::vector<judge::Sl
 }
 
 /// What a pass's program says of the case that fails most, or of the first one.
-std::string answer_of(const capture::Pack& pack, const judge::PassJudgement& pass, const spirv::Program& program, judge::PortFiles& files,
+std::string answer_of(const capture::Pack& pack, const judge::PassJudgement& pass, const Programs& programs, judge::PortFiles& files,
                       const judge::ValidateOptions& options) {
   const auto failing = [](const judge::CaseJudgement& c) { return c.failing; };
   const auto most =
@@ -68,10 +68,9 @@ std::string answer_of(const capture::Pack& pack, const judge::PassJudgement& pas
                          : std::find_if(pack.cases.begin(), pack.cases.end(), [&](const auto& c) { return c.id == most->id; });
   if (entry == pack.cases.end()) return "";
   const PassCase c = judge::read_case(pack, *entry);
-  if (!judge::is_enveloped(c) || program.one_group) return "";
+  const std::unique_ptr<PassModel> shader = program_model(programs, pass.formula, c);
+  if (!shader) return "";
   const std::unique_ptr<PassModel> reference = judge::bound(pass.pass, judge::binder(pack.effect, pass.pass), c);
-  const std::unique_ptr<PassModel> shader =
-      spirv::spirv_model(c, program, spirv::read_spirv(program), "'" + program.spirv.filename().string() + "'");
   if (shader->values() != reference->values()) return "";
   std::vector<Array> stored;
   for (const capture::CaseOutput& output : c.outputs) stored.push_back(files.read(c.folder(), "out." + output.name, output.array));
@@ -81,6 +80,12 @@ std::string answer_of(const capture::Pack& pack, const judge::PassJudgement& pas
 }
 
 }  // namespace
+
+std::unique_ptr<capture::TracedProgram> program_model(const Programs& programs, const std::string& formula, const PassCase& c) {
+  const auto program = programs.find(formula);
+  if (program == programs.end() || program->second.one_group || !judge::is_enveloped(c)) return nullptr;
+  return spirv::spirv_model(c, program->second, spirv::read_spirv(program->second), "'" + program->second.spirv.filename().string() + "'");
+}
 
 ShaderAnswer ask_shader(const PassCase& c, const PassModel& reference, const PassModel& shader, const std::vector<Array>& stored,
                         const Places& places, const enclosed::Profile& profile, judge::HalfMode mode) {
@@ -123,17 +128,14 @@ std::string sentence(const ShaderAnswer& a, bool fails) {
       a.tried, a.said, a.right);
 }
 
-void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, const std::filesystem::path& spirv_folder,
+void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, const Programs& programs,
                  const judge::ValidateOptions& options, judge::PortJudgement& judgement) {
-  const std::map<std::string, spirv::Program> programs = spirv::read_programs(spirv_folder);
   judge::PortFiles files(port, pack.effect, pack.variant, options.buffers);
   for (const judge::PassJudgement& pass : judgement.passes) {
-    const auto program = programs.find(pass.formula);
-    const bool is_judged = pass.status == judge::Status::pass || pass.status == judge::Status::warn || pass.status == judge::Status::fail;
-    if (program == programs.end() || !is_judged) continue;
+    if (pass.status != judge::Status::pass && pass.status != judge::Status::warn && pass.status != judge::Status::fail) continue;
     std::string said;
     try {
-      said = answer_of(pack, pass, program->second, files, options);
+      said = answer_of(pack, pass, programs, files, options);
     } catch (const Error& e) {
       if (e.code() == ExitCode::internal) throw;
       said = e.what();  // the verdict stands without it

@@ -3,11 +3,15 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "capture/pass_model.h"
 #include "judge/validate.h"
+#include "spirv/bindings.h"
+#include "spirv/spirv_model.h"
 
 namespace rainref::judging {
 
@@ -24,10 +28,14 @@ ShaderAnswer ask_shader(const capture::PassCase& c, const capture::PassModel& re
 /// What follows from it, for a pass that fails or passes; "" where there is nothing to say.
 std::string sentence(const ShaderAnswer& answer, bool fails);
 
-/// Adds a note to the judgement for each pass whose program, in bindings.json of a folder, has something to say: passes that are judged by
-/// texels, at up to 32 of them that fail, or at some where none fails. A program that cannot be read or executed is a note, too. Throws
-/// Error(port_files) where bindings.json cannot be used.
-void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, const std::filesystem::path& spirv,
+using Programs = std::map<std::string, spirv::Program>;
+/// A formula's program on a case whose pass is judged by texels; null where there is none that texels can be asked of. Throws
+/// spirv::Refusal for one that cannot be executed. The case and the programs must outlive it.
+std::unique_ptr<capture::TracedProgram> program_model(const Programs& programs, const std::string& formula, const capture::PassCase& c);
+
+/// Adds a note to the judgement for each pass whose program has something to say: passes that are judged by texels, at up to 32 of them
+/// that fail, or at some where none fails. A program that cannot be read or executed is a note, too.
+void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, const Programs& programs,
                  const judge::ValidateOptions& options, judge::PortJudgement& judgement);
 
 }  // namespace rainref::judging

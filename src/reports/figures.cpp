@@ -235,6 +235,13 @@ std::string cause_text(const Cause& c, std::string_view which) {
   return fmt::format("{}: {}: {} (gives {} of {} {} {} bit for bit, comes near {})", cause_word(c), c.name, c.sentence, c.explained, c.of,
                      which, element_word(c), c.inside);
 }
+std::vector<std::string> line_texts(const Cause& c) {
+  std::vector<std::string> out;
+  for (const judge::ShaderLine& l : c.lines)
+    out.push_back(fmt::format("{}:{}: {}", l.file, l.line,
+                              l.until > 0 ? fmt::format("a step is missing between this line and line {}", l.until) : l.text));
+  return out;
+}
 std::string outside_text(const PassJudgement& p) {
   std::int64_t outside = 0, beyond = 0;
   for (const CaseJudgement& c : p.cases)

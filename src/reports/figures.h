@@ -100,6 +100,8 @@ const char* cause_word(const judge::Cause& cause);
 /// "likely cause: upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".
 /// `which`: what its texels are.
 std::string cause_text(const judge::Cause& cause, std::string_view which = "failing");
+/// Where a cause stands in the port's shader, as editors read it: "FILE:LINE: the line itself".
+std::vector<std::string> line_texts(const judge::Cause& cause);
 /// "is outside the as-written envelope of puddle.shade.corrected/2", or what no known device does, where that alone fails.
 std::string outside_text(const judge::PassJudgement& pass);
 

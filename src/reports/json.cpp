@@ -219,14 +219,22 @@ Json pass_json(const PassJudgement& p, const PageSource& source) {
            {"cases", Json::array()}};
   for (const capture::PackEdge& e : source.edges)
     if (e.pass == p.pass) out["takes"].push_back({{"input", e.input}, {"from", e.from}, {"previous", e.previous}});
-  for (const Cause& c : p.causes)
+  const auto line_json = [](const judge::ShaderLine& l) {
+    return Json{{"file", l.file}, {"line", l.line}, {"until", l.until}, {"text", l.text}};
+  };
+  for (const Cause& c : p.causes) {
+    Json lines = Json::array();
+    for (const judge::ShaderLine& l : c.lines) lines.push_back(line_json(l));
     out["causes"].push_back({{"name", c.name},
                              {"sentence", c.sentence},
                              {"counted", element_word(c)},
                              {"explained", c.explained},
                              {"of", c.of},
                              {"inside", c.inside},
-                             {"is_likely", c.is_likely}});
+                             {"is_likely", c.is_likely},
+                             {"lines", std::move(lines)},
+                             {"line_texts", line_texts(c)}});
+  }
   for (const CaseJudgement& c : p.cases) out["cases"].push_back(case_json(c));
   return out;
 }

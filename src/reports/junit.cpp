@@ -37,6 +37,11 @@ struct Suite {
   }
 };
 
+std::string lines_of(const Cause& c) {
+  std::string out;
+  for (const std::string& line : line_texts(c)) out += line + "\n";
+  return out;
+}
 std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
   std::string out = outside_text(p).substr(3) + "\n";  // without "is "
   for (std::size_t k = 0; k < std::min(shown_failures, o.worst.size()); ++k) {
@@ -48,7 +53,7 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
     out += fmt::format("({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown_failures));
   if (has_unknown_cause(p)) out += "cause unknown\n";
   if (!p.where.empty()) out += fmt::format("where: {}\n", p.where);
-  for (const Cause& c : p.causes) out += cause_text(c) + "\n";
+  for (const Cause& c : p.causes) out += cause_text(c) + "\n" + lines_of(c);
   return out;
 }
 
@@ -58,6 +63,7 @@ std::string failing_message(const PassJudgement& p, const OutputJudgement& o) {
   if (!p.causes.empty()) {
     const Cause& c = p.causes.front();
     out += fmt::format("; {}: {}: {}", cause_word(c), c.name, c.sentence);
+    if (const std::vector<std::string> lines = line_texts(c); !lines.empty()) out += "; " + lines.front();
   } else if (has_unknown_cause(p)) {
     out += "; cause unknown";
   }
@@ -87,7 +93,7 @@ Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgeme
     t.type = "not judged";
   } else if (!c.reason.empty() && c.status != Status::fail) {
     t.text = fmt::format("{}: {}\n", name(c.status), c.reason);
-    for (const Cause& cause : p.causes) t.text += cause_text(cause, "warned") + "\n";
+    for (const Cause& cause : p.causes) t.text += cause_text(cause, "warned") + "\n" + lines_of(cause);
   }
   return t;
 }

@@ -97,7 +97,7 @@ inline judge::PortJudgement example_judgement() {
   shade.half_mode_voted = true;
   shade.half_mode = judge::HalfMode::rtz;
   shade.half_votes = {8, 2, 2};
-  shade.causes.push_back({"upside down", "the buffer is stored from the bottom up", 2, 2, 1, false, true});
+  shade.causes.push_back({"upside down", "the buffer is stored from the bottom up", 2, 2, 1, false, true, {{"a.comp", 7, "x = y;"}}});
   shade.where = "only channel y of colour";
   j.notes.push_back("port/x.exr: one note");
   return j;

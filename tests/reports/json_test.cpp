@@ -63,7 +63,9 @@ TEST(ReportJson, HoldsTheWholeJudgement) {
                                       {"explained", 2},
                                       {"of", 2},
                                       {"inside", 1},
-                                      {"is_likely", true}}));
+                                      {"is_likely", true},
+                                      {"lines", Json::array({Json{{"file", "a.comp"}, {"line", 7}, {"until", 0}, {"text", "x = y;"}}})},
+                                      {"line_texts", Json::array({"a.comp:7: x = y;"})}}));
   EXPECT_EQ(shade["figures"]["failing"], 2);
   EXPECT_EQ(shade["figures"]["invocations"], 16);  // of two cases
   EXPECT_EQ(shade["figures"]["outside"], 6);

@@ -104,7 +104,8 @@ TEST(ReportText, WhatFailsWhereByHowMuchAndWhy) {
                 "    (4 more not shown)\n"
                 "  where: only channel y of colour\n"
                 "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes\n"
-                "    near 1)\n"));
+                "    near 1)\n"
+                "a.comp:7: x = y;\n"));
   EXPECT_THAT(text, HasSubstr("note: port/x.exr: one note\n"));
   EXPECT_THAT(
       text,

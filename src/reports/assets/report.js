@@ -87,6 +87,7 @@ function causes(p) {
   return [where, element("h3", {}, p.causes[0].is_likely ? "Likely cause" : "What the cause may be"), element("ol", {class: "causes"}, p.causes.map(c =>
     element("li", {}, c.is_likely ? "likely cause " : "may be ", element("b", {}, c.name), `: ${c.sentence} `,
       element("span", {class: "dim"}, `gives ${c.explained} of ${c.of} ${p.status === "WARN" ? "warned" : "failing"} ${c.counted} bit for bit, comes near ${c.inside}`),
+      ...c.line_texts.map(line => element("pre", {class: "line"}, line)),
       element("meter", {min: 0, max: c.of, value: c.explained}, share(c.explained, c.of)))))];
 }
 

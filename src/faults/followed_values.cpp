@@ -1,0 +1,175 @@
+#include "faults/followed_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::Op;
+using perturbed::Trace;
+
+constexpr double tolerance = 1e-5;
+
+double margin_of(float v) { return tolerance * std::abs(static_cast<double>(v)) + 1e-9; }
+
+/// Numbers of rows in order of when they are first met, whatever invocation that is in.
+template <class Key, class Row>
+class Rows {
+ public:
+  std::vector<Row> rows;
+  int at(const Key& key, const Row& empty) {
+    const auto [found, is_new] = number_.emplace(key, static_cast<int>(rows.size()));
+    if (is_new) rows.push_back(empty);
+    return found->second;
+  }
+
+ private:
+  std::map<Key, int> number_;
+};
+
+}  // namespace
+
+bool agree(float a, float b) { return a == b || std::abs(static_cast<double>(a) - b) <= std::max(margin_of(a), margin_of(b)); }
+
+namespace {
+bool has(const std::vector<float>& sorted, float v) {
+  const auto at = std::lower_bound(sorted.begin(), sorted.end(), static_cast<float>(v - 2 * margin_of(v)));
+  for (auto k = at; k != sorted.end() && *k <= v + 2 * margin_of(v); ++k)
+    if (agree(*k, v)) return true;
+  return false;
+}
+}  // namespace
+
+bool is_within(const Values& some, const Values& all) {
+  for (std::size_t k = 0; k < some.size(); ++k)
+    for (const float v : some[k])
+      if (!has(all[k], v)) return false;
+  return true;
+}
+bool is_met_by(const Values& some, const Values& all) {
+  std::size_t of_some = 0, of_both = 0;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    of_some += !some[k].empty();
+    if (some[k].empty() || all[k].empty()) continue;
+    ++of_both;
+    for (const float v : some[k])
+      if (!has(all[k], v)) return false;
+  }
+  return of_both > 0 && 2 * of_both >= of_some;
+}
+bool varies(const Values& v) {
+  const float* first = nullptr;
+  for (const auto& one : v)
+    for (const float& x : one) {
+      if (first && !agree(x, *first)) return true;
+      first = &x;
+    }
+  return false;
+}
+
+bool tells(const Values& v) {
+  const float* first = nullptr;
+  for (const auto& one : v)
+    for (const float& x : one) {
+      if (x == std::floor(x)) continue;
+      if (first && !agree(x, *first)) return true;
+      first = &x;
+    }
+  return false;
+}
+
+void ByValue::add(const Values& v, int number) {
+  for (std::size_t k = 0; k < v.size(); ++k)
+    for (const float x : v[k]) sorted_[k].push_back({x, number});
+}
+void ByValue::sort() {
+  for (auto& one : sorted_) {
+    std::sort(one.begin(), one.end());
+    one.erase(std::unique(one.begin(), one.end()), one.end());
+  }
+}
+std::vector<int> ByValue::near(std::size_t invocation, float v) const {
+  std::vector<int> out;
+  const auto& one = sorted_[invocation];
+  auto at = std::lower_bound(one.begin(), one.end(), std::pair(static_cast<float>(v - 2 * margin_of(v)), -1));
+  for (; at != one.end() && at->first <= v + 2 * margin_of(v); ++at) out.push_back(at->second);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+ReferenceValues::ReferenceValues(const std::vector<Followed>& invocations) : by_right(invocations.size()) {
+  const std::size_t count = invocations.size();
+  Rows<std::uint32_t, Values> rows;
+  Rows<std::pair<std::uint32_t, std::int32_t>, Values> of_mistake;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::map<std::pair<std::uint32_t, std::int32_t>, float> wrong;
+    for (const Trace::Node& n : invocations[k].wrong.nodes) wrong[{n.shape, n.occurrence}] = n.value;
+    for (const Trace::Node& n : invocations[k].right.nodes) {
+      const int row = rows.at(n.shape, Values(count));
+      rows.rows[static_cast<std::size_t>(row)][k].push_back(n.value);
+      const auto other = wrong.find({n.shape, n.occurrence});
+      if (other == wrong.end() || agree(other->second, n.value)) continue;
+      const int number = of_mistake.at({n.shape, n.occurrence}, Values(count));
+      of_mistake.rows[static_cast<std::size_t>(number)][k].push_back(other->second);
+    }
+  }
+  right = std::move(rows.rows);
+  changed = std::move(of_mistake.rows);
+  for (std::size_t k = 0; k < right.size(); ++k) {
+    for (auto& one : right[k]) std::sort(one.begin(), one.end());
+    by_right.add(right[k], static_cast<int>(k));
+  }
+  by_right.sort();
+}
+
+bool ReferenceValues::has(const Values& v) const {
+  const auto there = std::find_if(v.begin(), v.end(), [](const auto& one) { return !one.empty(); });
+  if (there == v.end()) return false;
+  const std::vector<int> near = by_right.near(static_cast<std::size_t>(there - v.begin()), there->front());
+  return std::any_of(near.begin(), near.end(), [&](int k) { return is_within(v, right[static_cast<std::size_t>(k)]); });
+}
+
+PortValues::PortValues(const std::vector<Followed>& invocations) : by_value(invocations.size()) {
+  const std::size_t count = invocations.size();
+  // A part of an instruction in a chain of calls.
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::vector<std::uint32_t>>;
+  Rows<Key, PortStep> rows;
+  for (std::size_t k = 0; k < count; ++k) {
+    const capture::ProgramTrace& trace = invocations[k].port;
+    std::vector<int> number;
+    for (std::size_t i = 0; i < trace.values.nodes.size(); ++i) {
+      const Trace::Node& n = trace.values.nodes[i];
+      const auto step = i < trace.steps.size() ? trace.steps[i] : capture::ProgramTrace::Step{capture::ProgramTrace::given, -1, 0};
+      std::vector<std::uint32_t> calls;
+      for (std::int32_t call = step.call; call >= 0; call = trace.calls[static_cast<std::size_t>(call)].caller)
+        calls.push_back(trace.calls[static_cast<std::size_t>(call)].instruction);
+      std::reverse(calls.begin(), calls.end());
+      const int row = rows.at({step.instruction, step.part, calls}, {n.op, step.instruction, calls, Values(count)});
+      number.push_back(row);
+      PortStep& made = rows.rows[static_cast<std::size_t>(row)];
+      made.values[k].push_back(n.value);
+      for (const std::int32_t operand : n.of)
+        if (operand >= 0 && number[static_cast<std::size_t>(operand)] != row) made.of.push_back(number[static_cast<std::size_t>(operand)]);
+    }
+    for (const int output : invocations[k].outputs)
+      if (const std::int32_t node = trace.outputs[static_cast<std::size_t>(output)]; node >= 0)
+        outputs.push_back(number[static_cast<std::size_t>(node)]);
+  }
+  steps = std::move(rows.rows);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    PortStep& p = steps[k];
+    std::sort(p.of.begin(), p.of.end());
+    p.of.erase(std::unique(p.of.begin(), p.of.end()), p.of.end());
+    const bool is_copy = p.op == Op::stored && p.of.size() == 1 && p.of[0] < static_cast<int>(k);
+    p.is_position = p.op == Op::index || (is_copy && (*this)[p.of[0]].is_position);
+    for (auto& one : p.values) std::sort(one.begin(), one.end());
+    by_value.add(p.values, static_cast<int>(k));
+  }
+  by_value.sort();
+}
+
+}  // namespace rainref::faults

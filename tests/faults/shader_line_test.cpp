@@ -1,0 +1,144 @@
+// The line that a mistake stands in, on invocations made by hand: what the rules say, with nothing of a shader or of a pass.
+#include "faults/shader_line.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::Op;
+using perturbed::Trace;
+
+/// Adds an operation; its number. Each has a shape of its own, so that the reference with and without the mistake agree on it.
+int add(Trace& t, Op op, float value, std::initializer_list<int> of = {}) {
+  Trace::Node n{op, value, static_cast<std::uint32_t>(t.nodes.size()) + 1, 0};
+  std::copy(of.begin(), of.end(), n.of.begin());
+  t.nodes.push_back(n);
+  return static_cast<int>(t.nodes.size()) - 1;
+}
+int add(capture::ProgramTrace& t, std::uint32_t instruction, Op op, float value, std::initializer_list<int> of = {}, int call = -1) {
+  t.steps.push_back({instruction, call, 0});
+  return add(t.values, op, value, of);
+}
+
+/// Eight invocations, whose inputs are unlike.
+template <class Make>
+std::vector<Followed> followed(const Make& make) {
+  std::vector<Followed> out(8);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto x = static_cast<float>(k);
+    make(out[k], 0.3f + 0.17f * x, 1.9f - 0.11f * x * x, 0.01f * (x - 3) * (x - 3) * (x - 3));
+  }
+  return out;
+}
+/// (a b) + c, of which the mistake makes `first` + c.
+void add_reference(Followed& f, float a, float b, float c, float first) {
+  for (Trace* t : {&f.right, &f.wrong}) {
+    const int na = add(*t, Op::load, a), nb = add(*t, Op::load, b), nc = add(*t, Op::load, c);
+    const float product = t == &f.right ? a * b : first;
+    const int p = add(*t, Op::product, product, {na, nb});
+    add(*t, Op::sum, product + c, {p, nc});
+  }
+}
+
+TEST(ShaderLine, IsTheFirstValueThatTheMistakeMakes) {
+  const auto all = followed([](Followed& f, float a, float b, float c) {
+    add_reference(f, a, b, c, a + b);
+    const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b), nc = add(f.port, 12, Op::load, c);
+    const int wrong = add(f.port, 13, Op::sum, a + b, {na, nb});
+    add(f.port, 14, Op::sum, a + b + c, {wrong, nc});
+  });
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0].at, 13u);
+  EXPECT_EQ(lines[0].until, 13u);
+}
+TEST(ShaderLine, IsFoundWhereThePortSumsInAnotherOrder) {
+  // What the port computes is c + (a + b), with a as 2 (a / 2): values that the reference has not, and the mistake neither.
+  const auto all = followed([](Followed& f, float a, float b, float c) {
+    add_reference(f, a, b, c, a + b);
+    const int nc = add(f.port, 9, Op::load, c), na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b);
+    const int half = add(f.port, 12, Op::product, a / 2, {na});
+    const int twice = add(f.port, 13, Op::sum, a / 2 + a / 2, {half, half});
+    const int wrong = add(f.port, 14, Op::sum, b + a, {nb, twice});
+    add(f.port, 15, Op::sum, c + (b + a), {nc, wrong});
+  });
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0].at, 14u);
+}
+TEST(ShaderLine, LiesBetweenTwoWhereAStepIsLeftOut) {
+  const auto all = followed([](Followed& f, float a, float b, float c) {
+    add_reference(f, a, b, c, a);
+    const int na = add(f.port, 10, Op::load, a), nc = add(f.port, 12, Op::load, c);
+    const int copy = add(f.port, 13, Op::stored, a, {na});
+    add(f.port, 17, Op::sum, a + c, {copy, nc});
+  });
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0].at, 13u);
+  EXPECT_EQ(lines[0].until, 17u);
+}
+TEST(ShaderLine, OfAConstantIsWhereItIsSet) {
+  // A factor of 2 is 3 in the port, which sets it at instruction 7 and takes it at 9.
+  const auto all = followed([](Followed& f, float a, float, float) {
+    for (Trace* t : {&f.right, &f.wrong}) {
+      const float k = t == &f.right ? 2.0f : 3.0f;
+      const int nk = add(*t, Op::constant, k), na = add(*t, Op::load, a);
+      add(*t, Op::product, k * a, {nk, na});
+    }
+    const int given = add(f.port, capture::ProgramTrace::given, Op::constant, 3.0f), na = add(f.port, 5, Op::load, a);
+    const int set = add(f.port, 7, Op::stored, 3.0f, {given});
+    add(f.port, 9, Op::product, 3.0f * a, {set, na});
+  });
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0].at, 7u);
+}
+TEST(ShaderLine, IsNotSaidOfAPortThatDoesSomethingElse) {
+  const auto all = followed([](Followed& f, float a, float b, float c) {
+    add_reference(f, a, b, c, a + b);
+    const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b), nc = add(f.port, 12, Op::load, c);
+    const int other = add(f.port, 13, Op::quotient, a / b, {na, nb});
+    add(f.port, 14, Op::sum, a / b + c, {other, nc});
+  });
+  EXPECT_TRUE(lines_of_mistake(all).empty());
+}
+TEST(ShaderLine, IsNotSaidOfAPortThatIsRight) {
+  const auto all = followed([](Followed& f, float a, float b, float c) {
+    add_reference(f, a, b, c, a + b);
+    const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b), nc = add(f.port, 12, Op::load, c);
+    const int right = add(f.port, 13, Op::product, a * b, {na, nb});
+    add(f.port, 14, Op::sum, a * b + c, {right, nc});
+  });
+  EXPECT_TRUE(lines_of_mistake(all).empty());
+}
+TEST(ShaderLine, NeedsValuesThatVary) {
+  // All of it is the same in every invocation: it says nothing that the port has the mistake's values too.
+  const auto all = followed([](Followed& f, float, float, float) {
+    add_reference(f, 2, 3, 4, 5);
+    const int five = add(f.port, 10, Op::load, 5);
+    add(f.port, 14, Op::sum, 9, {five});
+  });
+  EXPECT_TRUE(lines_of_mistake(all).empty());
+}
+TEST(ShaderLine, TakesInvocationsInWhichTheStepIsNotReached) {
+  auto all = followed([](Followed& f, float a, float b, float c) {
+    add_reference(f, a, b, c, a + b);
+    const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b), nc = add(f.port, 12, Op::load, c);
+    const int wrong = add(f.port, 13, Op::sum, a + b, {na, nb});
+    add(f.port, 14, Op::sum, a + b + c, {wrong, nc});
+  });
+  all[0].right.nodes.resize(3);
+  all[0].wrong.nodes.resize(3);
+  all[0].port.values.nodes.resize(3);
+  all[0].port.steps.resize(3);
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0].at, 13u);
+}
+
+}  // namespace
+}  // namespace rainref::faults
