@@ -8,7 +8,6 @@
 
 #include "faults/generators.h"
 #include "faults/hypotheses.h"
-#include "faults/shader_line.h"
 #include "faults/solver.h"
 #include "image/code_range.h"
 #include "judge/reference_outputs.h"
@@ -325,59 +324,6 @@ std::unique_ptr<Replay> TexelReplay::elsewhere() const {
   } catch (const Error&) {
     return nullptr;  // the pass refuses such numbers
   }
-}
-
-void TexelReplay::follow(const Fault& d, std::vector<Followed>& out) const {
-  constexpr std::size_t most_tried = 48, most = 12;
-  if (!program_ || program_->values() != probed_.model.values()) return;
-  const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
-  if (!faulty.applies()) return;
-  // Where the mistake gives what the port's program gives, on which no device has a say.
-  struct Agreed {
-    Texel at;
-    std::vector<int> outputs;
-  };
-  std::vector<Agreed> agreed;
-  StoredTexel stored(slots_.size()), of_port(slots_.size());
-  std::vector<scalar::Scalar<float>> values(slots_.size());
-  const std::vector<Texel> tried = spread(failing_, most_tried);
-  for (const Texel at : tried) {
-    faulty.store(at, stored);
-    program_->evaluate(at.x, at.y, values.data());
-    Agreed one{at, {}};
-    bool is_same = true;
-    for (std::size_t v = 0; v < slots_.size(); ++v) {
-      const Slot& s = slots_[v];
-      if (probed_.model.is_free(static_cast<int>(v))) continue;
-      judge::store_value(s, values[v].v, judge::rounding_of(s, mode_), of_port[v].data());
-      const auto code = [&](const std::byte* bytes) { return enclosed::ordered_code(s.kind, bytes); };
-      const std::int64_t with = code(stored[v].data()), given = code(of_port[v].data());
-      const std::int64_t right = code(s.at(reference_[static_cast<std::size_t>(s.output)], at.x, at.y));
-      const std::int64_t few = s.kind == FormatInfo::float32 ? 64 : 1;
-      is_same &= gap(with, given) <= few;
-      if (gap(with, right) > few) one.outputs.push_back(static_cast<int>(v));
-    }
-    if (is_same && !one.outputs.empty()) agreed.push_back(std::move(one));
-  }
-  if (agreed.size() * 3 < tried.size()) return;
-  for (std::size_t k = 0; k < std::min(most, agreed.size()); ++k) {
-    Agreed& chosen = agreed[k * agreed.size() / std::min(most, agreed.size())];
-    Followed& one = out.emplace_back();
-    one.outputs = std::move(chosen.outputs);
-    faulty.trace(chosen.at, one.right, one.wrong);
-    program_->trace(chosen.at.x, chosen.at.y, one.port);
-  }
-}
-std::optional<judge::ShaderLine> TexelReplay::line(const FoundLine& found) const {
-  if (!program_) return {};
-  const auto number = [](const capture::SourceLine& l) { return static_cast<int>(l.line); };
-  capture::SourceLine first = program_->line(found.at), last = program_->line(found.until);
-  if (first.file == last.file && last.line < first.line) std::swap(first, last);
-  if (first.file != last.file) last = first;
-  const std::size_t begin = first.text.find_first_not_of(" \t"), end = first.text.find_last_not_of(" \t\r");
-  judge::ShaderLine out{first.file, number(first), begin == std::string::npos ? "" : first.text.substr(begin, end - begin + 1), 0};
-  if (last.line != first.line) out.until = number(last);
-  return out.line == 0 ? std::nullopt : std::optional(out);
 }
 
 std::vector<float> TexelReplay::given(const Fault& d) const {

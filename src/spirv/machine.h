@@ -29,6 +29,7 @@ using numbers::Slot;
 struct Limits {
   std::uint64_t steps = std::uint64_t{1} << 28;  ///< of an invocation
   std::size_t slots = std::size_t{1} << 24;      ///< memory of a workgroup's invocations
+  std::size_t followed = std::size_t{1} << 18;   ///< operations of an invocation that is followed
 };
 
 /// A module with what its descriptors lead to. All three must outlive it.
@@ -94,18 +95,8 @@ class Invocation {
   void exchange(const Code& code);
   void use_image(const Code& code);
   void note_nodes(const Code& code);
-  /// In a trace an integer keeps, as its number, where it comes from, and so does a number that is made of it.
   template <Kind out>
-  void carry(Slot<N>& to, const Slot<N>& a, const Slot<N>& b) {
-    if constexpr (std::is_same_v<N, perturbed::Perturbed> && (out == Kind::integer || out == Kind::floating)) {
-      if (!trace_) return;
-      const N made = N::of(out == Kind::integer ? static_cast<float>(signed_word(to.word)) : to.number.v);
-      if (a.number.node() >= 0 || b.number.node() >= 0)
-        to.number = N::met(perturbed::Op::stored, made, a.number, b.number);
-      else if (out == Kind::integer)
-        to.number = N();
-    }
-  }
+  void carry(Slot<N>& to, const Slot<N>& a, const Slot<N>& b);
   void copy(const Slot<N>* from, std::uint32_t n, Slot<N>* to);
   std::byte* bytes(const Code& code, const Slot<N>* pointer, bool writes);
   Slot<N>* slots(const Code& code, const Slot<N>* pointer);
@@ -225,21 +216,6 @@ Stop Invocation<N>::run(bool one_block) {
 }
 
 template <class N>
-void Invocation<N>::note_nodes(const Code& code) {
-  if constexpr (std::is_same_v<N, perturbed::Perturbed>)
-    for (std::uint32_t part = 0; trace_ && trace_->steps.size() < trace_->values.nodes.size(); ++part)
-      trace_->steps.push_back({static_cast<std::uint32_t>(&code - module_.code.data()), call_, part});
-}
-/// Values that go from one place to another: in a trace each is a node of its own.
-template <class N>
-void Invocation<N>::copy(const Slot<N>* from, std::uint32_t n, Slot<N>* to) {
-  std::copy(from, from + n, to);
-  if constexpr (std::is_same_v<N, perturbed::Perturbed>)
-    for (std::uint32_t k = 0; trace_ && k < n; ++k)
-      if (to[k].number.node() >= 0) to[k].number = to[k].number.as_stored();
-}
-
-template <class N>
 void Invocation<N>::enter(std::uint32_t block) {
   const Block& next = module_.blocks[block];
   phis_.clear();
@@ -312,4 +288,5 @@ bool Invocation<N>::leave(const Code& code) {
 }  // namespace rainref::spirv
 
 #include "spirv/machine_memory.h"
+#include "spirv/machine_trace.h"
 #include "spirv/machine_values.h"

@@ -143,5 +143,34 @@ TEST_F(SpirvModel, OfAListIsRefused) {
   EXPECT_THROW(b.model(), Refusal);
 }
 
+// What is followed ends in what is stored, and each operation has its instruction.
+TEST_F(SpirvModel, AnInvocationIsFollowedToWhatItStores) {
+  for (const auto& [pass, formula] : {std::pair{"wave_step", "puddle.wave_step.corrected/2"}, {"shade", "puddle.shade.corrected/2"}}) {
+    const Bound b("puddle-corrected", pass, formula);
+    const auto program = spirv_model(b.c, b.program, b.spirv, "'a.spv'");
+    std::vector<scalar::Scalar<float>> values(static_cast<std::size_t>(program->values()));
+    for (int x = 1; x < program->width(); x += 9) {
+      program->evaluate(x, 5, values.data());
+      capture::ProgramTrace trace;
+      program->trace(x, 5, trace);
+      ASSERT_EQ(trace.steps.size(), trace.values.nodes.size());
+      ASSERT_EQ(trace.outputs.size(), values.size());
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        ASSERT_GE(trace.outputs[k], 0);
+        EXPECT_EQ(trace.values.nodes[static_cast<std::size_t>(trace.outputs[k])].value, values[k].v) << pass << " at " << x;
+      }
+    }
+  }
+}
+TEST_F(SpirvModel, NoMoreIsFollowedThanMayBe) {
+  const Bound b("puddle-corrected", "shade", "puddle.shade.corrected/2");
+  Limits few;
+  few.followed = 50;
+  const auto program = spirv_model(b.c, b.program, b.spirv, "'a.spv'", few);
+  capture::ProgramTrace trace;
+  EXPECT_THROW(program->trace(3, 5, trace), Refusal);
+  EXPECT_LT(trace.values.nodes.size(), 200u);
+}
+
 }  // namespace
 }  // namespace rainref::spirv
