@@ -10,7 +10,7 @@
 
 namespace rainref::capture {
 
-/// A line of a program's source. The text is "" where the program does not carry it.
+/// A line of a program's source, without the blanks around it. The text is "" where the program does not carry it.
 struct SourceLine {
   std::string file;
   std::uint32_t line = 0;  ///< 0: the program does not say

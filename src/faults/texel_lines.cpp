@@ -59,8 +59,7 @@ std::optional<judge::ShaderLine> TexelReplay::line(const FoundLine& found) const
   capture::SourceLine first = program_->line(found.at), last = program_->line(found.until);
   if (first.file == last.file && last.line < first.line) std::swap(first, last);
   if (first.file != last.file) last = first;
-  const std::size_t begin = first.text.find_first_not_of(" \t"), end = first.text.find_last_not_of(" \t\r");
-  judge::ShaderLine out{first.file, number(first), begin == std::string::npos ? "" : first.text.substr(begin, end - begin + 1), 0};
+  judge::ShaderLine out{first.file, number(first), first.text, 0};
   if (last.line != first.line) out.until = number(last);
   return out.line == 0 ? std::nullopt : std::optional(out);
 }

@@ -23,6 +23,8 @@ capture::SourceLine Module::source_line(std::uint32_t instruction) const {
   std::istringstream text(sources[at.file]);
   for (std::uint32_t k = 0; k < at.line; ++k)
     if (!std::getline(text, out.text)) out.text.clear();
+  const std::size_t begin = out.text.find_first_not_of(" \t"), end = out.text.find_last_not_of(" \t\r");
+  out.text = begin == std::string::npos ? "" : out.text.substr(begin, end - begin + 1);
   return out;
 }
 void Module::refuse(std::uint32_t file, std::uint32_t line, const std::string& sentence) const {
