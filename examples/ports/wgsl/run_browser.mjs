@@ -1,11 +1,12 @@
-// node run_browser.mjs chromium|firefox PACK OUT [PASS,...]: as run.mjs, in a headless browser on its software adapter.
+// node run_browser.mjs chromium|firefox PACK OUT [PASS,...] [--shaders FOLDER]: as run.mjs, in a headless browser on its software adapter.
 import {spawn} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
 import os from "node:os";
 import path from "node:path";
+import {parseArgs} from "node:util";
 
-const [browser, pack, out, passes] = process.argv.slice(2);
+const {positionals: [browser, pack, out, passes], values: {shaders}} = parseArgs({allowPositionals: true, options: {shaders: {type: "string"}}});
 const here = path.dirname(new URL(import.meta.url).pathname), profile = fs.mkdtempSync(path.join(os.tmpdir(), "wgsl-"));
 const types = {".html": "text/html", ".js": "text/javascript"};
 let child;
@@ -18,10 +19,11 @@ function end(code, text) {
     process.exit(code);
   });
 }
-/// The folder of a request and the path in it; null for what leads out of it.
+/// The file of a request: in the pack, among the shaders or here; null for what leads out of these folders.
 function fileOf(url) {
-  const name = decodeURIComponent(url.split("?")[0]), inPack = name.startsWith("/pack/");
-  const folder = path.resolve(inPack ? pack : here), file = path.join(folder, inPack ? name.slice(5) : name);
+  const name = decodeURIComponent(url.split("?")[0]), first = name.split("/")[1];
+  const other = first === "pack" ? pack : first === "shaders" ? shaders : undefined;
+  const folder = path.resolve(other ?? here), file = path.join(folder, other ? name.slice(1 + first.length) : name);
   return file.startsWith(folder + path.sep) ? file : null;
 }
 const server = http.createServer((request, response) => {
@@ -38,7 +40,7 @@ const server = http.createServer((request, response) => {
       fs.writeFileSync(file, body);
       return;
     }
-    if (name === "/passes") return response.end(JSON.stringify(passes?.split(",") ?? null));
+    if (name === "/options") return response.end(JSON.stringify({passes: passes?.split(",") ?? null, shaders: shaders ? "shaders" : null}));
     const file = fileOf(request.url), found = file !== null && fs.existsSync(file);
     response.writeHead(found ? 200 : 404, {"content-type": types[path.extname(file ?? "")] ?? "application/octet-stream"});
     response.end(found ? fs.readFileSync(file) : "");
@@ -51,7 +53,7 @@ const commands = {
   firefox: url => ["firefox-esr", "-headless", "-no-remote", "-profile", profile, url],
 };
 if (!out || !commands[browser]) {
-  console.error("usage: node run_browser.mjs chromium|firefox PACK OUT [PASS,...]");
+  console.error("usage: node run_browser.mjs chromium|firefox PACK OUT [PASS,...] [--shaders FOLDER]");
   process.exit(2);
 }
 fs.writeFileSync(path.join(profile, "user.js"), 'user_pref("dom.webgpu.enabled", true);\nuser_pref("gfx.webgpu.ignore-blocklist", true);\n');
