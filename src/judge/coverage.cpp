@@ -22,9 +22,10 @@ bool is_flag(const scene::Member& m) {
   return m.range && m.range->low == 0 && m.range->high == 1 && (m.scalar != scene::Scalar::float32 || m.range->is_whole);
 }
 /// Of each uniform and each image, whether it has a value that hides no mistake in what it takes part in; of a flag, which value.
-void add_values(const capture::PassCase& c, Exercise& to) {
+void add_values(const capture::PassCase& c, const scene::UniformBlock& said, Exercise& to) {
   std::map<std::string, bool>& out = to.values;
-  const scene::UniformBlock& block = registry::effect_of_pack(c.effect).info->pass(c.pass).block(c.variant);
+  const effect::Effect* own = registry::find(c.effect);
+  const scene::UniformBlock& block = own ? own->info->pass(c.pass).block(c.variant) : said;
   for (const scene::Member& m : block.members) {
     if (!is_read_by(m, c.variant)) continue;
     for (int k = 0; k < m.components; ++k) {
@@ -58,10 +59,11 @@ bool is_read_by(const scene::Member& member, std::string_view variant) {
   return !member.sentence.starts_with(other) || member.sentence.find(fmt::format("{}:", variant)) != std::string::npos;
 }
 
-Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor, std::int64_t sample) {
+Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor, std::int64_t sample,
+                     const scene::UniformBlock& said) {
   Exercise out;
   if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) return out;
-  add_values(c, out);
+  add_values(c, said, out);
   Coverage& all = out.decisions;
   if (!model) return out;
   std::mutex mutex;  // sums of counts: in any order the same
@@ -96,6 +98,8 @@ Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model
 std::string name_of(const perturbed::Decision& d, int number, bool is_guard, int side) {
   if (d.kind == perturbed::DecisionKind::address || d.kind == perturbed::DecisionKind::load)
     return fmt::format("{} of {} by {}: {}", name(d.kind), d.input.empty() ? "an image" : d.input, d.file, side_name(d.kind, side));
+  if (d.function.empty())
+    return fmt::format("{}:{}: {}, {}", d.file.substr(d.file.rfind('/') + 1), d.line, name(d.kind), side_name(d.kind, side));
   return fmt::format("{}, {}: {}{}{}, {}", d.file.substr(d.file.rfind('/') + 1), d.function == "operator()" ? "a lambda" : d.function,
                      is_guard ? "guarded " : "", name(d.kind), number > 1 ? fmt::format(" {}", number) : "", side_name(d.kind, side));
 }

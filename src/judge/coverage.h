@@ -40,16 +40,16 @@ struct Exercise {
 
 /// Decisions are counted over all invocations of the case; none where no output is judged by a model (null). Nothing at all is counted
 /// of a pass whose outputs are only given. Throws Error(internal) where the effect has no such pass. `sample`: at least so many invocations
-/// are counted, drawn as a judgement draws them (judge/sample.h); 0: all.
+/// are counted, drawn as a judgement draws them (judge/sample.h); 0: all. `said`: the uniform block of a pass of a foreign effect.
 Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor,
-                     std::int64_t sample = 0);
+                     std::int64_t sample = 0, const scene::UniformBlock& said = {});
 /// How many alternatives were taken, and the names of the others. `unexercised`: those that the scene says are not, and why.
 PassCoverage summary(const Exercise& exercise, const std::map<std::string, std::string>& unexercised = {});
 /// Whether a variant reads a uniform: a sentence that begins with "corrected:" or "as-published:" speaks of that one alone, unless it
 /// names the other variant further on.
 bool is_read_by(const scene::Member& member, std::string_view variant);
 /// "shade.pass.h, shade_corrected: clamp 2, below": the file, the function, the decision, the side. number: among the decisions of its
-/// kind in the function, in the order of the text; those of guards have numbers of their own.
+/// kind in the function, in the order of the text; those of guards have numbers of their own. In a shader: "fog.hlsl:25: clamp, below".
 std::string name_of(const perturbed::Decision& decision, int number, bool is_guard, int side);
 
 }  // namespace rainref::judge

@@ -197,7 +197,8 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
     } else {
       const JudgeOptions of_run = options_of_run(model.get(), runs, options);
       cases.push_back(judge_case(run.c, model.get(), run.stored, of_run));
-      if (coverage && runs.counts_coverage) coverage->add(coverage_of(run.c, model.get(), *options.executor, of_run.sample));
+      if (coverage && runs.counts_coverage)
+        coverage->add(coverage_of(run.c, model.get(), *options.executor, of_run.sample, task.pass->block));
       for (CaseJudgement& j : cases.back().judgements) {
         if (run.broken.empty()) continue;
         j.status = Status::fail;

@@ -56,8 +56,9 @@ void Sides::add(const Sides& other) {
 
 void Coverage::met(const Site& site, DecisionKind kind, int side) {
   last_ = nullptr;
-  if (is_part(site.file)) return;
-  last_ = &*sides_.try_emplace({site.file, site.line, kind, site.function}).first;
+  const Site& at = is_shader_ ? shader_site_ : site;
+  if (is_shader_ ? at.line == 0 : is_part(site.file)) return;
+  last_ = &*sides_.try_emplace({at.file, at.line, kind, at.function}).first;
   ++last_->second.counts[static_cast<std::size_t>(side)];
 }
 void Coverage::guarded(const char* reason, int side) {

@@ -38,7 +38,7 @@ struct Decision {
   std::string file;  ///< with its last folder: "puddle/shade.pass.h"; of a lookup its address rule: "clamp"
   int line = 0;      ///< of a lookup 0
   DecisionKind kind = DecisionKind::choice;
-  std::string function;  ///< without template arguments; of a lookup ""
+  std::string function;  ///< without template arguments; of a lookup, and in a shader that is executed, ""
   std::string input;     ///< of a lookup what it reads; "" where the pass does not say
   auto operator<=>(const Decision&) const = default;
 };
@@ -61,6 +61,12 @@ class Coverage {
   void addressed(const char* rule, DecisionKind kind, int side);
   void fetched(const float* texel) {
     if (open_ > 0) settle(texel);
+  }
+  /// From now on decisions are those of a shader that rainref executes: of its line `site`, or, without one, steps of an instruction that
+  /// decides nothing. Strings of a site must live as long as the program.
+  void executes(const Site* site) {
+    is_shader_ = true;
+    shader_site_ = site ? *site : Site{"", "", 0};
   }
   void add(const Coverage& other);
   /// The images met so far have the names of these inputs from now on.
@@ -90,6 +96,8 @@ class Coverage {
   std::map<Key, Sides>::value_type* last_ = nullptr;  ///< the one met last; null: it is a part of a function
   std::array<Open, 8> opened_{};                      ///< coordinates of the lookup at hand
   std::size_t open_ = 0;
+  bool is_shader_ = false;
+  Site shader_site_{"", "", 0};
 };
 
 }  // namespace rainref::perturbed

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ std::map<std::string, Program> read_programs(const std::filesystem::path& folder
   const std::filesystem::path file = folder / "bindings.json";
   const nlohmann::json all = capture::read_json(file, "'" + file.string() + "'", capture::small_json);
   try {
-    return port_runner::programs_of(all, folder);
+    const std::map<std::string, port_runner::Program> programs = port_runner::programs_of(all, folder);
+    return {programs.begin(), programs.end()};
   } catch (const port_runner::Error& e) {
     throw Error(ExitCode::port_files, e.what());
   }
@@ -84,11 +86,12 @@ CaseBinding::CaseBinding(const capture::PassCase& c, const Program& program, con
   for (const Descriptor& d : module.descriptors) {
     Resource<Float>& r = resources_.emplace_back();
     if (d.bound == spirv::Bound::sampler) continue;
-    if (d.set != 0 || d.binding >= bound_.size())
+    const std::size_t place = place_of(d);
+    if (place == bound_.size())
       module.refuse(0, 0,
-                    fmt::format("nothing is bound to set {}, binding {} ('{}'): the program binds 0 to {} of set 0", d.set, d.binding,
-                                d.name, bound_.size() - 1));
-    Bound& b = *bound_[d.binding];
+                    fmt::format("nothing is bound to set {}, binding {} ('{}'): the program binds {} buffers{}", d.set, d.binding, d.name,
+                                bound_.size(), program.at.empty() ? " from binding 0 of set 0 on" : ""));
+    Bound& b = *bound_[place];
     if (b.kind != d.bound)
       module.refuse(
           0, 0,
@@ -138,8 +141,24 @@ void CaseBinding::bind_output(const std::string& name) {
 }
 
 const CaseOutput* CaseBinding::output(std::size_t descriptor) const {
-  const Descriptor& d = module_.descriptors[descriptor];
-  return d.binding < bound_.size() ? bound_[d.binding]->output : nullptr;
+  const std::size_t place = place_of(module_.descriptors[descriptor]);
+  return place < bound_.size() ? bound_[place]->output : nullptr;
+}
+std::size_t CaseBinding::place_of(const Descriptor& d) const {
+  if (program_.at.empty()) return d.set == 0 ? std::min<std::size_t>(d.binding, bound_.size()) : bound_.size();
+  const auto found = std::find(program_.at.begin(), program_.at.end(), std::array{d.set, d.binding});
+  return std::min(static_cast<std::size_t>(found - program_.at.begin()), bound_.size());
+}
+std::string_view CaseBinding::input_of(const float* texel) const {
+  for (std::size_t i = 0; i < program_.inputs.size(); ++i) {
+    const std::optional<SampledImage>& image = bound_[1 + i]->image;
+    if (!image) continue;
+    const Texture& t = image->texture;
+    const std::int64_t last = t.levels - 1;
+    const std::int64_t count = (t.offset[last] + std::int64_t{t.width[last]} * t.height[last]) * t.channels;
+    if (std::less_equal<>{}(t.texels, texel) && std::less<>{}(texel, t.texels + count)) return program_.inputs[i];
+  }
+  return "";
 }
 Three CaseBinding::groups() const {
   if (program_.one_group) return {1, 1, 1};

@@ -58,6 +58,7 @@ void Parser::add_type(const Raw& raw) {
       if (word(raw, 2) != two_dimensions || word(raw, 4) != 0 || word(raw, 5) != 0)
         refuse_kind("images that have layers, samples or not two dimensions");
       t.is_storage_image = word(raw, 6) == storage;
+      t.image_format = word(raw, 7);
       slots = 1;
       break;
     }
@@ -107,8 +108,11 @@ void Parser::add_type(const Raw& raw) {
 
 void Parser::add_structure(const Raw& raw, Type& t) {
   std::uint64_t slots = 0;
+  if (const auto found = names_.find(word(raw, 0)); found != names_.end()) t.name = found->second;
   for (std::size_t i = 1; i < raw.words.size(); ++i) {
     Member member{type(raw, i), static_cast<std::uint32_t>(slots)};
+    const auto named = member_names_.find({raw.words[0], static_cast<std::uint32_t>(i - 1)});
+    if (named != member_names_.end()) member.name = named->second;
     const auto of = member_decorations_.find({raw.words[0], static_cast<std::uint32_t>(i - 1)});
     if (of != member_decorations_.end()) {
       const auto at = [&](Decoration d, std::uint32_t otherwise) {
@@ -280,6 +284,7 @@ void Parser::add_descriptor(const Raw& raw, Id& made, Storage storage, TypeIndex
     if (t.kind != Kind::structure) refuse(raw, "arrays of blocks are not executed");
     d.bound = storage == Storage::storage_buffer || t.is_buffer_block ? Bound::storage_buffer : Bound::uniform_buffer;
   }
+  d.type = pointee;
   made.number = static_cast<std::uint32_t>(module_.descriptors.size());
   made.place = add_cells(raw, {{made.number, false}, {0, false}});
   module_.descriptors.push_back(std::move(d));

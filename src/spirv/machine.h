@@ -95,6 +95,7 @@ class Invocation {
   void exchange(const Code& code);
   void use_image(const Code& code);
   void note_nodes(const Code& code);
+  void count_decision(const Code& code);
   template <Kind out>
   void carry(Slot<N>& to, const Slot<N>& a, const Slot<N>& b);
   void copy(const Slot<N>* from, std::uint32_t n, Slot<N>* to);
@@ -184,6 +185,7 @@ Stop Invocation<N>::run(bool one_block) {
   for (;;) {
     const Code& code = module_.code[pc_++];
     count(code);
+    count_decision(code);
     switch (code.op) {
       case Op::Branch:
         enter(static_cast<std::uint32_t>(code.in[0]));
@@ -287,6 +289,7 @@ bool Invocation<N>::leave(const Code& code) {
 
 }  // namespace rainref::spirv
 
+#include "spirv/machine_coverage.h"
 #include "spirv/machine_memory.h"
 #include "spirv/machine_trace.h"
 #include "spirv/machine_values.h"

@@ -60,6 +60,7 @@ struct Descriptor {
   std::string name;  ///< of the variable or of its type; may be ""
   std::uint32_t set = 0, binding = 0;
   Bound bound = Bound::uniform_buffer;
+  TypeIndex type = none;
 };
 
 /// What every invocation begins with.
@@ -94,6 +95,8 @@ struct Module {
 
   /// Where an instruction stands in the shader's source.
   capture::SourceLine source_line(std::uint32_t instruction) const;
+  /// The same text for as long as the program runs.
+  static const char* lasting(const std::string& text);
   [[noreturn]] void refuse(std::uint32_t file, std::uint32_t line, const std::string& sentence) const;
   [[noreturn]] void refuse(const Code& at, const std::string& sentence) const { refuse(at.file, at.line, sentence); }
 };

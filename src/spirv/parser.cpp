@@ -1,6 +1,8 @@
 #include "spirv/parser.h"
 
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -26,6 +28,12 @@ capture::SourceLine Module::source_line(std::uint32_t instruction) const {
   const std::size_t begin = out.text.find_first_not_of(" \t"), end = out.text.find_last_not_of(" \t\r");
   out.text = begin == std::string::npos ? "" : out.text.substr(begin, end - begin + 1);
   return out;
+}
+const char* Module::lasting(const std::string& text) {
+  static std::mutex mutex;
+  static std::set<std::string> texts;
+  const std::lock_guard lock(mutex);
+  return texts.insert(text).first->c_str();
 }
 void Module::refuse(std::uint32_t file, std::uint32_t line, const std::string& sentence) const {
   throw Refusal(name, {files[file], static_cast<int>(line)}, sentence);
@@ -126,6 +134,7 @@ void Parser::add_source(const Raw& raw) {
   module_.sources[source_] += text(raw, goes_on ? 0 : 3);
 }
 void Parser::add_name(const Raw& raw) { names_[word(raw, 0)] = text(raw, 1); }
+void Parser::add_member_name(const Raw& raw) { member_names_[{word(raw, 0), word(raw, 1)}] = text(raw, 2); }
 void Parser::add_import(const Raw& raw) {
   const std::string set = text(raw, 1);
   Id& import = define(raw, 0, What::ignored);

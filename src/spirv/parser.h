@@ -44,6 +44,7 @@ class Parser {
   [[noreturn]] void refuse_op(const Raw& raw);
   void check_memory_model(const Raw& raw);
   void add_name(const Raw& raw);
+  void add_member_name(const Raw& raw);
   void add_text(const Raw& raw);
   void add_source(const Raw& raw);
   void add_entry(const Raw& raw);
@@ -141,6 +142,7 @@ class Parser {
   std::vector<std::uint32_t> words_;
   std::vector<Id> ids_;
   std::map<std::uint32_t, std::string> names_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> member_names_;
   std::map<std::uint32_t, Decorations> decorations_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Decorations> member_decorations_;
   std::vector<Body> bodies_;

@@ -48,6 +48,13 @@ class SpirvModel final : public capture::TracedProgram {
   void evaluate(int x, int y, scalar::Scalar<double>* out) const override { run(x, y, out); }
   void evaluate(int x, int y, perturbed::Perturbed* out) const override { run(x, y, out); }
   void enclose(int x, int y, const float*, enclosed::Enclosure* out) const override { run(x, y, out); }
+  bool rearrange(int x, int y, const float*, enclosed::Enclosure* out) const override {
+    std::vector<enclosed::Rearranged> all(static_cast<std::size_t>(values()));
+    run(x, y, all.data());
+    for (const enclosed::Rearranged& r : all) *out++ = r.settled();
+    return true;
+  }
+  std::string_view input_of(const float* texel) const override { return binding_->input_of(texel); }
   void trace(int x, int y, capture::ProgramTrace& out) const override {
     perturbed::Behaviour behaviour;
     behaviour.trace = &out.values;

@@ -12,7 +12,7 @@
 namespace rainref::spirv {
 
 /// The invocations of a program that has one for each texel of its outputs; values() are the channels of the images that are
-/// judged by envelope, output after output, and 0 where the program writes none. The case and the program must outlive it. Throws as
+/// judged by envelope, output after output, and 0 where the program writes none. The case must outlive it. Throws as
 /// execute(); Refusal also where invocations work together or a list is written: float alone executes those. Evaluation throws Refusal for
 /// what cannot be executed.
 std::unique_ptr<capture::TracedProgram> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,

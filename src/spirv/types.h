@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "spirv/opcodes.h"
@@ -22,6 +23,7 @@ struct Member {
   TypeIndex type;
   std::uint32_t slot;           ///< of its first slot in the structure
   std::uint32_t offset = none;  ///< in bytes
+  std::string name = "";        ///< in the source; may be ""
 };
 struct Type {
   Kind kind = Kind::nothing;
@@ -33,6 +35,8 @@ struct Type {
   bool is_signed = false, is_row_major = false, is_storage_image = false, is_buffer_block = false;
   Storage storage = Storage::function;  ///< of a pointer
   std::vector<Member> members;          ///< of a structure; of a function its parameters' types
+  std::string name = "";                ///< of a structure in the source; may be ""
+  std::uint32_t image_format = 0;       ///< of an image: SPIR-V's number of its format; 0: not said
 };
 
 /// One slot of a value in a buffer.
