@@ -19,6 +19,29 @@ namespace {
 
 constexpr std::int64_t largest_side = 65536, largest_count = INT32_MAX, largest_file = std::int64_t{1} << 40;
 
+}  // namespace
+
+scene::UniformBlock read_uniform_block(const JsonField& from) {
+  scene::UniformBlock block;
+  block.name = from["name"].text();
+  block.size = static_cast<std::size_t>(from["size"].whole(4, largest_side));
+  const std::vector<std::string> scalars{"float", "int", "uint"};
+  for (const JsonField& m : from["members"].elements()) {
+    scene::Member member{m["name"].text(),
+                         static_cast<scene::Scalar>(m["type"].one_of(scalars)),
+                         static_cast<int>(m["components"].whole(1, 4)),
+                         static_cast<std::size_t>(m["offset"].whole(0, largest_side)),
+                         m.is_null("unit") ? "1" : m["unit"].text(),
+                         m.is_null("sentence") ? "" : m["sentence"].text()};
+    if (member.offset + member.size() > block.size)
+      m["offset"].refuse(fmt::format("the member ends beyond the {} bytes of {}", block.size, block.name));
+    block.members.push_back(std::move(member));
+  }
+  return block;
+}
+
+namespace {
+
 template <class Enum, int Count>
 Enum named(const JsonField& field) {
   std::vector<std::string> names;
@@ -39,25 +62,6 @@ PackFileEntry read_file_entry(const JsonField& from) {
   file.bytes = static_cast<std::size_t>(from["bytes"].whole(0, largest_file));
   file.xxh3 = from["xxh3"].text();
   return file;
-}
-
-scene::UniformBlock read_block(const JsonField& from) {
-  scene::UniformBlock block;
-  block.name = from["name"].text();
-  block.size = static_cast<std::size_t>(from["size"].whole(4, largest_side));
-  const std::vector<std::string> scalars{"float", "int", "uint"};
-  for (const JsonField& m : from["members"].elements()) {
-    scene::Member member{m["name"].text(),
-                         static_cast<scene::Scalar>(m["type"].one_of(scalars)),
-                         static_cast<int>(m["components"].whole(1, 4)),
-                         static_cast<std::size_t>(m["offset"].whole(0, largest_side)),
-                         m["unit"].text(),
-                         m["sentence"].text()};
-    if (member.offset + member.size() > block.size)
-      m["offset"].refuse(fmt::format("the member ends beyond the {} bytes of {}", block.size, block.name));
-    block.members.push_back(std::move(member));
-  }
-  return block;
 }
 
 using Records = std::vector<scene::UniformBlock>;
@@ -233,17 +237,19 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
     pack.edges.push_back(
         {edge["pass"].text(), edge["input"].text(), edge["from"].text(), !edge.is_null("run") && edge["run"].one_of(runs) == 1});
   }
+  if (!manifest.is_null("reference"))
+    for (const JsonField& file : manifest["reference"].elements()) pack.reference.push_back(read_file_entry(file));
   std::vector<std::string> names;
   for (const JsonField& pass : manifest["passes"].elements()) {
     pack.passes.push_back({pass["name"].text(), pass["formula"].text(), pass["sentence"].text(), pass["reads"].texts(),
-                           pass["writes"].texts(), read_block(pass["uniform_block"])});
+                           pass["writes"].texts(), read_uniform_block(pass["uniform_block"])});
     if (!pass.is_null("coverage") && !pass["coverage"].is_null("reasons"))
       for (const auto& [alternative, reason] : pass["coverage"]["reasons"].members())
         pack.passes.back().unexercised[alternative] = reason.text();
     names.push_back(pack.passes.back().name);
   }
   Records records;
-  for (const JsonField& record : manifest["records"].elements()) records.push_back(read_block(record));
+  for (const JsonField& record : manifest["records"].elements()) records.push_back(read_uniform_block(record));
   std::set<std::string> ids;
   const std::vector<JsonField> cases = manifest["cases"].elements();
   if (cases.empty()) manifest["cases"].refuse("expected one run of a pass or more, found none");

@@ -81,12 +81,6 @@ Json uniforms_json(const scene::UniformBlock& block, const std::vector<std::byte
   return out;
 }
 
-void put_file(Json& to, const PackFile& file) {
-  to["file"] = file.path;
-  to["bytes"] = file.bytes;
-  to["xxh3"] = file.hash.text();
-}
-
 // What inputs and outputs share.
 Json storage_json(const std::string& name, const Array& array, const BufferInfo& buffer, const std::vector<PackFile>& files) {
   Json out{{"name", name}};
@@ -136,6 +130,12 @@ const char* overflow(const Array& array, Rounding rounding) {
 }
 
 }  // namespace
+
+void put_file(Json& to, const PackFile& file) {
+  to["file"] = file.path;
+  to["bytes"] = file.bytes;
+  to["xxh3"] = file.hash.text();
+}
 
 Json manifest_head(const EffectInfo& effect, const scene::Config& config, const std::string& scene_name, bool with_inputs,
                    const std::vector<std::string>& passes) {
@@ -213,13 +213,12 @@ Json output_json(const CaseOutput& output, const BufferInfo& buffer, const PassI
 
 namespace {
 
-constexpr int deepest_indent = 4;
 constexpr std::size_t short_line = 140;
 
-void print(const Json& json, int depth, std::string& out) {
+void print(const Json& json, int depth, int deepest, std::string& out) {
   // A name may be no UTF-8; what JSON cannot hold becomes U+FFFD.
   const std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (!json.is_structured() || line.size() <= short_line || depth >= deepest_indent) {
+  if (!json.is_structured() || line.size() <= short_line || depth >= deepest) {
     out += line;
     return;
   }
@@ -230,7 +229,7 @@ void print(const Json& json, int depth, std::string& out) {
     out += separator;
     out.append(static_cast<std::size_t>(depth) + 1, ' ');
     if (object) out += Json(key).dump() + ": ";
-    print(value, depth + 1, out);
+    print(value, depth + 1, deepest, out);
     separator = ",\n";
   }
   out += '\n';
@@ -240,9 +239,9 @@ void print(const Json& json, int depth, std::string& out) {
 
 }  // namespace
 
-std::string manifest_text(const Json& manifest) {
+std::string manifest_text(const Json& manifest, int deepest) {
   std::string out;
-  print(manifest, 0, out);
+  print(manifest, 0, deepest, out);
   return out + "\n";
 }
 

@@ -24,6 +24,8 @@ struct PackFile {
   Hash128 hash;
 };
 
+/// Adds the keys that say where a file lies and what it holds.
+void put_file(nlohmann::ordered_json& to, const PackFile& file);
 /// All but `cases`: format, versions, configuration, conventions, graph and passes, for these passes of the effect.
 nlohmann::ordered_json manifest_head(const EffectInfo& effect, const scene::Config& config, const std::string& scene_name, bool with_inputs,
                                      const std::vector<std::string>& passes);
@@ -34,7 +36,7 @@ nlohmann::ordered_json input_json(const CaseInput& input, const BufferInfo& buff
 nlohmann::ordered_json output_json(const CaseOutput& output, const BufferInfo& buffer, const PassInfo& pass,
                                    const std::vector<PackFile>& files);
 
-/// Indented; what is short, and each input and output of a case, stands on one line.
-std::string manifest_text(const nlohmann::ordered_json& manifest);
+/// Indented down to this depth; what is short stands on one line, and in a manifest each input and output of a case.
+std::string manifest_text(const nlohmann::ordered_json& manifest, int deepest = 4);
 
 }  // namespace rainref::capture

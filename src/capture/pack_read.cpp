@@ -184,6 +184,7 @@ PassCase Pack::read(const PackCase& entry) const {
 
 std::string Pack::file_beside(std::string_view besides) const {
   std::set<std::string> named{manifest_name};
+  for (const PackFileEntry& f : reference) named.insert(f.path);
   for (const PackCase& c : cases) {
     named.insert(c.uniforms.path);
     const auto add = [&](const PackArray& array) {

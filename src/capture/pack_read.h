@@ -76,6 +76,8 @@ class Pack {
   std::vector<PackPass> passes;                             ///< in the order of execution
   std::vector<PackEdge> edges;
   std::vector<PackCase> cases;  ///< in the order of execution
+  /// Of an effect that is none of rainref's own: the files that say what computes it, the description first (foreign/effect_file.h).
+  std::vector<PackFileEntry> reference;
 
   /// The pass of this name; Error(usage) naming the nearest one.
   const PackPass& pass(std::string_view name) const;

@@ -82,6 +82,12 @@ void PackWriter::add(const PassCase& c) {
   ++s.total.cases;
 }
 
+void PackWriter::add_reference(const std::string& path, std::span<const std::byte> bytes) {
+  nlohmann::ordered_json file;
+  put_file(file, state_->write(path, bytes, false));
+  state_->manifest["reference"].push_back(std::move(file));
+}
+
 void PackWriter::add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never,
                               const std::map<std::string, std::string>& reasons, bool is_sampled) {
   for (nlohmann::ordered_json& p : state_->manifest["passes"]) {

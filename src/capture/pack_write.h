@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class PackWriter {
              bool with_inputs, const std::vector<std::string>& passes);
   ~PackWriter();
   void add(const PassCase& c);
+  /// A file that says what computes a foreign effect, the description first.
+  void add_reference(const std::string& path, std::span<const std::byte> bytes);
   /// What the cases exercise of a pass text: how many of its alternatives, and which they do not, `is_sampled` as far as a
   /// sample of the invocations tells. For people; a judge counts again.
   void add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never,

@@ -43,6 +43,12 @@ struct PackOptions {
   bool shows_coverage = false;      ///< lists what of each pass's text no case takes
 };
 
+/// `pack --spirv`.
+struct ForeignPackOptions {
+  std::filesystem::path effect, inputs, output;
+  int threads = 0;
+};
+
 struct ValidateRequest {
   std::filesystem::path pack, port;
   std::filesystem::path shadow;  ///< dumps of a port's own run, judged instead of `port`; "": a pack is judged
@@ -80,9 +86,11 @@ struct LayoutRequest {
 
 int list(bool json);
 int describe(const std::string& effect, bool json, const LayoutRequest& layout);
+int describe_shaders(const std::vector<std::filesystem::path>& shaders);
 int run(const RunOptions& options);
 int hash(const SceneOptions& options);
 int pack(const PackOptions& options);
+int pack(const ForeignPackOptions& options);
 int diff(const std::filesystem::path& a, const std::filesystem::path& b);
 int validate(const ValidateRequest& request);
 int mutate(const MutateRequest& request);

@@ -6,6 +6,7 @@
 #include "cli/json_text.h"
 #include "cli/layout_text.h"
 #include "cli/terminal.h"
+#include "foreign/draft.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
@@ -59,6 +60,11 @@ int list(bool json) {
   say("\nScenes\n");
   for (const std::string& scene : simulation::known_scenes()) say("  {}\n", scene);
   say("\nSIMD targets    {}\nThreads         {}\n", fmt::join(simd_targets(), " "), parallel::Executor().threads());
+  return 0;
+}
+
+int describe_shaders(const std::vector<std::filesystem::path>& shaders) {
+  say("{}", foreign::draft_of(shaders));
   return 0;
 }
 

@@ -23,6 +23,7 @@
 #include "judge/evaluations.h"
 #include "judge/null_ports.h"
 #include "judge/profiles.h"
+#include "judging/foreign_pack.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
 #include "reports/figures.h"
@@ -182,6 +183,15 @@ class Packing {
 };
 
 }  // namespace
+
+int pack(const ForeignPackOptions& options) {
+  const parallel::Executor executor(options.threads);
+  const judging::ForeignPack made = judging::make_foreign_pack({options.effect, options.inputs, options.output}, executor);
+  for (const std::string& warning : made.warnings) say("warning: {}\n", warning);
+  say("{} of {} in {}, {}, in {}\n", counted(made.total.cases, "case"), fmt::join(made.passes, " "), counted(made.total.files, "file"),
+      memory_text(made.total.bytes), options.output.string());
+  return 0;
+}
 
 int pack(const PackOptions& options) {
   const scene::Config config = simulation::config_of_passes(load_scene(options.scene));

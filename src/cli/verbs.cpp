@@ -11,6 +11,8 @@
 #include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/scene_flags.h"
+#include "rainref/error.h"
+#include "rainref/executor.h"
 #include "registry/registry.h"
 
 // What the parser writes to lives as long as what runs the verb.
@@ -22,6 +24,12 @@ std::string effect_words() {
   std::vector<std::string> names;
   for (const effect::Effect* e : registry::effects()) names.push_back(e->name);
   return fmt::format("{}", fmt::join(names, "|"));
+}
+
+/// One of the two is there: what a verb is about, or shaders.
+void require_either(const std::string& subject, const char* name, const std::string& spirv) {
+  if (subject.empty() == spirv.empty())
+    throw Error(ExitCode::usage, fmt::format("expected either {} or --spirv, found {}", name, subject.empty() ? "neither" : "both"));
 }
 
 }  // namespace
@@ -39,16 +47,27 @@ Verb describe_verb(CLI::App& app) {
     std::string effect;
     bool json = false;
     LayoutRequest layout;
+    std::vector<std::string> spirv;
   };
   CLI::App& verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
   const auto f = std::make_shared<Flags>();
-  verb.add_option("EFFECT", f->effect, "Effect")->type_name(effect_words())->required();
+  verb.add_option("EFFECT", f->effect, "Effect")->type_name(effect_words());
   verb.add_flag("--json", f->json, "As JSON");
   verb.add_option("--layout", f->layout.language, "Uniform blocks, records and lists ready to paste")->type_name("c|glsl|hlsl|wgsl|cuda");
   verb.add_option("--pass", f->layout.pass, "With --layout: what this pass needs alone")->type_name("NAME");
   verb.add_option("--variant", f->layout.variant, "With --layout: in this variant alone")->type_name("as-published|corrected");
-  verb.footer("Example: rainref describe puddle --layout glsl --pass wave_step --variant corrected");
-  return {&verb, [f] { return describe(f->effect, f->json, f->layout); }};
+  verb.add_option("--spirv", f->spirv, "Instead of an effect: the first draft of a description of these shaders, for `pack --spirv`")
+      ->type_name("FILE...");
+  verb.footer(
+      "Example: rainref describe puddle --layout glsl --pass wave_step --variant corrected\n"
+      "An effect of your own: rainref describe --spirv fog.spv shade.spv > effect.json");
+  return {&verb, [f] {
+            require_either(f->effect, "EFFECT", f->spirv.empty() ? "" : f->spirv.front());
+            if (f->spirv.empty()) return describe(f->effect, f->json, f->layout);
+            if (f->json || f->layout.language || f->layout.pass || f->layout.variant)
+              throw Error(ExitCode::usage, "--spirv: expected no other option beside it");
+            return describe_shaders({f->spirv.begin(), f->spirv.end()});
+          }};
 }
 
 Verb run_verb(CLI::App& app) {
@@ -126,18 +145,37 @@ Verb pack_verb(CLI::App& app) {
     std::string output;
     std::optional<std::string> at, passes;
     bool shows_coverage = false;
+    std::string spirv, inputs;
   };
   CLI::App& verb = *app.add_subcommand("pack", "Write a conformance pack: inputs, uniforms and expected outputs of every pass");
   const auto f = std::make_shared<Flags>();
   add_scene_flags(verb, f->scene, false);
+  verb.get_option("SCENE")->required(false);
+  verb.add_option(
+          "--spirv", f->spirv,
+          "Instead of a scene: the description of an effect of your own, whose trusted shaders are the reference (see `describe --spirv`)")
+      ->type_name("FILE");
+  verb.add_option("--inputs", f->inputs, "With --spirv: inputs and uniforms of your own run")->type_name("DIR");
   verb.add_option("-o,--output", f->output, "Folder of the pack; an older pack there is replaced")->type_name("DIR")->required();
   verb.add_option("--at", f->at, "Frames to take (default: 0,1,12, and one more for a pass that does nothing in these)")->type_name("LIST");
   verb.add_option("--passes", f->passes, "Passes to take, such as wave_step,shade (default: all)")->type_name("LIST");
   verb.add_flag("--coverage", f->shows_coverage, "List what of each pass's text no case takes; the manifest has it too");
-  verb.footer("Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack");
+  verb.footer(
+      "Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack\n"
+      "An effect of your own: rainref pack --spirv effect.json --inputs my_run -o out/pack");
   return {&verb, [f] {
-            PackOptions options;
             require_text(f->output, "--output", "a folder");
+            require_either(f->scene.scene, "SCENE", f->spirv);
+            if (!f->spirv.empty()) {
+              if (f->at || f->passes || f->shows_coverage || f->scene.size || f->scene.simd || !f->scene.set.empty())
+                throw Error(ExitCode::usage, "--spirv: expected none of --at, --passes, --coverage, --size, --simd and --set beside it");
+              require_text(f->inputs, "--inputs", "the folder of a run");
+              ForeignPackOptions own{f->spirv, f->inputs, f->output};
+              if (f->scene.threads) own.threads = whole_number(*f->scene.threads, "--threads", 1, parallel::Executor::max_threads);
+              return pack(own);
+            }
+            if (!f->inputs.empty()) throw Error(ExitCode::usage, "--inputs: only beside --spirv");
+            PackOptions options;
             options.output = f->output;
             for (const std::string& frame : list_of(f->at.value_or("0,1,12")))
               options.frames.push_back(whole_number(frame, "--at", 0, 1000000));

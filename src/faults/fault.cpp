@@ -200,7 +200,7 @@ std::vector<Fault> faults_of(const capture::PackPass& pass, const PassCase& c, c
   return all;
 }
 
-FaultyPass::FaultyPass(const Fault& fault, const PassCase& c, Bind bind, const capture::PassModel& model, HalfMode mode,
+FaultyPass::FaultyPass(const Fault& fault, const PassCase& c, const Bind& bind, const capture::PassModel& model, HalfMode mode,
                        const std::vector<Array>& finished)
     : fault_(fault), model_(model), mode_(mode), slots_(slots_of(c)) {
   if (fault.alter_outputs) {

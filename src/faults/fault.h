@@ -73,7 +73,7 @@ class FaultyPass {
  public:
   /// `finished`: what the reference gives, its halves stored by `mode`. The case and the fault must outlive it. Throws
   /// Error when the altered case cannot be bound.
-  FaultyPass(const Fault& fault, const capture::PassCase& c, judge::Bind bind, const capture::PassModel& model, judge::HalfMode mode,
+  FaultyPass(const Fault& fault, const capture::PassCase& c, const judge::Bind& bind, const capture::PassModel& model, judge::HalfMode mode,
              const std::vector<capture::Array>& finished);
   bool applies() const { return applies_; }
   /// Gives `out` what is stored at a texel.

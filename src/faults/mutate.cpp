@@ -89,7 +89,7 @@ std::vector<std::unique_ptr<const Stores>> stores_under(const enclosed::Profile&
 
 /// One fault on one case. A port would be judged by the rounding that suits it best, so an element counts as outside
 /// only where it is so under every rounding that the profile leaves open.
-void judge_mutant(const Fault& d, const PassCase& c, Bind bind, const capture::PassModel& model, const std::vector<Texel>& texels,
+void judge_mutant(const Fault& d, const PassCase& c, const Bind& bind, const capture::PassModel& model, const std::vector<Texel>& texels,
                   const std::vector<std::unique_ptr<const Stores>>& all_stores, MutantJudgement& out) {
   const std::vector<Slot> slots = slots_of(c);
   if (slots.empty() || d.alter_list) return;
@@ -172,14 +172,14 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
   for (const capture::PackPass& pass : pack.passes) {
     if (!options.wants(pass.name)) continue;
     const capture::PassEvaluations* evaluations = evaluations_of(pack.effect, pass.name);
-    const Bind bind = binder(pack.effect, pass.name);
+    const Bind bind = binder(pack, pass.name);
     std::map<std::string, std::size_t> places;  // of a fault among the mutants
     std::optional<PassCase> before;
     bool judged = false;
     for (const capture::PackCase& entry : pack.cases) {
       if (entry.pass != pass.name) continue;
       PassCase c = read_case(pack, entry);
-      if (!evaluations || (slots_of(c).empty() && keyed_outputs(c).empty()) || (!bind && !slots_of(c).empty())) continue;
+      if ((!evaluations && !bind) || (slots_of(c).empty() && keyed_outputs(c).empty()) || (!bind && !slots_of(c).empty())) continue;
       judged = true;
       const std::unique_ptr<capture::PassModel> model = bind ? bind(c) : std::make_unique<capture::ListPass>("", nullptr);
       const std::vector<Texel> texels = spread(*model, invocations);
@@ -195,7 +195,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
           const Fault& d = all[static_cast<std::size_t>(k)];
           try {
             MutantJudgement& mutant = report.mutants[places.at(name_of(d))];
-            judge_mutant_lists(d, c, *evaluations, model.get(), chosen, mutant);
+            if (evaluations) judge_mutant_lists(d, c, *evaluations, model.get(), chosen, mutant);
             judge_mutant(d, c, bind, *model, texels, stores, mutant);
           } catch (const Error&) {
             // the altered case is none that the pass can run: nothing to compare

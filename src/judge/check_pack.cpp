@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "capture/check_case.h"
+#include "foreign/reference.h"
 #include "judge/keyed.h"
 #include "judge/reference_outputs.h"
 #include "judge/slots.h"
@@ -14,6 +15,7 @@
 namespace rainref::judge {
 
 void check_pack(const capture::Pack& pack) {
+  if (foreign::reference_of(pack)) return;
   const effect::Effect& effect = registry::effect_of_pack(pack.effect);
   const auto refuse = [&](const std::string& why) {
     throw Error(ExitCode::port_files, fmt::format("{}: {}", pack.folder().string(), why));

@@ -9,7 +9,7 @@ namespace rainref::judge {
 
 /// Checks the uniform blocks, and every case's shapes, formats and uniforms, by the manifest alone: capture::check_case
 /// and capture::uniform_fault. Throws Error(port_files) naming the pack and the case; Error(usage) for an effect that this
-/// build does not know.
+/// build does not know. A pack that brings its reference is checked against that: foreign::reference_of().
 void check_pack(const capture::Pack& pack);
 
 /// A case of a checked pack with its values; Error(port_files) where a record holds a float that is no finite number.

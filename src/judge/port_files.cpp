@@ -42,7 +42,8 @@ std::string unusable_text(const std::vector<FileFault>& faults, const std::strin
 
 PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::string& variant, std::shared_ptr<ReadBuffers> buffers)
     : folder_(std::move(folder)), buffers_(std::move(buffers)) {
-  for (const capture::BufferInfo& buffer : registry::effect_of_pack(effect).info->buffers)
+  const effect::Effect* own = registry::find(effect);
+  for (const capture::BufferInfo& buffer : own ? own->info->buffers : std::vector<capture::BufferInfo>())
     if ((buffer.variant.empty() || buffer.variant == variant) && (buffer.alpha == "1" || buffer.alpha == "opaque"))
       alpha_1_.insert(buffer.name);
   std::error_code error;

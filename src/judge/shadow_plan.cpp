@@ -72,6 +72,8 @@ Array level_of(const Array& array, int level) {
 
 ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack, bool shares_files) {
   check_pack(pack);
+  if (!pack.reference.empty())
+    throw Error(ExitCode::usage, fmt::format("{}: a pack that brings its own reference judges ports by --port", pack.folder().string()));
   ShadowPlan plan;
   plan.effect = pack.effect;
   plan.variant = pack.variant;

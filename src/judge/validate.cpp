@@ -176,7 +176,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
         if (options.progress) options.progress(++done, wanted);
       };
     }
-    (is_wanted ? tasks : voters).push_back({&pass, binder(pack.effect, pass.name), std::move(runs)});
+    (is_wanted ? tasks : voters).push_back({&pass, binder(pack, pass.name), std::move(runs)});
   }
   std::vector<PassJudgement> judged = judge_passes(tasks, how, voters);
   auto next = judged.begin();

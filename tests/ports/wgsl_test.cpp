@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "ports/support.h"
+#include "ports/any_effect.h"
 #include "reports/browser.h"
 
 namespace rainref::ports {
@@ -128,6 +128,19 @@ TEST_F(Wgsl, EveryPassPassesUnderWebgpu) {
                                                                                 : "PASS  ") +
                                                        pass + " "))
           << p.name;
+  }
+}
+
+TEST_F(Wgsl, PortsOfForeignEffectsPassUnderWebgpu) {
+  if (!AnyEffect::made()) GTEST_SKIP() << "needs NumPy for /usr/bin/python3";
+  const std::map<std::string, std::vector<std::string>> passes{{"fogged_glass", {"fog", "shade"}},
+                                                               {"caustics", {"wave", "caustics", "floor"}}};
+  for (const auto& [effect, names] : passes) {
+    Files port;
+    for (const auto& file : fs::directory_iterator(source + "/examples/any_effect/" + effect + "/wgsl"))
+      port[effect + "/" + file.path().filename().string()] = contents(file.path());
+    const Outcome outcome = judged(AnyEffect::made()->pack(effect), names, port);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
   }
 }
 

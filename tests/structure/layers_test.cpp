@@ -22,7 +22,7 @@ const std::map<std::string, int> floors{{"base", 0},         {"math", 1},       
                                         {"night_street", 6}, {"puddle", 5},     {"windshield", 5}, {"edge_splash", 5}, {"screen_drops", 5},
                                         {"rainy_glass", 5},  {"compositor", 5}, {"registry", 6},   {"truth", 6},       {"port_dump", 6},
                                         {"simulation", 7},   {"judge", 7},      {"faults", 7},     {"reports", 7},     {"cli", 8},
-                                        {"c_library", 8},    {"judging", 7},    {"sweep", 8},      {"spirv", 6}};
+                                        {"c_library", 8},    {"judging", 7},    {"sweep", 8},      {"spirv", 6},       {"foreign", 6}};
 // Public headers, by the floor that implements them.
 const std::map<std::string, int> public_floors{{"version", 0},      {"error", 0},       {"variant", 0},    {"storage", 1},
                                                {"image", 2},        {"texture", 2},     {"recorder", 2},   {"executor", 3},
@@ -34,6 +34,7 @@ const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"s
                                                                  {"drops", {"capture", "pass", "rain", "scene"}},
                                                                  {"blur_pyramid", {"capture", "pass", "scene"}},
                                                                  {"effect", {"capture", "image_io", "scene"}},
+                                                                 {"foreign", {"registry", "spirv"}},
                                                                  {"faults", {"judge"}},
                                                                  {"reports", {"faults", "judge"}},
                                                                  {"judging", {"faults", "judge", "reports", "simulation"}},

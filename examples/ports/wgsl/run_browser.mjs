@@ -15,7 +15,11 @@ function end(code, text) {
   console.log(text);
   child?.kill("SIGKILL");
   child?.on("exit", () => {
-    fs.rmSync(profile, {recursive: true, force: true, maxRetries: 9});
+    try {
+      fs.rmSync(profile, {recursive: true, force: true, maxRetries: 9});
+    } catch {
+      // a helper of the browser still writes there: the system clears its temporary folder
+    }
     process.exit(code);
   });
 }
