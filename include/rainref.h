@@ -249,6 +249,7 @@ typedef struct rr_judge_options {
   int32_t threads;      ///< 0: one for each processor
   int32_t strict;       ///< 1: each WARN is a FAIL
   int32_t exhaustive;   ///< 1: every envelope is computed, where widths and shares are otherwise a sample's
+  const char* spirv;    ///< a folder with bindings.json and the port's SPIR-V (docs/shader.md): causes have lines; NULL: none
 } rr_judge_options;
 /// Judges every pass that anything was given for, and says why one fails. A run with an output that was not given is NOT JUDGED. `options`
 /// may be NULL. Free it; it may outlive the cases.
@@ -267,6 +268,7 @@ typedef struct rr_folder_options {
   void* user;
   int32_t strict;      ///< 1: each WARN is a FAIL
   int32_t exhaustive;  ///< as in rr_judge_options
+  const char* spirv;   ///< as in rr_judge_options
 } rr_folder_options;
 /// Judges the files that a port wrote (docs/dumps.md) for the cases of a pack, as `rainref validate PACK --port PORT` does; one case is in
 /// memory at a time. Files that are missing or cannot be used stand in the reports, and what does not need them is judged: RR_OK. RR_FILES
@@ -313,8 +315,11 @@ typedef struct rr_cause {
   int64_t of;         ///< failing ones that were looked at
   int64_t inside;     ///< that it comes near
   int32_t is_likely;  ///< 1: it explains nearly all
+  size_t lines;       ///< of the port's shaders where it is
 } rr_cause;
 RR_API int rr_get_cause(const rr_judgement* judgement, size_t pass, size_t index, rr_cause* cause);
+/// A line of the port's shaders where a cause is, the best first: "shade.comp:57: vec3 bent = refract(view, normal, WATER_IOR);".
+RR_API int rr_get_line(const rr_judgement* judgement, size_t pass, size_t cause, size_t index, const char** line);
 
 /// An element outside what is allowed; the worst is the first. Records that are missing or too many are in the pass's `reason`.
 typedef struct rr_failure {

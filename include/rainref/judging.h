@@ -76,6 +76,9 @@ struct Cause {
   std::int64_t of = 0;         ///< failing ones that were looked at
   std::int64_t inside = 0;     ///< that it comes near
   bool is_likely = false;      ///< it explains nearly all
+  /// Lines of the port's shaders where it is, the best first: "shade.comp:57: vec3 bent = refract(view, normal, WATER_IOR);". Empty without
+  /// shaders (JudgeOptions::spirv).
+  std::vector<std::string> lines = {};
 };
 
 /// An element outside what is allowed. Records that are missing or too many are in the pass's `reason`.
@@ -143,6 +146,8 @@ struct JudgeOptions {
   std::optional<Rounding> half{};          ///< how the port rounds stores to binary16; none: found out where the profile leaves it open
   bool strict = false;                     ///< each WARN is a FAIL
   bool exhaustive = false;                 ///< every envelope is computed, where widths and shares are otherwise a sample's
+  /// A folder with bindings.json and the port's SPIR-V (docs/shader.md): causes have lines, and the reports say who is wrong. "": none.
+  std::filesystem::path spirv{};
 };
 
 /// Runs of passes with what they took and gave, in the order of execution: what a port is run on. Every function throws Error, naming what

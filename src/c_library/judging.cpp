@@ -54,27 +54,29 @@ int rr_judge(const rr_cases* cases, const rr_judge_options* options, rr_judgemen
     const rr_cases& c = required(cases, "cases");
     required(judgement, "judgement") = nullptr;
     const rr_judge_options o =
-        options ? sized(options, "rr_judge_options") : rr_judge_options{sizeof o, nullptr, nullptr, nullptr, 0, 0, 0};
+        options ? sized(options, "rr_judge_options") : rr_judge_options{sizeof o, nullptr, nullptr, nullptr, 0, 0, 0, nullptr};
     JudgeOptions how;
     if (o.profile) how.profile = o.profile;
     if (o.port) how.port = o.port;
     how.half = rounding(o.half);
     how.strict = o.strict != 0;
     how.exhaustive = o.exhaustive != 0;
+    if (o.spirv) how.spirv = o.spirv;
     *judgement = std::make_unique<rr_judgement>(rr_judgement{judging::judge_cases(c.list, how, parallel::Executor(o.threads))}).release();
   });
 }
 int rr_judge_folder(const char* pack, const char* port, const rr_folder_options* options, rr_judgement** judgement) {
   return call([&] {
     required(judgement, "judgement") = nullptr;
-    const rr_folder_options o =
-        options ? sized(options, "rr_folder_options") : rr_folder_options{sizeof o, nullptr, nullptr, 0, 0, 0, nullptr, nullptr, 0, 0};
+    const rr_folder_options o = options ? sized(options, "rr_folder_options")
+                                        : rr_folder_options{sizeof o, nullptr, nullptr, 0, 0, 0, nullptr, nullptr, 0, 0, nullptr};
     judging::FolderOptions how;
     if (o.profile) how.profile = o.profile;
     how.only = c_library::texts(o.passes, o.pass_count, "rr_folder_options.passes");
     how.partial = o.partial != 0;
     how.strict = o.strict != 0;
     if (o.exhaustive != 0) how.sample = 0;
+    if (o.spirv) how.spirv = o.spirv;
     if (o.progress) how.progress = [&o](int done, int of) { go_on(o, done, of); };
     const parallel::Executor executor(o.threads);
     how.executor = &executor;
@@ -117,7 +119,17 @@ int rr_get_cause(const rr_judgement* judgement, size_t pass, size_t index, rr_ca
     const PassVerdict& p = pass_of(judgement, pass);
     require_index(index, p.causes.size(), "cause");
     const Cause& c = p.causes[index];
-    sized(cause, "rr_cause") = {sizeof(rr_cause), c.name.c_str(), c.sentence.c_str(), c.explained, c.of, c.inside, c.is_likely};
+    sized(cause, "rr_cause") = {sizeof(rr_cause), c.name.c_str(), c.sentence.c_str(), c.explained, c.of,
+                                c.inside,         c.is_likely,    c.lines.size()};
+  });
+}
+int rr_get_line(const rr_judgement* judgement, size_t pass, size_t cause, size_t index, const char** line) {
+  return call([&] {
+    required(line, "line") = nullptr;
+    const PassVerdict& p = pass_of(judgement, pass);
+    require_index(cause, p.causes.size(), "cause");
+    require_index(index, p.causes[cause].lines.size(), "line");
+    *line = p.causes[cause].lines[index].c_str();
   });
 }
 int rr_get_failure(const rr_judgement* judgement, size_t pass, size_t index, rr_failure* failure) {

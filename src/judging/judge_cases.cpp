@@ -12,6 +12,7 @@
 #include "judge/conclude.h"
 #include "judge/judge_pass.h"
 #include "judge/profiles.h"
+#include "judging/shader_answer.h"
 #include "rainref/error.h"
 #include "reports/figures.h"
 #include "reports/html.h"
@@ -40,6 +41,7 @@ judge::PortRun port_run(const Run& run) {
 }
 
 judge::PortJudgement judged(const CaseList& cases, const JudgeOptions& o, const parallel::Executor& executor) {
+  const Programs programs = o.spirv.empty() ? Programs() : spirv::read_programs(o.spirv);
   const enclosed::Profile& profile = judge::judging_profile(o.profile);
   std::optional<judge::HalfMode> half;
   if (o.half) half = *o.half == Rounding::rne ? judge::HalfMode::rne : judge::HalfMode::rtz;
@@ -56,7 +58,7 @@ judge::PortJudgement judged(const CaseList& cases, const JudgeOptions& o, const 
     for (const Run* run : own)
       all.invocations += judge::invocations_of(
           run->c->outputs, [](const auto& output) -> const auto& { return output.array; });
-    all.explain = faults::diagnose;
+    all.explain = [&](const judge::FailedRun& failed) { return explain(failed, programs, faults::SearchLimit(0)); };
     all.tries_null_ports = true;
     all.counts_coverage = cases.pack() != nullptr;
     all.load = [own](std::size_t k) { return port_run(*own[k]); };
@@ -78,6 +80,15 @@ judge::PortJudgement judged(const CaseList& cases, const JudgeOptions& o, const 
     for (const std::vector<std::string>& notes : run.notes) result.notes.insert(result.notes.end(), notes.begin(), notes.end());
   result.passes = judge::judge_passes(tasks, options);
   judge::conclude(result);
+  const auto load = [&](const std::string& id) -> std::optional<StoredRun> {
+    for (const Run& run : cases.runs())
+      for (const capture::PackPass& pass : cases.passes())
+        if (run.id == id && run.has_any() && pass.name == run.c->pass) return StoredRun{*run.c, port_run(run).stored, pass.block};
+    return std::nullopt;
+  };
+  if (!programs.empty())
+    ask_shaders(
+        load, [&](const std::string& pass) { return judge::binder(cases.effect(), pass); }, programs, result);
   if (o.strict) judge::fail_warnings(result);
   return result;
 }
@@ -144,7 +155,8 @@ Verdict verdict_of(const judge::PortJudgement& j) {
     PassVerdict pass{p.pass,     p.formula, judge::name(p.status), p.reason,  p.where, static_cast<std::int64_t>(p.cases.size()),
                      f.judged(), f.outside, f.differing,           f.vacuous, {},      worst_of(p),
                      f.sampled()};
-    for (const judge::Cause& c : p.causes) pass.causes.push_back({c.name, c.sentence, c.explained, c.of, c.inside, c.is_likely});
+    for (const judge::Cause& c : p.causes)
+      pass.causes.push_back({c.name, c.sentence, c.explained, c.of, c.inside, c.is_likely, reports::line_texts(c)});
     v.passes.push_back(std::move(pass));
   }
   return v;

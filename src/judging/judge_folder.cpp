@@ -1,9 +1,14 @@
 #include "judging/judge_folder.h"
 
+#include <algorithm>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "faults/diagnose.h"
+#include "judge/check_pack.h"
 #include "judge/conclude.h"
+#include "judge/port_files.h"
 #include "judge/profiles.h"
 #include "judge/races.h"
 #include "judge/shadow.h"
@@ -25,13 +30,7 @@ class JudgeCall {
     options.explain = [this, &o](const judge::FailedRun& failed) {
       if (o.at_cause) o.at_cause(failed.pass.name);
       const faults::SearchLimit limit(o.causes_within * failed.share);
-      const std::unique_ptr<capture::TracedProgram> program = program_of(failed);
-      const std::unique_ptr<capture::TracedProgram> other_program = failed.other ? program_of(*failed.other) : nullptr;
-      judge::FailedRun with_program = failed, other = failed.other ? *failed.other : failed;
-      with_program.program = program.get();
-      other.program = other_program.get();
-      if (failed.other) with_program.other = &other;
-      judge::Explanation why = faults::diagnose_within(limit, with_program);
+      judge::Explanation why = judging::explain(failed, programs, limit);
       if (limit.was_met() && (cut_short_.empty() || cut_short_.back() != failed.pass.name)) cut_short_.push_back(failed.pass.name);
       return why;
     };
@@ -50,13 +49,6 @@ class JudgeCall {
   }
 
  private:
-  /// The port's program of a pass, where its invocations can be followed. Why they cannot, ask_shaders() says.
-  std::unique_ptr<capture::TracedProgram> program_of(const judge::FailedRun& failed) const try {
-    return program_model(programs, failed.judged.formula, failed.run.c);
-  } catch (const Error&) {
-    return nullptr;
-  }
-
   std::vector<std::string> cut_short_;
 };
 
@@ -69,6 +61,19 @@ void find_races(const capture::Pack& pack, const std::vector<std::filesystem::pa
   judge::add_races(races.found, judgement);
   judgement.files.insert(judgement.files.end(), races.files.begin(), races.files.end());
   judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
+}
+
+void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, const JudgeCall& call, judge::PortJudgement& judgement) {
+  judge::PortFiles files(port, pack.effect, pack.variant, call.options.buffers);
+  const auto load = [&](const std::string& id) -> std::optional<StoredRun> {
+    const auto entry = std::find_if(pack.cases.begin(), pack.cases.end(), [&](const auto& c) { return c.id == id; });
+    if (entry == pack.cases.end()) return std::nullopt;
+    StoredRun run{judge::read_case(pack, *entry), {}, pack.pass(entry->pass).block};
+    for (const capture::CaseOutput& output : run.c.outputs) run.stored.push_back(files.read(id, "out." + output.name, output.array));
+    return run;
+  };
+  judging::ask_shaders(
+      load, [&](const std::string& pass) { return judge::binder(pack, pass); }, call.programs, judgement);
 }
 
 Judged with_verdict(judge::PortJudgement judgement, reports::PageSource source, const FolderOptions& o) {
@@ -92,7 +97,7 @@ Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std:
   judge::PortJudgement judgement = judge::validate(*pack, runs.front(), call.options);
   call.add_notes(judgement);
   if (runs.size() > 1) find_races(*pack, runs, call.options, judgement);
-  if (!call.programs.empty()) ask_shaders(*pack, runs.front(), call.programs, call.options, judgement);
+  if (!call.programs.empty()) ask_shaders(*pack, runs.front(), call, judgement);
   return with_verdict(std::move(judgement), reports::page_source(pack, runs.front(), call.options.buffers), o);
 }
 

@@ -8,10 +8,8 @@
 #include <fmt/format.h>
 
 #include "judge/alternatives.h"
-#include "judge/check_pack.h"
 #include "judge/evaluations.h"
 #include "judge/invocation_judge.h"
-#include "judge/port_files.h"
 #include "judge/profiles.h"
 #include "judge/slots.h"
 #include "rainref/error.h"
@@ -58,25 +56,32 @@ std::optional<bool> may_give(const PassModel& model, const std::vector<judge::Sl
 }
 
 /// What a pass's program says of the case that fails most, or of the first one.
-std::string answer_of(const capture::Pack& pack, const judge::PassJudgement& pass, const Programs& programs, judge::PortFiles& files,
-                      const judge::ValidateOptions& options) {
+std::string answer_of(const judge::PassJudgement& pass, const LoadStored& load, const BindPass& bind, const Programs& programs,
+                      const std::string& profile) {
   const auto failing = [](const judge::CaseJudgement& c) { return c.failing; };
   const auto most =
       std::max_element(pass.cases.begin(), pass.cases.end(), [&](const auto& a, const auto& b) { return failing(a) < failing(b); });
-  const auto entry = most == pass.cases.end()
-                         ? pack.cases.end()
-                         : std::find_if(pack.cases.begin(), pack.cases.end(), [&](const auto& c) { return c.id == most->id; });
-  if (entry == pack.cases.end()) return "";
-  const PassCase c = judge::read_case(pack, *entry);
-  const std::unique_ptr<PassModel> shader = program_model(programs, pass.formula, c);
+  if (most == pass.cases.end() || !programs.contains(pass.formula)) return "";
+  const std::optional<StoredRun> run = load(most->id);
+  if (!run) return "";
+  const spirv::Program& program = programs.at(pass.formula);
+  const spirv::Module module(spirv::read_spirv(program), "'" + program.spirv.filename().string() + "'",
+                             spirv::specialization_of(program, run->c));
+  if (std::string fault = block_fault(run->block, module); !fault.empty()) return module.name + ": " + fault;
+  const std::unique_ptr<PassModel> shader = program_model(programs, pass.formula, run->c);
   if (!shader) return "";
-  const std::unique_ptr<PassModel> reference = judge::bound(pass.pass, judge::binder(pack.effect, pass.pass), c);
+  const std::unique_ptr<PassModel> reference = judge::bound(pass.pass, bind(pass.pass), run->c);
   if (shader->values() != reference->values()) return "";
-  std::vector<Array> stored;
-  for (const capture::CaseOutput& output : c.outputs) stored.push_back(files.read(c.folder(), "out." + output.name, output.array));
   const bool fails = most->failing > 0;
-  return sentence(ask_shader(c, *reference, *shader, stored, places_of(*most, *reference), judge::profile(options.profile), pass.half_mode),
-                  fails);
+  return sentence(
+      ask_shader(run->c, *reference, *shader, run->stored, places_of(*most, *reference), judge::profile(profile), pass.half_mode), fails);
+}
+
+/// The port's program of a pass, where its invocations can be followed. Why they cannot, ask_shaders() says.
+std::unique_ptr<capture::TracedProgram> followed_program(const judge::FailedRun& failed, const Programs& programs) try {
+  return program_model(programs, failed.judged.formula, failed.run.c);
+} catch (const Error&) {
+  return nullptr;
 }
 
 }  // namespace
@@ -128,14 +133,37 @@ std::string sentence(const ShaderAnswer& a, bool fails) {
       a.tried, a.said, a.right);
 }
 
-void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, const Programs& programs,
-                 const judge::ValidateOptions& options, judge::PortJudgement& judgement) {
-  judge::PortFiles files(port, pack.effect, pack.variant, options.buffers);
+std::string block_fault(const scene::UniformBlock& block, const spirv::Module& shader) {
+  const std::optional<scene::UniformBlock> own = spirv::uniform_block_of(shader);
+  if (!own) return "";
+  for (const scene::Member& m : own->members) {
+    const auto same = std::find_if(block.members.begin(), block.members.end(), [&](const scene::Member& b) { return b.name == m.name; });
+    if (same == block.members.end()) continue;
+    if (same->offset != m.offset)
+      return fmt::format("its uniform block has '{}' at byte {}, the pack has it at byte {}: every value from there on may be another one",
+                         m.name, m.offset, same->offset);
+    if (same->scalar != m.scalar)
+      return fmt::format("its uniform block has '{}' as {}, the pack has it as {}", m.name, scene::name(m.scalar), scene::name(same->scalar));
+  }
+  return "";
+}
+
+judge::Explanation explain(const judge::FailedRun& failed, const Programs& programs, const faults::SearchLimit& limit) {
+  const std::unique_ptr<capture::TracedProgram> program = followed_program(failed, programs);
+  const std::unique_ptr<capture::TracedProgram> other_program = failed.other ? followed_program(*failed.other, programs) : nullptr;
+  judge::FailedRun with_program = failed, other = failed.other ? *failed.other : failed;
+  with_program.program = program.get();
+  other.program = other_program.get();
+  if (failed.other) with_program.other = &other;
+  return faults::diagnose_within(limit, with_program);
+}
+
+void ask_shaders(const LoadStored& load, const BindPass& bind, const Programs& programs, judge::PortJudgement& judgement) {
   for (const judge::PassJudgement& pass : judgement.passes) {
     if (pass.status != judge::Status::pass && pass.status != judge::Status::warn && pass.status != judge::Status::fail) continue;
     std::string said;
     try {
-      said = answer_of(pack, pass, programs, files, options);
+      said = answer_of(pass, load, bind, programs, judgement.profile);
     } catch (const Error& e) {
       if (e.code() == ExitCode::internal) throw;
       said = e.what();  // the verdict stands without it

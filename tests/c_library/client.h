@@ -53,6 +53,7 @@
   X(rr_get_verdict)         \
   X(rr_get_pass_verdict)    \
   X(rr_get_cause)           \
+  X(rr_get_line)            \
   X(rr_get_failure)         \
   X(rr_report_text)         \
   X(rr_report_json)         \

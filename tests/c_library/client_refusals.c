@@ -127,6 +127,14 @@ static void cases_and_judging(rr_simulation* s, const char* scene) {
   REFUSED(rr.rr_get_pass_verdict(j, 1, &v), "pass 1");
   rr_cause cause = {.struct_bytes = sizeof cause};
   REFUSED(rr.rr_get_cause(j, 0, 0, &cause), "cause 0");
+  const char* line = "";
+  REFUSED(rr.rr_get_line(j, 0, 0, 0, &line), "cause 0");
+  CHECK(line == NULL);
+  rr_judgement* none = NULL;
+  options.half = NULL;
+  options.spirv = "nowhere";
+  expect(__LINE__, rr.rr_judge(cases, &options, &none), RR_IO, "nowhere");
+  CHECK(none == NULL);
   rr_failure failure = {.struct_bytes = sizeof failure};
   REFUSED(rr.rr_get_failure(j, 0, 0, &failure), "failure 0");
   REFUSED(rr.rr_report_text(NULL, NULL), "judgement: ");

@@ -1,6 +1,7 @@
 """Ports judged in memory, on simulations and on packs."""
 
 import shutil
+import subprocess
 
 import numpy as np
 import numpy_ports as ports
@@ -77,6 +78,26 @@ def test_files_of_a_port(tmp_path):
     assert rr.judge_folder(pack, port).json()["files"]
     with pytest.raises(ValueError, match="did you mean 'wave_step'"):
         rr.judge_folder(pack, port, passes=["wavestep"])
+
+
+@pytest.mark.skipif(not shutil.which("glslangValidator"), reason="needs glslangValidator")
+def test_a_cause_has_its_line(tmp_path):
+    """The port's shader exchanges red and blue; so do the files that it wrote."""
+    pack, port, shaders = PACKS / "puddle-corrected", tmp_path / "port", tmp_path / "spirv"
+    shutil.copytree(pack, port)
+    for file in port.glob("puddle.display/*/out.*.npy"):
+        np.save(file, np.load(file)[..., [2, 1, 0, 3]])
+    shutil.copytree(ROOT / "examples/ports/puddle", shaders)
+    shader = shaders / "display_corrected.comp"
+    shader.write_text(shader.read_text().replace("vec4(code, 1.0)", "vec4(code.bgr, 1.0)"))
+    subprocess.run(["glslangValidator", "-V", "-g", "--quiet", f"-I{ROOT}/examples/ports/common", shader.name, "-o", "display_corrected.spv"],
+                   cwd=shaders, check=True)
+    verdict = rr.judge_folder(pack, port, passes=["display"], spirv=shaders)
+    assert verdict["display"].causes[0].lines[0].startswith("display_corrected.comp:19: imageStore(")
+    assert "the device did what this shader says" in str(verdict)
+    assert rr.judge_folder(pack, port, passes=["display"])["display"].causes[0].lines == ()
+    with pytest.raises(OSError, match="bindings.json"):
+        rr.judge_folder(pack, port, spirv=tmp_path)
 
 
 def test_what_the_reference_gives_passes_for_every_pass(puddle):

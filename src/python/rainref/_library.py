@@ -88,6 +88,7 @@ _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
     "get_verdict": (_result, [_handle, c.POINTER(s.VerdictInfo)]),
     "get_pass_verdict": (_result, [_handle, _index, c.POINTER(s.PassVerdictInfo)]),
     "get_cause": (_result, [_handle, _index, _index, c.POINTER(s.CauseInfo)]),
+    "get_line": (_result, [_handle, _index, _index, _index, c.POINTER(c.c_char_p)]),
     "get_failure": (_result, [_handle, _index, _index, c.POINTER(s.FailureInfo)]),
     "report_text": (_result, [_handle, _text_out]),
     "report_json": (_result, [_handle, _text_out]),

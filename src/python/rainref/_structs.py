@@ -54,12 +54,12 @@ class Sampling(Struct):
 
 
 class JudgeOptions(Struct):
-    _fields_ = _members("profile:text port:text half:text threads:i32 strict:i32 exhaustive:i32")
+    _fields_ = _members("profile:text port:text half:text threads:i32 strict:i32 exhaustive:i32 spirv:text")
 
 
 class FolderOptions(Struct):
     _fields_ = _members("profile:text passes:texts pass_count:size partial:i32 threads:i32 progress:pointer user:pointer strict:i32 "
-                        "exhaustive:i32")
+                        "exhaustive:i32 spirv:text")
 
 
 class VerdictInfo(Struct):
@@ -72,7 +72,7 @@ class PassVerdictInfo(Struct):
 
 
 class CauseInfo(Struct):
-    _fields_ = _members("name:text sentence:text explained:i64 of:i64 inside:i64 is_likely:i32")
+    _fields_ = _members("name:text sentence:text explained:i64 of:i64 inside:i64 is_likely:i32 lines:size")
 
 
 class FailureInfo(Struct):

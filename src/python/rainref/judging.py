@@ -69,6 +69,7 @@ class Cause:
     of: int  #: failing ones that were looked at
     inside: int  #: that it comes near
     is_likely: bool  #: it explains nearly all of them
+    lines: tuple[str, ...]  #: of the port's shaders where it is, the best first: "shade.comp:57: vec3 bent = ..."
 
 
 @dataclass(frozen=True)
@@ -122,11 +123,13 @@ class Verdict:
     def _pass(self, i: int) -> PassVerdict:
         p = filled("get_pass_verdict", s.PassVerdictInfo, self._handle, i)
         causes = [filled("get_cause", s.CauseInfo, self._handle, i, k) for k in range(p.causes)]
+        lines = [tuple(text_of("get_line", self._handle, i, k, n) for n in range(cause.lines)) for k, cause in enumerate(causes)]
         worst = [filled("get_failure", s.FailureInfo, self._handle, i, k) for k in range(p.worst)]
         return PassVerdict(
             decoded(p.pass_name), decoded(p.formula), decoded(p.status), decoded(p.reason), decoded(p.where), p.cases, p.elements, p.outside,
             p.differing, p.vacuous,
-            tuple(Cause(decoded(k.name), decoded(k.sentence), k.explained, k.of, k.inside, bool(k.is_likely)) for k in causes),
+            tuple(Cause(decoded(k.name), decoded(k.sentence), k.explained, k.of, k.inside, bool(k.is_likely), own)
+                  for k, own in zip(causes, lines)),
             tuple(Failure(decoded(f.case_id), decoded(f.output), decoded(f.field), f.x, f.y, f.channel, f.got, f.low, f.high, f.expected,
                           decoded(f.text)) for f in worst), p.sampled)
 
@@ -167,12 +170,14 @@ def _run(ports: Iterable[Port], cases: Cases) -> None:
 
 
 def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port], frames: Iterable[int] = (0, 1), profile: str = "vulkan", *,
-          half: str | None = None, threads: int = 0, strict: bool = False, exhaustive: bool = False) -> Verdict:
+          half: str | None = None, threads: int = 0, strict: bool = False, exhaustive: bool = False,
+          spirv: str | os.PathLike[str] | None = None) -> Verdict:
     """Runs ports on the cases of a simulation or of a pack's folder, and judges what they give.
 
     A simulation runs on to the last of `frames`; none of them may lie behind it. `half` says how the ports round stores to binary16 ("rne",
     "rtz"); None: it is found out where the profile leaves it open. With `strict` each WARN is a FAIL, with `exhaustive` every envelope is computed,
-    where widths and shares are otherwise a sample's. Raises Error for what cannot be judged.
+    where widths and shares are otherwise a sample's. `spirv` is a folder with bindings.json and the ports' SPIR-V: causes have lines of it, and
+    the report says who is wrong. Raises Error for what cannot be judged.
     """
     ports = [ports] if callable(ports) else list(ports)
     for p in ports:
@@ -200,19 +205,21 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
             raise Error(f"ports: expected ports of {cases[0].effect}, found one of {other.effect}.{other.name}")
     _run(ports, cases)
     options = s.JudgeOptions.new(profile=encoded(profile), half=encoded(half) if half is not None else None, threads=threads, strict=strict,
-                                 exhaustive=exhaustive, port=", ".join(getattr(p.function, "__name__", p.name) for p in ports).encode())
+                                 exhaustive=exhaustive, spirv=None if spirv is None else encoded(spirv),
+                                 port=", ".join(getattr(p.function, "__name__", p.name) for p in ports).encode())
     return Verdict(Handle("free_judgement", "judge", cases.handle, c.byref(options)))
 
 
 def judge_folder(pack: str | os.PathLike[str], port: str | os.PathLike[str], profile: str = "vulkan", *, passes: Iterable[str] = (),
-                 partial: bool = False, threads: int = 0, strict: bool = False, exhaustive: bool = False) -> Verdict:
+                 partial: bool = False, threads: int = 0, strict: bool = False, exhaustive: bool = False,
+                 spirv: str | os.PathLike[str] | None = None) -> Verdict:
     """Judges the files that a port wrote for the cases of a pack, as `rainref validate PACK --port PORT` does.
 
     `passes` are judged alone; none named: every one. With `partial` a pass without any file is NOT JUDGED, with `strict` each WARN is a FAIL,
-    with `exhaustive` every envelope is computed. Files that are missing or cannot be used stand in the verdict's `json()["files"]`. `html` reads
-    both folders again. Raises Error for what cannot be judged.
+    with `exhaustive` every envelope is computed; `spirv` as in judge(). Files that are missing or cannot be used stand in the verdict's
+    `json()["files"]`. `html` reads both folders again. Raises Error for what cannot be judged.
     """
     many, count = texts(passes)
     options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads, strict=strict,
-                                  exhaustive=exhaustive)
+                                  exhaustive=exhaustive, spirv=None if spirv is None else encoded(spirv))
     return Verdict(Handle("free_judgement", "judge_folder", encoded(pack), encoded(port), c.byref(options)))

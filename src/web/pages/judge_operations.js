@@ -2,7 +2,8 @@
 import {structs} from "./c_library.js";
 
 structs.rr_folder_options = [["profile", "text"], ["passes", "pointer"], ["pass_count", "size"], ["partial", "i32"], ["threads", "i32"],
-                             ["progress", "pointer"], ["user", "pointer"], ["strict", "i32"], ["exhaustive", "i32"]];
+                             ["progress", "pointer"], ["user", "pointer"], ["strict", "i32"], ["exhaustive", "i32"],
+                             ["spirv", "text"]];
 
 /// The names of the profiles.
 export function profiles(library) {
@@ -23,16 +24,18 @@ function mounted({FS, WORKERFS}, {path, files}) {
   };
 }
 
-/// Judges a port's folder for a pack: {text, json, html, junit}. progress(done, of) after each run.
-export function judgeFolder(library, {pack, port, profile, passes = [], partial = false}, progress) {
+/// Judges a port's folder for a pack: {text, json, html, junit}. `spirv`: a folder of the port's shaders, which are asked who is wrong, and where.
+/// progress(done, of) after each run.
+export function judgeFolder(library, {pack, port, spirv = null, profile, passes = [], partial = false}, progress) {
   const {module} = library, undo = [];
   try {
     undo.push(mounted(module, pack));
     undo.push(mounted(module, port));
+    if (spirv) undo.push(mounted(module, spirv));
     const callback = module.addFunction((user, done, of) => { progress(done, of); return 0; }, "iiii");
     undo.push(() => module.removeFunction(callback));
     const judgement = library.withTexts(passes, (names, count) => library.withStruct("rr_folder_options",
-      {profile, passes: count ? names : 0, pass_count: count, partial: partial ? 1 : 0, progress: callback},
+      {profile, passes: count ? names : 0, pass_count: count, partial: partial ? 1 : 0, progress: callback, spirv: spirv?.path},
       options => library.out("rr_judge_folder", pack.path, port.path, options)));
     undo.push(() => library.value("rr_free_judgement", judgement));
     return Object.fromEntries(["text", "json", "html", "junit"].map(kind => [kind, library.text(library.out(`rr_report_${kind}`, judgement))]));

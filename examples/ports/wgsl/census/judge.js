@@ -2,7 +2,7 @@
 
 /// Structs of rainref.h where addresses have 32 bits: their bytes. Of rr_folder_options the words 1 profile, 2 passes, 3 pass_count; of rr_verdict 5
 /// passes; of rr_pass_verdict 1 pass, 3 status, 4 reason, and from byte 24 on counts of 64 bits: cases, elements, outside.
-const sizes = {folderOptions: 40, verdict: 24, passVerdict: 80};
+const sizes = {folderOptions: 44, verdict: 24, passVerdict: 80};
 const folders = {pack: "/census/pack", port: "/census/port"};
 
 /// module: what createRainref() gives. pack, port: from a path to its bytes. Gives of each of the named passes {pass, status, reason, elements,
