@@ -18,6 +18,7 @@ const outcome = new Outcome($("verdict"), $("outcome"), $("report"));
 
 let packs = [];           // as packs/index.json; `folder` is there where it is one of the visitor's own
 let port = null;          // the folder that was dropped: {name, files}
+let portShaders = null;   // the one of its SPIR-V: the same
 let running = null;       // AbortController of what is under way
 let hasChosenProfile = false;
 const edits = new Map();  // formula to the text that the visitor made of it
@@ -181,13 +182,15 @@ const runShaders = () => guarded(async signal => {
     throw new Error(`${error.pass} did not run: see below its text`);
   }
 });
-const judgeFolder = () => guarded(() => judged(port, {partial: $("partial").checked}));
+const judgeFolder = () => guarded(() => judged(port, {
+  partial: $("partial").checked, spirv: portShaders && {path: `spirv/${portShaders.name}`, files: [...portShaders.files]}}));
 
-/// Takes folders that were dropped or chosen: packs, and one of a port.
+/// Takes folders that were dropped or chosen: packs, one of a port, and one of its shaders.
 async function take(promise) {
   try {
     for (const one of await promise) {
-      if (one.files.has("manifest.json") && !one.files.has("port.json")) await takePack(one);
+      if (one.files.has("bindings.json")) takeShaders(one);
+      else if (one.files.has("manifest.json") && !one.files.has("port.json")) await takePack(one);
       else await takePort(one);
     }
   } catch (error) {
@@ -202,6 +205,11 @@ async function takePack(one) {
   await choose({pack: one.name});
   $("pack-state").textContent = `${one.name} is a pack of ${cases.length} cases: it is chosen above.`;
   $("pack-state").hidden = false;
+}
+function takeShaders(one) {
+  portShaders = one;
+  $("shaders-state").textContent = `${one.name}: the port's shaders are asked too, and the line of a mistake is named.`;
+  $("shaders-state").hidden = false;
 }
 async function takePort(one) {
   port = one;

@@ -22,7 +22,11 @@ export const packList = kept(async () => (await (await fetched("packs/index.json
 /// The folder of one of them.
 export const packFolder = kept(async pack => folderOfArchive(new File([await (await fetched(`packs/${pack.file}`)).blob()], pack.file)));
 
-const programsOf = kept(async effect => (await (await fetched(`ports/${effect}/programs.json`)).json()).programs);
+/// None for an effect of the visitor's own.
+const programsOf = kept(async effect => {
+  if (!(await packList()).some(pack => pack.effect === effect)) return {};
+  return (await (await fetched(`ports/${effect}/programs.json`)).json()).programs;
+});
 const portText = kept(async path => new Uint8Array(await (await fetched(`ports/${path}`)).arrayBuffer()));
 /// Whether the examples have a program of a formula: not of what the host makes.
 export const hasProgram = async (effect, formula) => formula in await programsOf(effect);
