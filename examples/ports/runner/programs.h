@@ -7,7 +7,7 @@
 //   input records   std430 storage buffer: an array of the records
 //   output image    storage image in the buffer's format
 //   output records  std430 storage buffer: the count in the first of four words, the records from byte 16
-// An input that the case does not have is bound as one texel of zeros, one of `lists` as one record of zeros.
+// An input that the case does not have is bound as one texel of zeros, one of `lists` as 256 bytes of zeros.
 #pragma once
 
 #include <cstdint>
