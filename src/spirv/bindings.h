@@ -1,4 +1,4 @@
-// A pass' case bound to a port's program, as port_runner binds it on a device (examples/ports/README.md).
+// Binds a case to a port's program, as port_runner binds it on a device (examples/ports/README.md).
 #pragma once
 
 #include <array>
@@ -16,46 +16,45 @@
 
 namespace rainref::spirv {
 
-/// A program of bindings.json, or one whose descriptors lie elsewhere than there.
+/// A program of bindings.json, or one whose descriptors have other sets and bindings.
 struct Program : port_runner::Program {
   Program() = default;
   Program(port_runner::Program of) : port_runner::Program(std::move(of)) {}
-  /// Set and binding of the uniform block, the inputs and the outputs; empty: set 0, from binding 0 on.
+  /// Set and binding of the uniform block, the inputs and the outputs. If empty: set 0, bindings counted from 0.
   std::vector<std::array<std::uint32_t, 2>> at;
 };
 
-/// FOLDER/bindings.json: formula with revision to program. Throws Error(port_files), and Error(io) where it cannot be read.
+/// Reads FOLDER/bindings.json: a program for each formula with its revision. Throws Error(port_files), and Error(io) if the file cannot be
+/// read.
 std::map<std::string, Program> read_programs(const std::filesystem::path& folder);
-/// The words of a program. Throws like read_programs().
+/// Returns the words of a program. Throws like read_programs().
 std::vector<std::byte> read_spirv(const Program& program);
 
-/// The program's constants, as this case has them. Throws Error(port_files).
+/// Returns the program's constants with the values of this case. Throws Error(port_files).
 Specialization specialization_of(const Program& program, const capture::PassCase& c);
 
-/// What a module's descriptors lead to: the case's inputs, and outputs to be written, which are 0 before. The case and the
-/// module must outlive it.
+/// The resources of a module's descriptors: the case's inputs, and outputs that start as zeros. The case and the module must outlive it.
 class CaseBinding {
  public:
-  /// Throws Refusal where a descriptor has another set than 0 or a binding that the program has not, and Error(port_files) where the case
-  /// has no such output.
+  /// Throws Refusal if a descriptor's set is not 0 or the program lacks its binding, and Error(port_files) if the case lacks the output.
   CaseBinding(const capture::PassCase& c, const Program& program, const Module& module);
   ~CaseBinding();
   std::span<const Resource<Float>> resources() const { return resources_; }
-  /// What a descriptor is written to; null where it is no output.
+  /// Returns the output that a descriptor writes; null if it is not an output.
   const capture::CaseOutput* output(std::size_t descriptor) const;
-  /// The image that this decoded texel is of; "" where it is of none.
+  /// Returns the name of the image that contains this decoded texel; "" if no image does.
   std::string_view input_of(const float* texel) const;
-  /// Workgroups: as many as cover the first output.
+  /// Number of workgroups: enough to cover the first output.
   Three groups() const;
-  /// What was written, in the order of the program's outputs, in the formats of the case. Throws Refusal where a list counts more records
-  /// than it has room for.
+  /// The written outputs in the order of the program's outputs, in the case's formats. Throws Refusal if a list's count is above its
+  /// capacity.
   std::vector<capture::Array> outputs() const;
 
  private:
   struct Bound;
   void bind_input(const std::string& name);
   void bind_output(const std::string& name);
-  /// The place in bound_ of what is bound to a descriptor; that behind the last where nothing is.
+  /// Index in bound_ of the resource of a descriptor; bound_.size() if there is none.
   std::size_t place_of(const Descriptor& d) const;
 
   const capture::PassCase& case_;
@@ -65,7 +64,7 @@ class CaseBinding {
   std::vector<Resource<Float>> resources_;     ///< by descriptor
 };
 
-/// A case's outputs by a program in SPIR-V. `name` starts every message about the module. Throws as all of these.
+/// Computes a case's outputs with a SPIR-V program. `name` starts every message about the module. Throws like the functions above.
 std::vector<capture::Array> execute(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
                                     const std::string& name, const Limits& limits = {});
 

@@ -1,4 +1,4 @@
-// GLSL.std.450 by the functions of our models, so that both have the same bits where both say the same mathematics.
+// GLSL.std.450 with the functions of our models: equal mathematics gives equal bits.
 #pragma once
 
 #include "math/constants.h"
@@ -7,7 +7,7 @@
 
 namespace rainref::spirv::numbers {
 
-/// The nearest whole number, ties to even. SPIR-V leaves the ties of Round open; they are these, too.
+/// The nearest integer, ties to even. SPIR-V leaves the ties of Round undefined; Round is computed like this, too.
 template <class N>
 N round_even(const N& x) {
   const N low = floor(x), rest = x - low, half(0.5f), one(1.0f);
@@ -38,13 +38,13 @@ template <class N>
 N sign_of(const N& x) {
   return select(x > N(0.0f), N(1.0f), select(x < N(0.0f), N(-1.0f), N(0.0f)));
 }
-/// The height of a unit vector whose side is x.
+/// The other side of a right triangle with hypotenuse 1 and side x.
 template <class N>
 N other_side(const N& x) {
   return sqrt(max(N(1.0f) - square(x), N(0.0f)));
 }
 
-/// The length of n numbers.
+/// The length of a vector of n components.
 template <class N>
 N length_of(const N* x, std::uint32_t n) {
   if (n == 1) return abs(x[0]);
@@ -53,7 +53,7 @@ N length_of(const N* x, std::uint32_t n) {
   return sqrt(sum_any_order(square(x[0]), square(x[1]), square(x[2]), square(x[3])));
 }
 
-/// A function of vectors of n components (n is 1 to 4); the third operand of Refract has one. False where it is none of them.
+/// Evaluates a function of vectors of n components (1 to 4); the third operand of Refract has one. Returns false for any other function.
 template <class N>
 bool vector_function(Glsl function, Slot<N>* to, const Slot<N>* a, const Slot<N>* b, const Slot<N>* c, std::uint32_t n) {
   N x[4];
@@ -105,7 +105,7 @@ bool vector_function(Glsl function, Slot<N>* to, const Slot<N>* a, const Slot<N>
   }
 }
 
-/// Numbers in the parts of a word, and back.
+/// Packs numbers into the parts of a word, and unpacks them.
 template <class N>
 void packing_function(Glsl function, Slot<N>* to, const Slot<N>* a) {
   const bool is_half = function == Glsl::PackHalf2x16 || function == Glsl::UnpackHalf2x16;
@@ -126,7 +126,7 @@ void packing_function(Glsl function, Slot<N>* to, const Slot<N>* a) {
   to[0].word = word;
 }
 
-/// A function that treats each component by itself, by glsl.inc. False where it is none of them.
+/// Evaluates a componentwise function from glsl.inc. Returns false for any other function.
 template <class N>
 bool each_function(const Code& code, Slot<N>* to, const Slot<N>* in_a, const Slot<N>* in_b, const Slot<N>* in_c) {
   const auto for_each = [&](const auto& f) {
@@ -154,7 +154,7 @@ bool each_function(const Code& code, Slot<N>* to, const Slot<N>* in_a, const Slo
   }
 }
 
-/// All of them.
+/// Evaluates any of these functions.
 template <class N>
 void glsl_function(const Code& code, Slot<N>* to, const Slot<N>* a, const Slot<N>* b, const Slot<N>* c) {
   const auto function = static_cast<Glsl>(code.sub);

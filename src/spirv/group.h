@@ -7,8 +7,8 @@ namespace rainref::spirv {
 
 using Float = scalar::Scalar<float>;
 
-/// Executes all invocations of so many workgroups. Where invocations of a workgroup work together they take turns, block by block in their
-/// order, so that one that waits for another gets on; otherwise one after the other. Throws Refusal.
+/// Executes all invocations of `groups` workgroups. If invocations of a workgroup cooperate, each runs one block in turn, so that an
+/// invocation that waits for another makes progress; otherwise they run one after the other. Throws Refusal.
 void dispatch(Machine<Float>& machine, const Three& groups);
 
 }  // namespace rainref::spirv

@@ -1,5 +1,5 @@
-// Operations on whole numbers and truth values of 32 bits, as SPIR-V has them. What it leaves undefined (a division by zero, a shift by
-// 32 and more) has one result here, so that nothing depends on the machine.
+// Operations on 32-bit integers and truth values, as SPIR-V defines them. Results that SPIR-V leaves undefined (a division by zero, a shift
+// by 32 or more) are fixed here, so that they do not depend on the machine.
 #pragma once
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace rainref::spirv {
 inline std::int32_t signed_word(std::uint32_t a) { return static_cast<std::int32_t>(a); }
 inline std::uint32_t word_of(std::int64_t a) { return static_cast<std::uint32_t>(a); }
 
-/// a / b toward zero, and what remains; by zero: 0 and a.
+/// a / b rounded toward zero, and its remainder; 0 and a if b is 0.
 inline std::int64_t quotient(std::int64_t a, std::int64_t b) { return b == 0 ? 0 : a / b; }
 inline std::int64_t remainder(std::int64_t a, std::int64_t b) { return b == 0 ? a : a % b; }
 /// The remainder with the sign of b.
@@ -34,10 +34,11 @@ T clamped(T a, T low, T high) {
   return high < least ? high : least;
 }
 
-/// One component of an instruction with words, by opcodes.inc; nothing where it is none. b counts where there are two operands.
+/// Computes one component of an instruction on words, from opcodes.inc; nothing for other instructions. b is used if there are two
+/// operands.
 std::optional<std::uint32_t> word_operation(Op op, std::uint32_t a, std::uint32_t b);
 
-/// `count` bits of `base` from `offset` on, of which none are beyond bit 31.
+/// The bits of `base` from `offset` on, `count` of them; bits beyond 31 are not included.
 inline std::uint32_t low_bits(std::uint32_t count) { return count >= 32 ? 0xffffffffu : (1u << count) - 1u; }
 inline std::uint32_t extracted_bits(std::uint32_t base, std::uint32_t offset, std::uint32_t count, bool is_signed) {
   if (count == 0 || offset > 31) return 0;

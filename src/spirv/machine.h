@@ -1,7 +1,7 @@
-// Executes a module with one kind of number: an invocation at a time, calls as frames, branches as plain branches.
+// Executes a module with one number type: one invocation at a time, calls as frames, branches as plain branches.
 //
-// A comparison of numbers gives a plain bool, so a number that leaves one open (an enclosure) is executed once for each answer, as our
-// models are (math/path_enumeration.h).
+// A comparison of numbers returns a plain bool. A number type that can leave a comparison open (an enclosure) is executed once for each
+// outcome, like our models (math/path_enumeration.h).
 #pragma once
 
 #include <algorithm>
@@ -25,27 +25,27 @@ namespace rainref::spirv {
 
 using numbers::Slot;
 
-/// What an execution may take. An instruction of many numbers counts as more steps.
+/// Limits of an execution. An instruction on many numbers counts as several steps.
 struct Limits {
   std::uint64_t steps = std::uint64_t{1} << 28;  ///< of an invocation
   std::size_t slots = std::size_t{1} << 24;      ///< memory of a workgroup's invocations
-  std::size_t followed = std::size_t{1} << 18;   ///< operations of an invocation that is followed
+  std::size_t followed = std::size_t{1} << 18;   ///< traced operations of an invocation
 };
 
-/// A module with what its descriptors lead to. All three must outlive it.
+/// A module with the resources of its descriptors. All three must outlive it.
 template <class N>
 struct Machine {
-  /// One resource for each descriptor. Throws Refusal where one is missing or of another kind.
+  /// Takes one resource for each descriptor. Throws Refusal if one is missing or of another kind.
   Machine(const Module& of, std::span<const Resource<N>> bound, const Limits& limit = {});
 
   const Module& module;
   std::span<const Resource<N>> resources;
   Limits limits;
-  std::vector<Slot<N>> start, shared;  ///< what an invocation begins with; memory of the workgroup
+  std::vector<Slot<N>> start, shared;  ///< initial memory of an invocation; shared memory of the workgroup
 };
 
 using Three = std::array<std::uint32_t, 3>;
-/// Which invocation it is.
+/// Identifies an invocation.
 struct Numbers {
   Three groups{1, 1, 1}, group{}, local{};
 };
@@ -58,13 +58,13 @@ class Invocation {
   explicit Invocation(Machine<N>& machine)
       : machine_(machine),
         module_(machine.module),
-        // Operands that an instruction has not are read as the first slots of its frame, which may be empty.
+        // An instruction reads absent operands as the first slots of its frame, which may be empty.
         stack_(machine.start.size() + machine.module.functions[machine.module.entry].stack + 16) {}
-  /// Goes back to the beginning, as another invocation.
+  /// Restarts as another invocation.
   void begin(const Numbers& numbers);
-  /// Goes on to the end or to a barrier, or to the end of a block alone. Throws Refusal for what cannot be executed.
+  /// Runs to the end, to a barrier, or with `one_block` to the end of the block. Throws Refusal for what cannot be executed.
   Stop run(bool one_block = false);
-  /// From now on takes down which instruction and which call each node of the trace is made by. The trace must be in force while it runs.
+  /// From now on records the instruction and call that create each node of the trace. The trace must be active while it runs.
   void follow(capture::ProgramTrace& trace) requires std::is_same_v<N, perturbed::Perturbed> { trace_ = &trace; }
   /// The barrier at which it stopped.
   const Code& barrier() const { return module_.code[pc_ - 1]; }
@@ -102,7 +102,7 @@ class Invocation {
   std::byte* bytes(const Code& code, const Slot<N>* pointer, bool writes);
   Slot<N>* slots(const Code& code, const Slot<N>* pointer);
   const Resource<N>& resource(const Code& code, const Slot<N>& handle) const;
-  /// Each component by itself: of words, or of numbers.
+  /// Applies a function to each component of words or of numbers.
   template <Kind in, Kind out, class F>
   void each(const Code& code, int operands, const F& value) {
     Slot<N>* to = at(code.to);
@@ -221,7 +221,7 @@ template <class N>
 void Invocation<N>::enter(std::uint32_t block) {
   const Block& next = module_.blocks[block];
   phis_.clear();
-  // All of them take the values of before.
+  // All phis read the values from before the branch.
   for (std::uint32_t i = 0; i < next.phis; ++i) {
     const Code& phi = module_.code[next.first + i];
     count(phi);
@@ -250,7 +250,7 @@ void Invocation<N>::enter_switch(const Code& code) {
   enter(static_cast<std::uint32_t>(code.in[1]));
 }
 
-// That the stack holds it, the module has found: no function calls itself.
+// The module has checked that the stack is large enough: no function calls itself.
 template <class N>
 void Invocation<N>::call(const Code& code) {
   const auto callee = static_cast<std::uint32_t>(code.in[0]);
@@ -271,7 +271,7 @@ void Invocation<N>::call(const Code& code) {
   block_ = module_.functions[callee].entry;
   pc_ = module_.blocks[block_].first;
 }
-/// Whether that was the entry point.
+/// True if the entry point returned.
 template <class N>
 bool Invocation<N>::leave(const Code& code) {
   if (frames_.empty()) return true;

@@ -1,11 +1,11 @@
-// What an invocation exercises of a shader, while that is counted (math/coverage.h); machine.h includes it.
+// Counts the alternatives that an invocation takes in a shader (math/coverage.h); included by machine.h.
 #pragma once
 
 #include "spirv/machine.h"
 
 namespace rainref::spirv {
 
-/// Whether an instruction decides. Steps of others (a conversion that rounds by a comparison) are none of the shader's decisions.
+/// True if an instruction decides. Decisions inside other instructions (a conversion that rounds by a comparison) are not the shader's.
 inline bool decides(const Code& code) {
   switch (code.op) {
     case Op::BranchConditional:
@@ -33,7 +33,7 @@ inline bool decides(const Code& code) {
   }
 }
 
-/// Before an instruction is executed. A selection counts here by its condition: it chooses between values of any type.
+/// Called before an instruction is executed. A selection counts by its condition: it selects between values of any type.
 template <class N>
 void Invocation<N>::count_decision(const Code& code) {
   if constexpr (std::is_same_v<N, perturbed::Perturbed>) {

@@ -1,5 +1,5 @@
-// What an invocation does with memory and images; machine.h includes it. A pointer is two slots: the descriptor, and the place in bytes of
-// its buffer; or nothing, and the place in slots.
+// Operations on memory and images; included by machine.h. A pointer is two slots: the descriptor and a byte offset in its buffer, or
+// nothing and a slot index.
 #pragma once
 
 #include "spirv/machine.h"
@@ -56,7 +56,7 @@ void Invocation<N>::load(const Code& code) {
   const Slot<N>* const pointer = at(code.in[0]);
   if (static_cast<Memory>(code.sub) != Memory::buffer) {
     const Slot<N>* const from = slots(code, pointer);
-    // A copy onto itself overlaps only where a module forges a pointer.
+    // A copy onto itself overlaps only if a module forges a pointer.
     std::copy(from, from + code.n, to);
     return;
   }
@@ -85,7 +85,7 @@ void Invocation<N>::store(const Code& code) {
   }
 }
 
-// Atomics. Nothing else is executed meanwhile.
+// Atomics. No other invocation runs meanwhile.
 template <class N>
 void Invocation<N>::exchange(const Code& code) {
   const Slot<N>* const pointer = at(code.in[0]);
@@ -126,7 +126,7 @@ void Invocation<N>::use_image(const Code& code) {
   const auto give = [&] {
     for (std::uint32_t k = 0; k < 4; ++k) {
       to[k].number = texel[k];
-      // In a trace a texel comes from its place, too.
+      // In a trace a texel also depends on its coordinates.
       if constexpr (std::is_same_v<N, perturbed::Perturbed>) {
         const Slot<N>* const place = at(code.in[1]);
         if (trace_ && texel[k].node() >= 0)

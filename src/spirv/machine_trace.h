@@ -1,11 +1,11 @@
-// What an invocation takes down while it is followed (capture/traced_program.h); machine.h includes it.
+// Records the trace of an invocation (capture/traced_program.h); included by machine.h.
 #pragma once
 
 #include "spirv/machine.h"
 
 namespace rainref::spirv {
 
-/// An integer keeps, as its number, where it comes from, and so does a number that is made of it.
+/// An integer stores the node that it comes from as its number, and so does a number computed from it.
 template <class N>
 template <Kind out>
 void Invocation<N>::carry(Slot<N>& to, const Slot<N>& a, const Slot<N>& b) {
@@ -29,7 +29,7 @@ void Invocation<N>::note_nodes(const Code& code) {
       trace_->steps.push_back({static_cast<std::uint32_t>(&code - module_.code.data()), call_, part});
   }
 }
-/// Values that go from one place to another: in a trace each is a node of its own.
+/// Copies of values: in a trace each copy is a node of its own.
 template <class N>
 void Invocation<N>::copy(const Slot<N>* from, std::uint32_t n, Slot<N>* to) {
   std::copy(from, from + n, to);

@@ -1,4 +1,4 @@
-// What an invocation does with values; machine.h includes it.
+// Operations on values; included by machine.h.
 #pragma once
 
 #include "spirv/machine.h"
@@ -120,7 +120,7 @@ void Invocation<N>::execute_other(const Code& code) {
   }
 }
 
-// Columns of a matrix lie one behind the other.
+// The columns of a matrix are contiguous.
 template <class N>
 void Invocation<N>::multiply(const Code& code) {
   Slot<N>* const to = at(code.to);

@@ -1,7 +1,7 @@
-// A module of SPIR-V as it is executed: checked, resolved, specialized.
+// A SPIR-V module ready to execute: checked, resolved, specialized.
 //
-// Whoever wrote it is a stranger. All that is said by position is checked when the module is made; what depends on values (places in
-// memory, a count of steps) is checked where it is executed.
+// The module is not trusted. Everything that its text determines is checked when it is parsed; what depends on values (addresses, the
+// number of steps) is checked when it is executed.
 #pragma once
 
 #include <array>
@@ -21,35 +21,35 @@ namespace rainref::spirv {
 /// Values of specialization constants by their id: 32 bits each.
 using Specialization = std::map<std::uint32_t, std::uint32_t>;
 
-/// A slot of an invocation's memory: from the frame of the function that runs, or, as ~place, from the beginning.
+/// A slot of an invocation's memory: relative to the frame of the running function, or, as ~place, absolute.
 using Place = std::int32_t;
 
-/// An instruction. What the operands are is said where it is made (translate*.cpp) and executed (machine.h).
+/// An instruction. The code that makes it (translate*.cpp) and executes it (machine.h) documents the operands.
 struct Code {
   Op op = Op::Nop;
   std::uint16_t sub = 0;         ///< a function of GLSL.std.450; or a flag
-  std::uint32_t n = 0;           ///< slots of the result, or of what is stored
-  std::uint32_t m = 0;           ///< of an operand, where they are others
+  std::uint32_t n = 0;           ///< slots of the result, or of the stored value
+  std::uint32_t m = 0;           ///< slots of an operand, if they differ
   Place to = 0;                  ///< of the result
   std::array<Place, 4> in{};     ///< of operands; or blocks, or a function
   std::uint32_t pool = 0;        ///< the first of further operands in Module::pool
-  std::uint32_t pool_count = 0;  ///< of them
+  std::uint32_t pool_count = 0;  ///< number of further operands
   std::uint32_t file = 0, line = 0;
 };
 
-/// Which memory a pointer leads into.
+/// The memory that a pointer refers to.
 enum class Memory : std::uint16_t { invocation, shared, buffer };
 
 struct Block {
-  std::uint32_t first = 0;  ///< instruction
-  std::uint32_t phis = 0;   ///< of them at its beginning
+  std::uint32_t first = 0;  ///< index of the first instruction
+  std::uint32_t phis = 0;   ///< number of phis at the beginning
 };
 struct Function {
   std::string name;
-  std::uint32_t entry = 0;  ///< block
-  std::uint32_t slots = 0;  ///< of a frame
+  std::uint32_t entry = 0;  ///< entry block
+  std::uint32_t slots = 0;  ///< slots of its frame
   std::vector<Place> parameters;
-  std::uint32_t stack = 0;  ///< slots of its frame and of all that it calls
+  std::uint32_t stack = 0;  ///< slots of its frame and of all functions that it calls
 };
 
 enum class Bound : std::uint8_t { uniform_buffer, storage_buffer, sampled_image, storage_image, sampler };
@@ -63,7 +63,7 @@ struct Descriptor {
   TypeIndex type = none;
 };
 
-/// What every invocation begins with.
+/// A slot of the memory that every invocation starts with.
 struct Cell {
   std::uint32_t word = 0;
   bool is_float = false;
@@ -79,7 +79,7 @@ struct Module {
 
   std::string name;
   std::vector<std::string> files;    ///< of the shader's source; the first is ""
-  std::vector<std::string> sources;  ///< their texts, as far as the module carries them; it may have fewer
+  std::vector<std::string> sources;  ///< their texts, if the module carries them; may be shorter than `files`
   Types types;
   std::vector<Cell> globals;  ///< constants, pointers to variables, variables of the invocation
   std::vector<BuiltInPlace> built_ins;
@@ -93,9 +93,9 @@ struct Module {
   std::vector<std::uint32_t> pool;
   bool is_cooperative = false;  ///< invocations of a workgroup wait for each other or share memory
 
-  /// Where an instruction stands in the shader's source.
+  /// Location of an instruction in the shader's source.
   capture::SourceLine source_line(std::uint32_t instruction) const;
-  /// The same text for as long as the program runs.
+  /// Returns the same text, valid until the program ends.
   static const char* lasting(const std::string& text);
   [[noreturn]] void refuse(std::uint32_t file, std::uint32_t line, const std::string& sentence) const;
   [[noreturn]] void refuse(const Code& at, const std::string& sentence) const { refuse(at.file, at.line, sentence); }

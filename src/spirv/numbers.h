@@ -1,4 +1,4 @@
-// Arithmetic of SPIR-V with any number that passes are evaluated with: floats give the bits of our models.
+// Arithmetic of SPIR-V with any number type of the passes. Floats give the bits of our models.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@
 #include "spirv/integers.h"
 #include "spirv/resources.h"
 
-// A namespace of its own, so that the vocabulary and the lookups are those of scalar numbers.
+// A namespace of its own, so that the vocabulary and the lookups of scalar numbers are found.
 namespace rainref::spirv::numbers {
 using namespace rainref::scalar;
 
@@ -21,18 +21,18 @@ using namespace rainref::scalar;
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-/// A number of an invocation. What it is, its type says: a float is in `number`, all else in `word`.
+/// A number of an invocation. Its type says which member is used: `number` for a float, `word` for all else.
 template <class N>
 struct Slot {
   N number{};
   std::uint32_t word = 0;
 };
 
-/// Whether a number is one float or double, which has bits.
+/// True if a number is one float or double, and so has bits.
 template <class N>
 inline constexpr bool is_plain = std::is_same_v<N, Scalar<float>> || std::is_same_v<N, Scalar<double>>;
 
-/// The bits of a float. An interval that is no point has none: the invocation is given up, as where an index is open.
+/// The bits of a float. An interval of more than one value has none: the invocation is given up, as for an index that is not determined.
 template <class N>
 std::uint32_t bits_of(const N& x) {
   if constexpr (requires { x.v; }) {
@@ -49,7 +49,7 @@ template <class N>
 N truncated(const N& x) {
   return select(x < N(0.0f), -floor(-x), floor(x));
 }
-/// Toward zero. Beyond the range, where SPIR-V leaves it open, the nearest integer; 0 for what is no number.
+/// Rounds toward zero. Out of range, which SPIR-V leaves undefined: the nearest integer; 0 for NaN.
 template <class N>
 std::uint32_t to_word(const N& x, bool is_signed) {
   if constexpr (is_plain<N>) {
@@ -61,13 +61,13 @@ std::uint32_t to_word(const N& x, bool is_signed) {
   }
 }
 
-/// a b; the square where both are one value, which some numbers know better.
+/// a * b. If both are one value: the square, for which some number types have a tighter result.
 template <class N>
 N product(const N& a, const N& b) {
   return &a == &b ? square(a) : a * b;
 }
 
-/// From left to right where the order counts; 1 to 4 of them.
+/// Sums 1 to 4 terms from left to right, if the order matters.
 template <class N>
 N sum_of(const N* x, std::uint32_t n) {
   if (n == 1) return x[0];
@@ -82,7 +82,7 @@ N dot_of(const Slot<N>* a, std::uint32_t step, const Slot<N>* b, std::uint32_t n
   return sum_of(products, n);
 }
 
-/// Filtered as the pack says, moved by whole texels. The channels that the image lacks are (0, 0, 1) of green, blue and alpha.
+/// Filtered lookup as the pack declares, with an offset in whole texels. Channels that the image lacks are green 0, blue 0, alpha 1.
 template <int Count, class N>
 void sample_channels(const SampledImage& image, const N& u, const N& v, const N& lod, int dx, int dy, N* out) {
   const Texture& t = image.texture;
@@ -123,7 +123,7 @@ void sample(const SampledImage& image, const N& u, const N& v, const N& lod, int
       return sample_channels<4>(image, u, v, lod, dx, dy, out);
   }
 }
-/// A texel by its integers; zeros outside, as robust access gives.
+/// A texel by integer coordinates; zeros outside, as with robust access.
 template <class N>
 void fetch_texel(const SampledImage& image, std::int64_t x, std::int64_t y, std::int64_t level, N* out) {
   const Texture& t = image.texture;
@@ -133,7 +133,7 @@ void fetch_texel(const SampledImage& image, std::int64_t x, std::int64_t y, std:
   const auto place = static_cast<std::int32_t>((t.offset[level] + y * t.width[level] + x) * t.channels);
   for (int k = 0; k < t.channels; ++k) {
     out[k] = fetch(t.texels + k, N::uniform_int(place), N());
-    // A code of 8 bits is loaded with the accuracy that a profile allows for that.
+    // An 8-bit code is loaded with the accuracy that the profile allows for it.
     const Unorm8 code = to_unorm8(t.texels[place + k]);
     if (t.precision == TexelPrecision::unorm8 && to_float(code) == t.texels[place + k]) out[k] = N::load(&code);
   }

@@ -1,4 +1,4 @@
-// Numbers and names of the SPIR-V specification, as far as modules of compute shaders need them.
+// Numbers and names of the SPIR-V specification that modules of compute shaders need.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ enum class Op : std::uint16_t {
 #include "spirv/opcodes.inc"
 };
 
-/// What a type is. An opaque one (image, sampler) is known by the descriptor that it comes from.
+/// Kinds of types. An opaque type (image, sampler) is identified by its descriptor.
 enum class Kind : std::uint8_t {
   nothing,
   boolean,
@@ -33,29 +33,29 @@ enum class Kind : std::uint8_t {
   function
 };
 
-/// An instruction that treats each component by itself; operands is 0 for every other one.
+/// Form of a componentwise instruction; operands is 0 for every other one.
 struct EachForm {
   int operands = 0;
   Kind in = Kind::nothing, out = Kind::nothing;
 };
 EachForm each_form(Op op);
-/// Whether it stands in functions and is executed; whether it has a result then.
+/// True if it occurs in functions and is executed; and whether it then has a result.
 bool is_executed(Op op);
 bool has_result(Op op);
-/// "OpFAdd", or "instruction 4321" where it has no name here.
+/// "OpFAdd", or "instruction 4321" if it has no name here.
 std::string op_name(Op op);
 
-/// The functions of GLSL.std.450, by their numbers.
+/// The functions of GLSL.std.450 with their numbers.
 enum class Glsl : std::uint16_t {
 #define RAINREF_GLSL_OTHER(name, number) name = number,
 #define RAINREF_GLSL_WORDS(name, number, operands, value) name = number,
 #define RAINREF_GLSL_NUMBERS(name, number, operands, value) name = number,
 #include "spirv/glsl.inc"
 };
-/// Operands and what they are of one that treats each component by itself; 0 for others.
+/// Operands of a componentwise function and their kinds; 0 operands for others.
 EachForm glsl_form(Glsl function);
 
-/// Where a variable lies.
+/// Storage class of a variable.
 enum class Storage : std::uint32_t {
   uniform_constant = 0,
   input = 1,
@@ -67,7 +67,7 @@ enum class Storage : std::uint32_t {
   push_constant = 9,
   storage_buffer = 12
 };
-/// Whether pointers count bytes of a buffer; others count slots of memory.
+/// True if pointers of this class count bytes of a buffer; others count slots of memory.
 inline bool is_buffer(Storage s) { return s == Storage::uniform || s == Storage::storage_buffer; }
 
 enum class Decoration : std::uint32_t {

@@ -1,4 +1,4 @@
-// How a module is made: everything that is known of it meanwhile. Only the files of this room include it.
+// Parses a module, and holds the state that only the parser needs. Only the files of this room include it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace rainref::spirv {
 /// An instruction as it stands in the file.
 struct Raw {
   Op op;
-  std::span<const std::uint32_t> words;  ///< without the first
+  std::span<const std::uint32_t> words;  ///< without the first word
   std::uint32_t file = 0, line = 0;
 };
 
@@ -26,19 +26,19 @@ class Parser {
 
  private:
   enum class What : std::uint8_t { unknown, type, value, text, glsl, debug_information, ignored, function };
-  /// What an id stands for.
+  /// The meaning of an id.
   struct Id {
     What what = What::unknown;
     bool is_constant = false;
-    TypeIndex type = none;        ///< the type itself, or that of a value
-    TypeIndex pointee = none;     ///< of a pointer: with its layout, where it leads into a buffer
+    TypeIndex type = none;        ///< the type itself, or the type of the value
+    TypeIndex pointee = none;     ///< of a pointer; with its layout if it points into a buffer
     Place place = 0;              ///< of a value
-    std::uint32_t owner = 0;      ///< of a value: the function, from 1 on, that it belongs to; 0: every one
-    std::uint32_t number = none;  ///< of a text its file; of a function its number; of a variable its descriptor
+    std::uint32_t owner = 0;      ///< of a value: the function that it belongs to, counted from 1; 0: all functions
+    std::uint32_t number = none;  ///< file of a text; number of a function; descriptor of a variable
   };
   using Decorations = std::map<Decoration, std::uint32_t>;
 
-  // parser.cpp: the whole
+  // parser.cpp: the whole module
   void read_words(std::span<const std::byte> bytes);
   void declare(const Raw& raw);
   [[noreturn]] void refuse_op(const Raw& raw);
@@ -65,7 +65,7 @@ class Parser {
   void add_descriptor(const Raw& raw, Id& id, Storage storage, TypeIndex pointee);
   Place add_cells(const Raw& raw, const std::vector<Cell>& cells);
 
-  // translate.cpp: functions, blocks, what leads from one to another
+  // translate.cpp: functions, blocks, branches
   struct Body {
     std::vector<Raw> code;
     std::vector<TypeIndex> parameters;
@@ -118,22 +118,22 @@ class Parser {
   void access(const Raw& raw, Code& code, const Id& pointer, TypeIndex value);
   const Id& pointer(const Raw& raw, std::size_t i) const;
 
-  // parser.cpp: what every part asks for
+  // parser.cpp: helpers for all parts
   [[noreturn]] void refuse(const Raw& raw, const std::string& sentence) const { module_.refuse(raw.file, raw.line, sentence); }
   [[noreturn]] void refuse_shape(const Raw& raw) const;
   std::uint32_t word(const Raw& raw, std::size_t i) const;
   Id& define(const Raw& raw, std::size_t i, What what);
   const Id& id(const Raw& raw, std::size_t i) const;
   TypeIndex type(const Raw& raw, std::size_t i) const;
-  /// A value that this function may take.
+  /// Returns a value that this function may use.
   const Id& value(const Raw& raw, std::size_t i) const;
-  /// One of n slots, all of this kind.
+  /// Returns the first of n slots, all of this kind.
   Place components(const Raw& raw, std::size_t i, Kind kind, std::uint32_t n) const;
   const std::uint32_t* constant(const Raw& raw, std::size_t i) const;
   std::uint32_t constant_word(const Raw& raw, std::size_t i) const;
   const Type& type_of(const Id& value) const { return module_.types[value.type]; }
   std::uint32_t decoration(std::uint32_t id, Decoration d, std::uint32_t otherwise) const;
-  /// An instruction whose result is words[1], of type words[0].
+  /// Emits an instruction with result words[1] of type words[0].
   Code& emit(const Raw& raw, Op op);
   void add_to_pool(Code& code, std::uint32_t word);
 
@@ -149,7 +149,7 @@ class Parser {
   std::uint32_t entry_id_ = 0, file_ = 0, line_ = 0, source_ = 0;
   bool is_group_decorated_ = false;
   std::vector<std::uint32_t> group_ids_;
-  // What belongs to the function at hand.
+  // State of the current function.
   std::uint32_t function_ = 0;
   bool is_open_ = false;
   bool is_in_block_ = false;

@@ -1,4 +1,4 @@
-// What is said of a shader that cannot be executed.
+// The error for a shader that cannot be executed.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace rainref::spirv {
 
-/// One sentence about a module: not SPIR-V, or something in it that is not executed, or what it did. Code port_files.
+/// One sentence about a module: it is not SPIR-V, it contains something that is not supported, or it did something wrong. Code port_files.
 class Refusal : public Error {
  public:
-  /// `module` starts the message; `at` is the shader's own line, where it is known.
+  /// `module` starts the message; `at` is the line of the shader's source, if it is known.
   Refusal(const std::string& module, SourceLocation at, const std::string& sentence)
       : Error(ExitCode::port_files, module + ": " + (at.file.empty() && at.line <= 0 ? "" : text_of(at) + ": ") + sentence),
         at_(std::move(at)) {}
-  /// The line of the shader's source; 0 where the module does not say.
+  /// The line of the shader's source; 0 if the module does not say.
   const SourceLocation& at() const { return at_; }
 
  private:

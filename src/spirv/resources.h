@@ -1,4 +1,4 @@
-// What descriptors lead to, while a module is executed.
+// The resources of descriptors during an execution.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct SampledImage {
   Filter mip_filter = Filter::none;
 };
 
-/// An image that is written texel by texel.
+/// An image that the shader writes texel by texel.
 template <class N>
 class StorageImage {
  public:
@@ -29,16 +29,16 @@ class StorageImage {
   virtual ~StorageImage() = default;
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Stores the first `count` channels of a texel that lies inside; count is 1 to 4.
+  /// Stores the first `count` channels (1 to 4) of a texel inside the image.
   virtual void write(int x, int y, const N* texel, int count) = 0;
-  /// The four channels of a texel that lies inside, as they were stored; (0, 0, 0, 1) where the format has fewer.
+  /// Reads the four channels of a texel inside the image, as stored; channels that the format lacks are those of (0, 0, 0, 1).
   virtual void read(int x, int y, N* texel) const = 0;
 
  private:
   int width_, height_;
 };
 
-/// One of the three, or nothing; who binds it owns it.
+/// One of the three, or nothing; the caller that binds it owns it.
 template <class N>
 struct Resource {
   const BoundBuffer* buffer = nullptr;

@@ -1,4 +1,4 @@
-// A port's program as the model of a pass: what its SPIR-V says of a case, with every number that our own passes are judged by.
+// A port's program as the model of a pass: evaluates its SPIR-V on a case with every number type that our own passes are judged with.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,9 @@
 
 namespace rainref::spirv {
 
-/// The invocations of a program that has one for each texel of its outputs; values() are the channels of the images that are
-/// judged by envelope, output after output, and 0 where the program writes none. The case must outlive it. Throws as
-/// execute(); Refusal also where invocations work together or a list is written: float alone executes those. Evaluation throws Refusal for
-/// what cannot be executed.
+/// The model of a program with one invocation for each texel of its outputs. values() are the channels of the images that are judged by
+/// envelope, output after output, and 0 where the program writes none. The case must outlive it. Throws like execute(), and also Refusal if
+/// invocations cooperate or write a list: only float can execute these. An evaluation throws Refusal for what cannot be executed.
 std::unique_ptr<capture::TracedProgram> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
                                                     const std::string& name, const Limits& limits = {});
 

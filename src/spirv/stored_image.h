@@ -1,4 +1,4 @@
-// An output image of a case, stored as the reference stores it: the format's own rounding.
+// An output image of a case, stored like the reference with the format's rounding.
 #pragma once
 
 #include "capture/pass_case.h"
@@ -8,7 +8,7 @@ namespace rainref::spirv {
 
 class StoredImage final : public StorageImage<Float> {
  public:
-  /// An image of zeros. Throws Error(port_files) for a format that no shader stores float by float.
+  /// An image of zeros. Throws Error(port_files) for a format that a shader cannot store as floats.
   explicit StoredImage(const capture::CaseOutput& output);
   void write(int x, int y, const Float* texel, int count) override;
   void read(int x, int y, Float* texel) const override;
