@@ -1,4 +1,4 @@
-// Mistakes made in a list of records that is judged by bits, record by record in order.
+// Makes mistakes in a list of records that is judged by bits, record by record in order.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace rainref::faults {
 
 class BitsReplay : public Replay {
  public:
-  /// Of output `output`, where the port stored `port`; `evaluations` recomputes it. What is given must outlive it.
+  /// For output `output`, where the port stored `port`; `evaluations` recomputes it. All arguments must outlive it.
   BitsReplay(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
              const capture::PassEvaluations& evaluations, const capture::Array& port, std::size_t output,
              const parallel::Executor& executor);
@@ -30,7 +30,7 @@ class BitsReplay : public Replay {
   std::size_t output_;
   const parallel::Executor& executor_;
   Records port_, right_;
-  std::vector<std::size_t> failing_;  ///< numbers of records that differ
+  std::vector<std::size_t> failing_;  ///< numbers of the records that differ
 };
 
 }  // namespace rainref::faults

@@ -1,4 +1,4 @@
-// Mistakes in passes of whole numbers: what is taken of a random word.
+// Mistakes in integer passes: the wrong bits of a random word.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,11 @@
 
 namespace rainref::faults {
 
-/// What `run` draws random words for.
+/// Returns the purposes for which `run` draws random words.
 std::vector<random::Purpose> purposes_drawn(const std::function<void()>& run);
-/// Adds what can be taken of the wrong word or counter, of all blocks and, where there are several, of those of each purpose.
+/// Adds draws from the wrong word or counter: for all blocks, and for the blocks of each purpose if there are several.
 void add_draw_faults(std::vector<Fault>& out, const std::vector<random::Purpose>& drawn = {});
-/// Counters to which a whole number of the uniforms is not added, or is though it should not be.
+/// Adds counters that miss an integer uniform, or that add one wrongly.
 void add_counter_faults(std::vector<Fault>& out, const capture::PackPass& pass, const capture::PassCase& c);
 
 }  // namespace rainref::faults

@@ -1,4 +1,4 @@
-// An operation of a pass text with what it is made of, as a small tree, and what a port's author may have written in its place.
+// An operation of a pass text as a small expression tree, and the expressions that a port may have in its place.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,22 @@
 
 namespace rainref::faults {
 
-/// A formula as a tree: an operation, or what it is made of.
+/// An expression tree: an operation with operands, or a leaf.
 struct Expression {
-  perturbed::FormulaStep step;      ///< the operation, or the part, number or met value that it is
+  perturbed::FormulaStep step;      ///< the operation, or the leaf: part, number or value met before
   std::vector<Expression> of = {};  ///< operands of an operation
-  std::int32_t node = -1;           ///< of the probe, where it stands there as it is
+  std::int32_t node = -1;           ///< node of the probe, if the expression is that node unchanged
 
   bool is_operation() const { return step.kind == perturbed::FormulaStep::Kind::operation; }
 };
 Expression number_of(float value);
-/// What a node gives, as a part of what stands there instead.
+/// The value of a node, as a part of the expression that replaces it.
 Expression itself(std::int32_t node);
-/// Whether all of it is there: elsewhere() gives parts that cannot be had.
+/// True if every part is available; elsewhere() returns parts that are not.
 bool can_be_had(const Expression& e);
-/// x held to [0, 1].
+/// x clamped to [0, 1].
 Expression clamped(const Expression& x);
-/// A part of expression_of() as the value that stands there, whatever else changes it, in place of what it is made of.
+/// A part of expression_of() as its present value, instead of its own operands; other changes affect it.
 Expression as_part(const Expression& e);
 Expression operation(perturbed::Op op, std::vector<Expression> of);
 inline Expression sum(Expression a, Expression b) { return operation(perturbed::Op::sum, {std::move(a), std::move(b)}); }
@@ -35,42 +35,42 @@ inline Expression quotient(Expression a, Expression b) { return operation(pertur
 /// sqrt(max(x, 0)).
 Expression root_of(Expression x);
 
-/// A node of a probe with what it is made of, so many operations deep; its parts are paths from it.
+/// A node of a probe with its operands, `depth` operations deep; its parts are paths from it.
 Expression expression_of(const Probe& p, std::int32_t node, int depth);
-/// A node as something that may stand at another place `at`: numbers, what was met before, and what is computed of these. Nothing of
-/// `changed` is taken as it was met, because it is another number there. Of nodes that cannot be had: a part without a path.
+/// A node as an expression at another place `at`: numbers, values met before it, and what is computed from these. The nodes in `changed`
+/// are recomputed, because they have other values there. A node that is not available becomes a part without a path.
 Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const std::vector<std::int32_t>& changed, int depth = 6);
 
-/// It and all that it is made of, from the top.
+/// Collects the expression and all its subexpressions, top first.
 void parts(Expression& e, std::vector<Expression*>& out);
 
 perturbed::Formula formula_of(const Expression& e);
-/// What a formula gives at a node of a probe.
+/// Value of a formula at a node of a probe.
 float value_at(const Probe& p, std::int32_t node, const perturbed::Formula& formula);
 
-/// What may stand there in place of what is meant.
+/// Replacements for an expression.
 struct Edit {
-  std::vector<Expression> made;  ///< of each place
+  std::vector<Expression> made;  ///< one for each place
   What what;
 };
-/// Of one place.
+/// Edits of one place.
 std::vector<Edit> edits_of(const Probe& p, std::int32_t node);
-/// Of one place: parts in each other's place.
+/// Edits of one place that exchange parts.
 std::vector<Edit> exchanges_of(const Probe& p, std::int32_t node);
-/// Of an operation that is a polynomial of one number: another curve of it. Empty where it is none.
+/// Other curves for an operation that is a polynomial of one number. Empty if it is none.
 std::vector<Edit> curve_edits_of(const Probe& p, std::int32_t node);
-/// Of several places: one edit that belongs to all of them.
+/// One edit that changes several places together.
 struct JointEdit {
   std::vector<std::int32_t> nodes;
   Edit edit;
 };
-/// Of a weighted sum: other weights of its terms. Empty where it is none.
+/// Other weights for the terms of a weighted sum. Empty if it is none.
 std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node);
-/// Of one value or the components of a vector: a curve that is applied to it, or another one in place of its own.
+/// A curve that is added to, or replaces the curve of, one value or the components of a vector.
 std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::int32_t>& values);
-/// Of values blended over each other: the order reversed, or the last two exchanged.
+/// Values blended over each other: order reversed, or the last two exchanged.
 std::vector<JointEdit> blend_edits_of(const Probe& p);
-/// Of the components of a vector.
+/// Edits of the components of a vector.
 std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& vector);
 
 }  // namespace rainref::faults

@@ -1,4 +1,4 @@
-// Values of followed invocations, operation by operation: what the reference gives, what a mistake makes of it, what a port computes.
+// Values of traced invocations, operation by operation: of the reference, of the reference with a mistake, and of a port.
 #pragma once
 
 #include <cstdint>
@@ -9,63 +9,63 @@
 
 namespace rainref::faults {
 
-/// Of each invocation the values that one operation gave there, sorted. In a loop they are many, and two texts may loop over other rounds.
+/// The sorted values of one operation in each invocation. A loop gives many, and two programs may loop over different rounds.
 using Values = std::vector<std::vector<float>>;
 
-/// Whether two values are one, computed by two hands.
+/// True if two values are equal up to the rounding of different implementations.
 bool agree(float a, float b);
-/// In every invocation where the first has some, the second has them too.
+/// True if `all` contains the values of `some` in every invocation where `some` has any.
 bool is_within(const Values& some, const Values& all);
-/// The same, where both have some; in most of those of the first both must.
+/// The same in the invocations where both have values; both must have some in most of those of the first.
 bool is_met_by(const Values& some, const Values& all);
-/// Whether they say anything: a number that is the same in every invocation is met by chance.
+/// True if the values are informative: a number that is equal in every invocation can match by chance.
 bool varies(const Values& v);
-/// Whether they are no chance among many others: two of them at least that are no whole numbers.
+/// True if a match among many others is unlikely to be chance: at least two values are not integers.
 bool tells(const Values& v);
 
-/// Finds operations by what they gave.
+/// Finds operations by their values.
 class ByValue {
  public:
   explicit ByValue(std::size_t invocations) : sorted_(invocations) {}
   void add(const Values& v, int number);
   void sort();
-  /// Those that gave about this value in an invocation, in order of their numbers.
+  /// Returns the operations with about this value in an invocation, in order of their numbers.
   std::vector<int> near(std::size_t invocation, float v) const;
 
  private:
   std::vector<std::vector<std::pair<float, int>>> sorted_;
 };
 
-/// The reference's operations.
+/// Operations of the reference.
 struct ReferenceValues {
   explicit ReferenceValues(const std::vector<Followed>& invocations);
-  /// Whether one operation gives all of these.
+  /// True if one operation has all of these values.
   bool has(const Values& v) const;
 
-  std::vector<Values> right;    ///< of operations of one shape
-  std::vector<Values> changed;  ///< what the mistake makes of each that it changes, in the invocations where it does; in order of time
+  std::vector<Values> right;    ///< values of the operations of each shape
+  std::vector<Values> changed;  ///< values with the mistake of each operation that it changes, where it does; in order of execution
   ByValue by_right;
 };
 
-/// A part of an instruction of the port's program, in one chain of calls.
+/// A part of an instruction of the port's program, in one call chain.
 struct PortStep {
   perturbed::Op op;
   std::uint32_t instruction;
-  std::vector<std::uint32_t> calls;  ///< instructions that call, from the entry point on
+  std::vector<std::uint32_t> calls;  ///< call instructions, from the entry point on
   Values values;
-  std::vector<int> of = {};  ///< steps whose values it takes
+  std::vector<int> of = {};  ///< steps whose values are operands
 
-  bool is_position = false;  ///< the invocation's own number, as it is
-  /// Whether it is there before the program begins: a constant, which stands in no line.
+  bool is_position = false;  ///< it is the invocation's own index, unchanged
+  /// True if it exists before the program begins: a constant, which has no line.
   bool is_given() const { return instruction == capture::ProgramTrace::given; }
 };
-/// The port's operations.
+/// Operations of the port.
 struct PortValues {
   explicit PortValues(const std::vector<Followed>& invocations);
   const PortStep& operator[](int k) const { return steps[static_cast<std::size_t>(k)]; }
 
-  std::vector<PortStep> steps;  ///< in order of time
-  std::vector<int> outputs;     ///< those that store what the mistake changes
+  std::vector<PortStep> steps;  ///< in order of execution
+  std::vector<int> outputs;     ///< steps that store values that the mistake changes
   ByValue by_value;
 };
 

@@ -1,4 +1,4 @@
-// What happens to a finished image: added for all of a case's images, and for each of them alone.
+// Mistakes in a finished image: added for all of a case's images together, and for each image alone.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace rainref::faults {
 
-/// The outputs of a case that are images judged by envelope.
+/// Indices of the case's outputs that are images judged by envelope.
 inline std::vector<std::size_t> enveloped_images(const capture::PassCase& c) {
   std::vector<std::size_t> out;
   for (std::size_t o = 0; o < c.outputs.size(); ++o)
@@ -22,13 +22,13 @@ inline std::vector<std::size_t> enveloped_images(const capture::PassCase& c) {
   return out;
 }
 
-/// A channel of a texel; a code of 8 bits as a share of 255.
+/// Value of a channel of a texel; an 8-bit code is divided by 255.
 inline float channel_at(const FormatInfo& f, const std::byte* at) {
   return f.kind == FormatInfo::float32   ? number_at<float>(at, 0)
          : f.kind == FormatInfo::float16 ? to_float(number_at<Half>(at, 0))
                                          : static_cast<float>(std::to_integer<int>(*at)) / 255.0f;
 }
-/// Puts a channel of halves or floats.
+/// Stores a channel of half or float.
 inline void put_channel(const FormatInfo& f, std::byte* at, float v) {
   if (f.kind == FormatInfo::float16)
     put_number(at, 0, to_half(v));
@@ -37,7 +37,7 @@ inline void put_channel(const FormatInfo& f, std::byte* at, float v) {
 }
 
 using Alter = std::function<void(capture::Array&)>;
-/// Channel `to` of each texel as channel `from` of another image of the same format and size.
+/// Replaces channel `to` of each texel by channel `from` of another image of the same format and size.
 inline Alter taking_channel(const capture::Array& source, int from, int to) {
   return [source, from, to](capture::Array& a) {
     const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes);
@@ -47,20 +47,20 @@ inline Alter taking_channel(const capture::Array& source, int from, int to) {
                   n);
   };
 }
-/// Channel k, of halves or floats, with the other sign.
+/// Negates channel k, half or float.
 inline Alter negating_channel(const FormatInfo& f, int k) {
   return [last = (k + 1) * f.channel_bytes - 1](capture::Array& a) {
     judge::each_texel(a, [last](std::byte* t) { t[last] ^= std::byte{0x80}; });
   };
 }
-/// Channel k as 0.
+/// Sets channel k to 0.
 inline Alter clearing_channel(const FormatInfo& f, int k) {
   return [first = k * f.channel_bytes, n = f.channel_bytes](capture::Array& a) {
     judge::each_texel(a, [first, n](std::byte* t) { std::fill(t + first, t + first + n, std::byte{0}); });
   };
 }
 
-/// alter(image, port's image): false where it does not apply. what(image): of the first image that it is said of. The port's images must
+/// Adds alter(image, port's image), which returns false if it does not apply. what(image) describes the first image. The port's images must
 /// outlive the fault.
 inline void add_to_images(std::vector<Fault>& out, const capture::PassCase& c, const std::vector<capture::Array>& port,
                           const std::function<What(const capture::Array&)>& what,

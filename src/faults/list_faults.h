@@ -1,4 +1,4 @@
-// Mistakes in a list of records matched by their ids: what an append, a compaction or a struct of arrays gets wrong.
+// Mistakes in a list of records matched by id: in an append, a compaction or a struct of arrays.
 #pragma once
 
 #include <cstdint>
@@ -14,27 +14,27 @@
 
 namespace rainref::faults {
 
-/// Of a list and back; array_of() takes everything but the records from `like`.
+/// Converts a list to records and back; array_of() takes everything but the records from `like`.
 Records records_of(const capture::Array& list);
 capture::Array array_of(const Records& records, const capture::Array& like);
 /// The key of a record whose layout has one.
 std::uint32_t id_of(const std::vector<std::byte>& record, const scene::UniformBlock& layout);
 
-/// Adds the mistakes that can be made in the case's keyed lists. `before`: the run of the same pass before, or null.
+/// Adds mistakes in the case's keyed lists. `before`: the previous run of the same pass, or null.
 void add_list_faults(std::vector<Fault>& out, const capture::PassCase& c, const capture::PassCase* before);
-/// Literals and uniforms that a model meets for at least every other record of a keyed list. Sorted.
+/// Literals and uniforms that a model uses for at least every other record of a keyed list. Sorted.
 std::vector<float> constants_of_lists(const capture::PassModel& model, const capture::PassCase& c);
 
-/// The list that a port with this mistake stores in place of `finished`, which is c.outputs[output] as the reference gives
-/// it, in the order of the port's slots. `at`: the ids to which a mistake of few records happens; empty: some that show
-/// it. `port`: what a port stored, for mistakes that are fitted to it; null: none. Nothing where the mistake does not
-/// concern the list or cannot happen here. Throws Error when the altered case cannot be bound. `model` may be null.
+/// The list that a port with this mistake would store in place of `finished`, the reference's c.outputs[output] in the order of the port's
+/// slots. `at`: the ids that a mistake of few records affects; empty: some that show it. `port`: what a port stored, for mistakes that are
+/// fitted to it; null: none. Nothing if the mistake does not concern the list or is impossible here. Throws Error if the altered case
+/// cannot be bound. `model` may be null.
 std::optional<capture::Array> faulty_list(const Fault& d, const capture::PassCase& c, std::size_t output,
                                           const capture::PassEvaluations& evaluations, const capture::PassModel* model,
                                           const capture::Array& finished, const std::vector<std::uint32_t>& at = {},
                                           const Records* port = nullptr);
 
-// ---- what they are made with
+// ---- helpers of the generators
 
 using Ids = std::vector<std::uint32_t>;
 
@@ -60,7 +60,7 @@ void each_float(const scene::Member& m, std::vector<std::byte>& record, Change c
   }
 }
 
-/// What the mistakes in one list know of it.
+/// A list with the data that its mistakes need.
 struct List {
   std::size_t output;
   std::string name;
@@ -72,9 +72,9 @@ struct List {
   List(const capture::PassCase& c, std::size_t o);
   std::uint32_t id_of(const std::vector<std::byte>& record) const { return word_at(record, id); }
   void set_id(std::vector<std::byte>& record, std::uint32_t value) const { std::memcpy(&record[id], &value, sizeof value); }
-  /// The list that the pass takes under the same name, by id.
+  /// Records by id of the input list of the same name.
   std::map<std::uint32_t, std::vector<std::byte>> taken(const capture::PassCase& c) const;
-  /// The number of the record with this id; how many there are where none has it.
+  /// Index of the record with this id; the number of records if there is none.
   std::size_t place(const Records& records, std::uint32_t of) const;
 };
 
@@ -84,7 +84,7 @@ class ListAdder {
   ListAdder(std::vector<Fault>& out, List list) : out_(out), list_(std::move(list)) {}
   using Alter = std::function<bool(const List&, const capture::PassCase&, ListEdit&)>;
 
-  /// `more`: what its words speak of beside the list.
+  /// `more`: names in its text besides the list.
   Fault& add(Kind kind, Alter alter, std::vector<std::string> more = {});
   const List& list() const { return list_; }
 
@@ -93,7 +93,7 @@ class ListAdder {
   List list_;
 };
 
-/// A record too few, too many, in the wrong state.
+/// Adds: a record too few, too many, or in the wrong state.
 void add_events(ListAdder& adder);
 
 }  // namespace rainref::faults

@@ -1,4 +1,4 @@
-// Mistakes made in a list of records, matched by id.
+// Makes mistakes in a list of records that is matched by id.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace rainref::faults {
 
-/// A word of a record.
+/// One 4-byte word of a record.
 struct Word {
   std::size_t offset;
   bool is_float;
-  double leeway = 0;  ///< how far a conforming device may be from the reference, roughly
+  double leeway = 0;  ///< approximate tolerance: how far a conforming device may be from the reference
 };
 
 using ById = std::map<std::uint32_t, Records>;
 ById by_id(const capture::Array& list);
-/// Those of an id: none where there are none.
+/// The records of an id; empty if there are none.
 const Records& of(const ById& list, std::uint32_t id);
 
 class ListReplay : public Replay {
  public:
-  /// Of output `output`, where the port stored `port`. `model` may be null. What is given must outlive it.
+  /// For output `output`, where the port stored `port`. `model` may be null. The arguments must outlive it.
   ListReplay(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, const capture::PassModel* model,
              const capture::Array& port, std::size_t output, const enclosed::Profile& profile, const parallel::Executor& executor);
   bool fails() const { return !failing_.empty(); }
@@ -39,11 +39,11 @@ class ListReplay : public Replay {
   std::vector<float> given(const Fault& d) const override;
 
  protected:
-  /// The list of a varied case.
+  /// For the list of a varied case.
   ListReplay(const ListReplay& of, const capture::PassCase& c, const capture::PassModel& model);
 
  private:
-  /// A failing record as a list of its own, where it is treated by itself.
+  /// A failing record as a list of its own, for passes that treat records separately.
   struct Alone {
     capture::PassCase c;
     std::unique_ptr<capture::PassModel> model;
@@ -51,11 +51,11 @@ class ListReplay : public Replay {
     std::vector<std::byte> port, right;
   };
   void find_alone();
-  /// Whether a mistake gives none of the records that stand alone: it need not be made in the whole list.
+  /// True if a mistake reproduces none of the separate records: then it need not be tried on the whole list.
   bool is_none_alone(const Fault& d) const;
   Tried cause(const Fault& d) const;
   const std::vector<double>* own_leeway(std::uint32_t id) const;
-  /// Uniforms that a pass of whole numbers hands on, as the port stored them.
+  /// Uniforms that an integer pass copies to its output, with the port's values.
   std::vector<Fault> uniforms_read_off() const;
   void add_scale(std::vector<Fault>& out, const scene::Member& m) const;
 
@@ -66,14 +66,14 @@ class ListReplay : public Replay {
   const capture::PassModel* model_;
   std::size_t output_;
   const parallel::Executor& executor_;
-  capture::Array reference_;  ///< in the order of the port
-  Records stored_;            ///< by the port
+  capture::Array reference_;  ///< in the port's order
+  Records stored_;            ///< stored by the port
   std::vector<std::uint32_t> failing_;
   ById got_, right_;
   std::vector<Word> words_;
-  std::map<std::uint32_t, std::vector<double>> own_leeway_;  ///< of records by their ids, for each word; 0: none is known
+  std::map<std::uint32_t, std::vector<double>> own_leeway_;  ///< of records by id, for each word; 0: not known
   Constants constants_;
-  std::vector<std::shared_ptr<Alone>> alone_;  ///< some
+  std::vector<std::shared_ptr<Alone>> alone_;  ///< some of the failing records
 };
 
 }  // namespace rainref::faults

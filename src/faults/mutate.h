@@ -1,4 +1,4 @@
-// The power of a pack: which faults of the reference it would catch.
+// Measures a pack: which faults of the reference it would catch.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ struct MutantJudgement {
   std::string pass, name, sentence;
   bool legal = false;
   std::int64_t compared = 0;    ///< invocations, and ids of lists
-  std::int64_t differing = 0;   ///< that store other bits than the reference
-  std::int64_t outside = 0;     ///< that no alternative accepts, of the formula as written or rearranged
-  std::int64_t rearranged = 0;  ///< that only a rearrangement accepts: a port with these alone gets a warning
+  std::int64_t differing = 0;   ///< invocations whose stored bits differ from the reference
+  std::int64_t outside = 0;     ///< invocations that no alternative accepts, neither of the formula as written nor of a rearrangement
+  std::int64_t rearranged = 0;  ///< invocations that only a rearrangement accepts: a port with only these gets a warning
   bool caught() const { return outside > 0; }
-  /// Not caught, but a port with it would get a WARN.
+  /// True if it is not caught, but a port with it would get a WARN.
   bool warned() const { return !caught() && rearranged > 0; }
 };
 struct MutationReport {
@@ -27,8 +27,8 @@ struct MutationReport {
   std::vector<MutantJudgement> mutants;
   std::vector<std::string> unjudged;  ///< passes that no envelope judges, and why
 };
-/// Which of the faults the pack would catch under a profile. Compares at most `invocations` texels of each case,
-/// spread over the picture, and every record of its lists.
+/// Finds the faults that the pack would catch under a profile. Compares at most `invocations` texels of each case, spread over the picture,
+/// and every record of its lists.
 MutationReport mutate(const capture::Pack& pack, const judge::ValidateOptions& options, int invocations = 4096);
 
 }  // namespace rainref::faults

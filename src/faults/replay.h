@@ -1,4 +1,4 @@
-// A failing run in which mistakes are made, to see which gives what the port stored.
+// Repeats a failing run with mistakes, to find those that reproduce what the port stored.
 #pragma once
 
 #include <functional>
@@ -19,47 +19,48 @@ namespace rainref::faults {
 /// A mistake that was tried on a run.
 struct Tried : judge::Cause {
   Tried() = default;
-  /// With its words.
+  /// Also makes the texts of `made`.
   Tried(What made, judge::Cause figures, double how_far = 0);
-  What what;                           ///< by which it is ranked
-  double misfit = 0;                   ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
-  bool is_untested = false;            ///< another run could not be asked about it
-  std::int64_t bad = 0;                ///< texels that passed and that the mistake moves away from where the port is
-  const Fault* fault = nullptr;        ///< the mistake itself, as long as who asked for it keeps it
-  const Fault* other_fault = nullptr;  ///< the same of another run
+  What what;                           ///< used for ranking
+  double misfit = 0;                   ///< share of the port's difference from the reference that remains with the mistake: 0 to 1
+  bool is_untested = false;            ///< another run could not be tested
+  std::int64_t bad = 0;                ///< texels that passed and that the mistake moves away from the port's values
+  const Fault* fault = nullptr;        ///< the mistake itself; owned by the caller's list of faults
+  const Fault* other_fault = nullptr;  ///< the same mistake on another run
 };
 
-/// Places that a mistake leaves unexplained, and those that passed and would not have with it.
+/// Number of places that speak against a mistake: failing ones that it does not explain, and passing ones that it would break.
 inline double against(const Tried& c) { return static_cast<double>(c.of - c.inside + c.bad); }
 
 class Replay {
  public:
   virtual ~Replay() = default;
-  /// What is tried, in the order in which it is to be believed; at most once each.
+  /// Mistakes to try, in order of plausibility, each at most once.
   virtual std::vector<Fault> plain() = 0;
-  /// More of it, asked where nothing plain explains the run.
+  /// More mistakes, tried if no plain one explains the run.
   virtual std::vector<Fault> deeper() { return {}; }
-  /// What is found by solving for what the port stored, asked where that explains too little.
+  /// Mistakes found by solving for what the port stored, tried if the others explain too little.
   virtual std::vector<Fault> solved() { return {}; }
-  /// What is fitted to the port, asked where all that explains too little. After these.
+  /// Mistakes fitted to the port, tried last, if all others explain too little.
   virtual std::vector<Fault> fitted() = 0;
-  /// From now on what is tried meets records too that count nowhere near what fails: a mistake may make them count. False: it did
-  /// already, or there are none.
+  /// From now on mistakes are also tried with records that do not contribute near the failures: a mistake may make them contribute. Returns
+  /// false if this was already so, or if there are none.
   virtual bool widen() { return false; }
-  /// How well each explains what fails.
+  /// Measures how well each fault explains the failures.
   virtual std::vector<Tried> causes(const std::vector<Fault>& all) const = 0;
 
-  /// The pass on a case of other numbers: what gives the same bits here may differ there. Null: there is none.
+  /// The pass on a case with other numbers: faults with equal bits here may differ there. Null: there is none.
   virtual std::unique_ptr<Replay> elsewhere() const = 0;
-  /// What the pass gives with a mistake, at some places; empty where it cannot be made. Of a fault without a name: without one.
+  /// Values of the pass with a mistake, at some places; empty if the mistake is impossible. A fault without a name: values without a
+  /// mistake.
   virtual std::vector<float> given(const Fault& d) const = 0;
 
-  /// Adds some invocations in which a mistake gives the port's bits, followed in the port's shader too; none where there is no shader.
+  /// Appends some invocations in which a mistake reproduces the port's bits, traced in the port's shader too; none if there is no shader.
   virtual void follow(const Fault&, std::vector<Followed>&) const {}
-  /// A line of that shader; nothing where it does not say its lines.
+  /// A line of that shader; nothing if it has no line information.
   virtual std::optional<judge::ShaderLine> line(const FoundLine&) const { return {}; }
 
-  /// From now on causes() tries nothing more once the time is over. The limit must outlive the replay.
+  /// From now on causes() stops when the time is over. The limit must outlive the replay.
   void limit(const SearchLimit& to) { limit_ = &to; }
   bool is_time_over() const { return limit_ && limit_->is_over(); }
 
@@ -67,12 +68,12 @@ class Replay {
   const SearchLimit* limit_ = nullptr;
 };
 
-/// Whether it was found by solving.
+/// True if it was found by solving.
 inline bool is_solved(const Tried& c) { return c.what.is(trait::solved); }
-/// Whether it is a number fitted to what the port stored.
+/// True if it is a number fitted to what the port stored.
 inline bool is_fitted(const Tried& c) { return c.what.is(trait::fitted); }
 
-/// A replay of a case that nobody else holds, from R(of, case, model).
+/// Makes a replay R(of, case, model) that owns its case.
 template <class R>
 class OwnReplay : public R {
  public:
@@ -84,29 +85,29 @@ class OwnReplay : public R {
   std::unique_ptr<capture::PassModel> model_;
 };
 
-/// A mistake that explains nothing of so many failing elements.
+/// A mistake that explains none of `of` failing elements.
 Tried untried(const Fault& d, std::size_t of, bool of_records, double misfit = 0);
-/// try_one(fault) of each, in parallel. A mistake in what the pass is given may make it none that the pass can run: then it explains
-/// nothing of `of`; and so does what `replay` has no time for.
+/// Calls try_one(fault) for each fault, in parallel. A fault counts as explaining none of `of` if the altered input makes the pass
+/// impossible to run, or if `replay` has no time left.
 std::vector<Tried> tried(const Replay& replay, const parallel::Executor& executor, const std::vector<Fault>& all, std::size_t of,
                          bool of_records, const std::function<Tried(const Fault&)>& try_one);
 
-/// Of a pass without one.
+/// The model of a pass that has none.
 inline const capture::PassModel& no_model() {
   static const capture::ListPass none("", nullptr);
   return none;
 }
 
-/// Adds where the best cause, and those of `causes` that give the same (`alike`: their names), stand in the port's shader. What leaves most
-/// of the failures unexplained, or is not what the shader itself gives, says nothing of its lines.
+/// Adds the lines of the port's shader for the best cause and for those of `causes` that give the same bits (`alike`: their names). No
+/// lines if the cause leaves most failures unexplained, or if the shader itself gives other values.
 void add_lines(const Replay& run, const Replay* other, Tried& best, const std::vector<Tried>& causes, const std::set<std::string>& alike);
 
-/// What explains a run, best first. `other`: another failing run of the pass, or null: what explains both is believed. A cause is
-/// likely where no rival, which would be another mistake elsewhere, explains as much; none is when the time was over before all were tried.
-/// `is_plain`: what is plain is tried alone.
+/// Returns the causes of a run, best first. `other`: another failing run of the pass, or null; a cause must explain both. A cause is likely
+/// if no rival, a different mistake at another place, explains as much; none is likely if time ran out before all were tried. `is_plain`:
+/// try plain mistakes only.
 std::vector<judge::Cause> diagnosed(Replay& run, Replay* other, bool is_plain = false);
 
-/// A case whose uniforms, texels and records are others, within a quarter or so.
+/// The case with other uniforms, texels and records, changed by about a quarter.
 capture::PassCase varied(const capture::PackPass& pass, const capture::PassCase& c);
 
 }  // namespace rainref::faults

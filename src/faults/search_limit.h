@@ -1,4 +1,4 @@
-// How long a search for causes may take. What is found then depends on the machine, so results that are compared have no limit.
+// Time limit of a search for causes. A limited result depends on the machine, so results that are compared have no limit.
 #pragma once
 
 #include <atomic>
@@ -8,17 +8,17 @@ namespace rainref::faults {
 
 class SearchLimit {
  public:
-  /// From now on. 0: as long as it takes.
+  /// Starts now. 0: no limit.
   explicit SearchLimit(double seconds)
       : is_limited_(seconds > 0),
         end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
-  /// Whether the time is over. Any thread may ask.
+  /// True if the time is over. Thread-safe.
   bool is_over() const {
     if (!is_limited_ || Clock::now() < end_) return false;
     was_met_ = true;
     return true;
   }
-  /// Whether somebody was told so, and left something untried.
+  /// True if is_over() returned true, so that something was left untried.
   bool was_met() const { return was_met_; }
 
  private:

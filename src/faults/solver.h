@@ -1,4 +1,4 @@
-// What the numbers at some places of a pass text would have to be for what a port stored.
+// Solves for the numbers at some places of a pass text that would give what a port stored.
 #pragma once
 
 #include <functional>
@@ -8,22 +8,22 @@
 
 namespace rainref::faults {
 
-/// A failing texel or record: what a port stored there, one number for each slot, and how far off that a number may be.
+/// A failing texel or record: what a port stored there, one number for each slot, and its tolerance.
 struct Solvable {
   const Probe& probe;
   std::vector<float> port;
   std::vector<double> leeway;
-  std::function<std::vector<float>()> evaluate;  ///< what the slots hold under the behaviour in force; others than port's: it cannot be
+  std::function<std::vector<float>()> evaluate;  ///< slots under the active behaviour; if their count differs: impossible
 };
 
-/// Numbers in the place of others that give what the port stored, and how the slots change with them.
+/// Replacement numbers that give what the port stored, and the derivatives of the slots.
 struct Solution {
-  std::vector<double> at;                  ///< of each place
-  std::vector<float> values;               ///< of each slot
-  std::vector<std::vector<double>> slope;  ///< of each slot by each place
+  std::vector<double> at;                  ///< one for each place
+  std::vector<float> values;               ///< one for each slot
+  std::vector<std::vector<double>> slope;  ///< derivative of each slot by each place
 };
 
-/// A value between two at which off(value) changes its sign, which is that of `at_low` at the lower one.
+/// Bisects: returns a value between two where off(value) changes sign; `at_low` is the sign at the lower one.
 template <class Off>
 float bisected(float low, float high, double at_low, int rounds, const Off& off) {
   for (int round = 0; round < rounds; ++round) {
@@ -39,17 +39,17 @@ float bisected(float low, float high, double at_low, int rounds, const Off& off)
 
 class Solver {
  public:
-  /// What is given must outlive it.
+  /// The arguments must outlive it.
   Solver(const Solvable& of, const std::vector<float>& known) : of_(of), known_(known) {}
 
   std::vector<float> values(const std::vector<perturbed::Substitution>& places) const;
   bool is_near(const std::vector<float>& values) const;
   bool is_near(const std::vector<perturbed::Substitution>& places) const { return is_near(values(places)); }
 
-  /// Of one place or of the two or three of a vector, whose numbers are `now`: other numbers that give what the port stored; none
-  /// where these places decide nothing that differs.
+  /// Returns other numbers for one place, or for the two or three of a vector, that give what the port stored; `now` are the present ones.
+  /// Empty if these places affect nothing that differs.
   std::vector<Solution> solutions(std::vector<perturbed::Substitution> places, const std::vector<float>& now) const;
-  /// Whether these numbers are near a solution, as far as its slope tells.
+  /// True if these numbers are near a solution, to first order.
   bool may_be(const Solution& s, const std::vector<float>& numbers) const;
 
  private:

@@ -1,4 +1,4 @@
-// Places of an invocation that are solved for, and the values that may stand there.
+// Places of an invocation to solve for, and the values that may replace them.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 namespace rainref::faults {
 
 inline const perturbed::Trace::Node& node_of(const Probe& p, std::int32_t i) { return p.trace.nodes[static_cast<std::size_t>(i)]; }
-/// A leaf: a constant, a texel, the column.
+/// True for a leaf: a constant, a texel, the column.
 bool is_leaf(perturbed::Op op);
 
-/// Operations that a search may do, about, so that a diagnosis takes seconds: a number of them, not a time, so that it says the same
-/// everywhere.
+/// Approximate limit on the operations of a search, so that a diagnosis takes seconds. It counts operations, not time, so that results do
+/// not depend on the machine.
 constexpr std::size_t most_steps = 20000000;
 
-/// Where numbers are solved for: an operand or the result of a node, or of each component of a vector.
+/// A place to solve for: an operand or the result of a node, or of each component of a vector.
 struct Target {
   std::vector<std::int32_t> nodes;
   std::int8_t operand;
@@ -47,36 +47,36 @@ struct Target {
 
 using Nodes = std::vector<std::int32_t>;
 
-/// Whether some of them have one shape.
+/// True if some of them have the same shape.
 bool are_alike(const Probe& p, const Nodes& v);
-/// In a loop that meets the components, all of one shape, round by round: how many there are; else 0.
+/// Number of components in a loop that meets them in turn, all of one shape; else 0.
 std::int32_t period_of(const Probe& p, const Nodes& v);
-/// What belongs together as a vector: what a length is taken of, the arguments of named functions, what is alike but for the
-/// component, what the outputs are made of side by side, and pairs of one operation beside each other. Two or three nodes each.
+/// Groups two or three nodes that form a vector: operands of a length, arguments of named functions, nodes equal but for the component,
+/// adjacent values of the outputs, and adjacent pairs of one operation.
 std::vector<Nodes> vector_groups_of(const Probe& p);
-/// Channels that one lookup gives, two or three.
+/// Two or three channels of one lookup.
 std::vector<Nodes> lookups_of(const Probe& p);
 
-/// A value, or one for each component, that may stand there.
+/// A replacement value, or one for each component.
 struct Source {
-  std::vector<std::int32_t> nodes;  ///< one for all components, or one for each; none: the numbers
+  std::vector<std::int32_t> nodes;  ///< one for all components, or one for each; empty: the numbers
   std::vector<float> numbers;
   std::string text;
   int effort;
 };
 
-/// The components of vectors: of different shapes and one text, of one shape, or side by side below the outputs.
+/// Components of vectors: of different shapes and one text, of one shape, or adjacent below the outputs.
 std::vector<std::vector<std::int32_t>> vectors_in(const Probe& p);
-/// Operands and results, of vectors first, from the outputs to what they are made of.
+/// Operands and results, vectors first, from the outputs to their operands.
 std::vector<Target> targets_of(const Probe& p);
-/// Uniforms by their names, whether the pass uses them or not, and small numbers.
+/// All uniforms by name, used or not, and small numbers.
 std::vector<Source> numbers_of(const Probed& p, std::size_t components);
-/// Values met before a target, nearest first, those of vectors before, and `numbers` after.
+/// Values before a target, nearest first and vectors before others, then `numbers`.
 std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vector<std::vector<std::int32_t>>& groups,
                                 const std::vector<Source>& numbers);
-/// What a source gives for component c.
+/// Value of a source for component c.
 float number_of(const Probe& p, const Source& s, std::size_t c);
-/// Puts a source into the places of a target.
+/// Substitutes a source at the places of a target.
 void take(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
 
 }  // namespace rainref::faults

@@ -1,4 +1,4 @@
-// Mistakes made at the failing texels of a run.
+// Makes mistakes at the failing texels of a run.
 #pragma once
 
 #include <memory>
@@ -12,22 +12,22 @@
 
 namespace rainref::faults {
 
-/// How far a conforming device may be from the reference, roughly: in codes as the case's envelopes are, in values as the
-/// texel's own is.
+/// Approximate tolerance: how far a conforming device may be from the reference. In codes it comes from the case's envelopes, in values
+/// from the texel's own.
 struct Leeway {
   std::vector<std::int64_t> codes;          // of each slot
   std::vector<std::vector<double>> values;  // of each texel and slot
 };
 
-/// The first of the pass's alternative formulas (capture::AlternativeFormula) whose envelopes hold nine in ten of the failing texels and
-/// of the passing ones; nothing where there is none. No bits are compared: `explained` is 0.
+/// Returns the first of the pass's alternative formulas (capture::AlternativeFormula) whose envelopes hold nine in ten of the failing
+/// texels and of the passing ones; nothing if there is none. Does not compare bits: `explained` is 0.
 std::optional<judge::Cause> alternative_formula(const capture::PassCase& c, const std::vector<capture::Array>& port,
                                                 const enclosed::Profile& profile, judge::HalfMode mode, const std::vector<Texel>& failing,
                                                 const std::vector<Texel>& passing);
 
 class TexelReplay : public Replay {
  public:
-  /// What is given must outlive it.
+  /// The arguments must outlive it.
   TexelReplay(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, judge::Bind bind,
               const capture::PassModel& model, const std::vector<capture::Array>& port, const judge::CaseJudgement& judgement,
               const enclosed::Profile& profile, judge::HalfMode mode, const parallel::Executor& executor);
@@ -41,16 +41,16 @@ class TexelReplay : public Replay {
   std::vector<float> given(const Fault& d) const override;
   void follow(const Fault& d, std::vector<Followed>& out) const override;
   std::optional<judge::ShaderLine> line(const FoundLine& found) const override;
-  /// The port's own program, on this run. It must outlive the replay.
+  /// Sets the port's own program for this run. It must outlive the replay.
   void take(const capture::TracedProgram& program) { program_ = &program; }
-  /// Mistakes that need no search, and those of finished buffers that are as plain.
+  /// Mistakes that need no search, and equally plain mistakes in finished buffers.
   std::vector<Fault> decidable() const;
   std::vector<Fault> of_finished() const;
-  /// What faults::alternative_formula says of the failing texels and some that passed.
+  /// Tests faults::alternative_formula on the failing texels and some that passed.
   std::optional<judge::Cause> alternative_formula(const enclosed::Profile& profile) const;
 
  protected:
-  /// The run of a varied case, whose port is the reference.
+  /// For the run of a varied case; the reference serves as its port.
   TexelReplay(const TexelReplay& of, const capture::PassCase& c, const capture::PassModel& model);
 
  private:
@@ -71,7 +71,7 @@ class TexelReplay : public Replay {
   Constants constants_;
   std::vector<Fault> orders_;  ///< for deeper()
   std::vector<Probe> probes_;  ///< for solved()
-  std::vector<float> known_;   ///< as these were made with
+  std::vector<float> known_;   ///< the constants that the probes were made with
 };
 
 }  // namespace rainref::faults
