@@ -1,4 +1,4 @@
-// Every result that a profile allows for an invocation, and the codes that a device stores for it.
+// All results that a profile allows for an invocation, and the codes that a device stores for them.
 #pragma once
 
 #include <array>
@@ -15,38 +15,38 @@
 
 namespace rainref::judge {
 
-/// How a device stores that the profile allows and that rounds its halves by `mode`; `unorm`: the reference's own way.
+/// Store rules of a device that the profile allows and that rounds halves by `mode`; `unorm`: the reference's own rounding.
 enclosed::StoreRules rules_of(const enclosed::Profile& profile, HalfMode mode, Rounding unorm);
-/// The profile of a device whose stores round like this.
+/// The profile of a device whose stores round halves by `mode`.
 enclosed::Profile narrowed(const enclosed::Profile& profile, HalfMode mode);
 
-/// Every alternative of an invocation.
+/// All alternatives of an invocation.
 struct Alternatives {
   std::array<std::vector<enclosed::Enclosure>, enclosed::PathEnumeration::max_runs> values;
   int count = 0;
   bool gave_up = false;
 
-  /// What the reference stored, and nothing else.
+  /// Sets the stored reference values as the only alternative.
   void only(const std::vector<float>& expected);
-  /// What the profile allows. `port`: what the port stored for the invocation.
+  /// Evaluates all results that the profile allows. `port`: what the port stored for the invocation.
   void run(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
-  /// A part of these that the pass finds sooner (PassModel::enclose_part); none where it has no such part.
+  /// Evaluates a part of these that the pass finds faster (PassModel::enclose_part); no alternative if it has no such part.
   void run_part(const capture::PassModel& model, int part, int x, int y, const float* port, const enclosed::Profile& profile);
-  /// What the rearrangements give that it allows; nothing, as if given up, where the pass has no evaluation for them.
+  /// Evaluates the rearrangements that the profile allows. If the pass has no evaluation for them: no alternative, as if given up.
   void rearrange(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
 };
 
-/// The codes of one alternative under one rounding, into `out`.
+/// Writes the codes of one alternative under one rounding to `out`.
 void code_ranges(const std::vector<Slot>& slots, const std::vector<enclosed::Enclosure>& values, const enclosed::Profile& profile,
                  HalfMode mode, std::vector<enclosed::CodeRange>& out);
 
-/// Whether a bound says little of a value, or less than it should.
+/// True if a bound is too wide to be useful, or wider than it should be.
 struct Bound {
   bool vacuous, loose;
 };
 Bound bound_of(const Slot& slot, const enclosed::Enclosure& value, const enclosed::CodeRange& codes);
 
-/// Codes between a code and a range; 0 inside.
+/// Distance between a code and a range, in codes; 0 inside.
 std::uint64_t distance(std::int64_t code, const enclosed::CodeRange& range);
 
 }  // namespace rainref::judge

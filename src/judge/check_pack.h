@@ -1,4 +1,4 @@
-// A pack against what this build declares of its effect, before anything of it is evaluated.
+// Checks a pack against this build's declaration of its effect, before anything is evaluated.
 #pragma once
 
 #include "capture/pack_read.h"
@@ -7,16 +7,16 @@
 
 namespace rainref::judge {
 
-/// Checks the uniform blocks, and every case's shapes, formats and uniforms, by the manifest alone: capture::check_case
-/// and capture::uniform_fault. Throws Error(port_files) naming the pack and the case; Error(usage) for an effect that this
-/// build does not know. A pack that brings its reference is checked against that: foreign::reference_of().
+/// Checks the uniform blocks, and each case's shapes, formats and uniforms, from the manifest alone: capture::check_case and
+/// capture::uniform_fault. Throws Error(port_files) naming the pack and the case; Error(usage) for an effect that this build does not know.
+/// A pack with its own reference is checked against that: foreign::reference_of().
 void check_pack(const capture::Pack& pack);
 
-/// A case of a checked pack with its values; Error(port_files) where a record holds a float that is no finite number.
+/// Reads a case of a checked pack with its values; Error(port_files) if a float of a record is not finite.
 capture::PassCase read_case(const capture::Pack& pack, const capture::PackCase& entry);
 
-/// The case's expected outputs are the reference's: else the pack is of another version, or damaged in a way that its
-/// hashes do not show. Error(port_files) then.
+/// Checks that the case's expected outputs are the reference's. Otherwise the pack is of another version, or damaged in a way that its
+/// hashes do not show: Error(port_files).
 void require_reference(const capture::Pack& pack, const capture::PassCase& c, const capture::PassModel& model,
                        const parallel::Executor& executor);
 

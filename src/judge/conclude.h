@@ -6,18 +6,17 @@
 
 namespace rainref::judge {
 
-/// Status and reason of a case from its counts under a profile. UNTESTED where less than half of the elements have a bound, by the
-/// profile or by what known devices do; of a sample where that may be, within its margin.
+/// Sets status and reason of a case from its counts. UNTESTED if neither the profile nor the known devices bound half of the elements; with
+/// a sample, if that is possible within its margin.
 void conclude(CaseJudgement& judgement, const enclosed::Profile& profile);
-/// Whether a sample does not tell if less than half have one: the share lies within its margin of a half.
+/// True if the sample leaves this undecided: the share lies within its margin of a half.
 bool is_open_by_sample(const CaseJudgement& judgement);
-/// Those of a pass from its cases. Its reason so far is a doubt about the rounding that was found, which warns.
-/// What is counted is counted over all cases.
+/// Sets status and reason of a pass from all its cases. A reason that is already set, a doubt about the rounding, makes it a WARN.
 void conclude(PassJudgement& judgement, const enclosed::Profile& profile);
-/// The status of the whole from its passes, and the first that is bad.
+/// Sets the status of the port from its passes, and the first bad pass.
 void conclude(PortJudgement& judgement);
 
-/// Makes each WARN a FAIL, of cases, passes and the whole: the reasons say of what.
+/// Turns each WARN of cases, passes and the port into a FAIL; the reasons say so.
 void fail_warnings(PortJudgement& judgement);
 
 }  // namespace rainref::judge

@@ -1,4 +1,4 @@
-// What the runs of a pass exercise: each side of each decision of its text, and values of what it takes that are not special.
+// Counts what the runs of a pass exercise: each side of each decision, and non-special values of its inputs.
 #pragma once
 
 #include <cstdint>
@@ -16,40 +16,40 @@
 
 namespace rainref::judge {
 
-/// Something that a run may do, by a name that neither a moved line nor a renamed variable changes.
+/// Something that a run may exercise. Its name is independent of line numbers and variable names.
 struct Alternative {
   std::string name;
   bool is_taken;
-  std::string guard = "";  ///< why no scene takes it, where the text or the uniform block says so
-  int line = 0;            ///< where it stands now; 0: the name is not of one line, or of none
+  std::string guard = "";  ///< why no scene takes it, from the pass text or the uniform block
+  int line = 0;            ///< its present line; 0: no line, or several
 };
 
-/// What runs of a pass exercise.
+/// What the runs of a pass exercise.
 struct Exercise {
-  perturbed::Coverage decisions;  ///< of its text
-  /// Whether some run has it. "uniform wind.y: neither 0 nor 1" for each component of each uniform that the variant reads; of a flag
-  /// "uniform use_probe: 0" and the same of 1. "input bounds: more than one texel" for each image. -1 counts as 1, for a factor of
-  /// either hides that it is one.
+  perturbed::Coverage decisions;  ///< of the pass text
+  /// True if some run has the value. "uniform wind.y: neither 0 nor 1" for each component of each uniform that the variant reads; for a
+  /// flag "uniform use_probe: 0" and the same with 1. "input bounds: more than one texel" for each image. -1 counts as 1, because a factor
+  /// of either value is invisible.
   std::map<std::string, bool> values;
-  std::map<std::string, std::string> guards;  ///< of values that no scene has: why
-  bool is_sampled = false;                    ///< decisions are those of a sample of the invocations
+  std::map<std::string, std::string> guards;  ///< why no scene has a value
+  bool is_sampled = false;                    ///< decisions come from a sample of the invocations
   void add(const Exercise& other);
-  /// Decisions in the order of the text, then values.
+  /// Returns the decisions in the order of the text, then the values.
   std::vector<Alternative> alternatives() const;
 };
 
-/// Decisions are counted over all invocations of the case; none where no output is judged by a model (null). Nothing at all is counted
-/// of a pass whose outputs are only given. Throws Error(internal) where the effect has no such pass. `sample`: at least so many invocations
-/// are counted, drawn as a judgement draws them (judge/sample.h); 0: all. `said`: the uniform block of a pass of a foreign effect.
+/// Counts decisions over all invocations of the case; none if no output is judged by a model (null). Counts nothing for a pass whose
+/// outputs are only given. Throws Error(internal) if the effect has no such pass. `sample`: the least number of invocations to count, drawn
+/// as for a judgement (judge/sample.h); 0: all. `said`: the uniform block of a foreign effect's pass.
 Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model, const parallel::Executor& executor,
                      std::int64_t sample = 0, const scene::UniformBlock& said = {});
-/// How many alternatives were taken, and the names of the others. `unexercised`: those that the scene says are not, and why.
+/// Number of alternatives taken, and the names of the others. `unexercised`: those that the scene declares as not taken, and why.
 PassCoverage summary(const Exercise& exercise, const std::map<std::string, std::string>& unexercised = {});
-/// Whether a variant reads a uniform: a sentence that begins with "corrected:" or "as-published:" speaks of that one alone, unless it
-/// names the other variant further on.
+/// True if a variant reads a uniform. A sentence that begins with "corrected:" or "as-published:" concerns only that variant, unless it
+/// names the other one later.
 bool is_read_by(const scene::Member& member, std::string_view variant);
-/// "shade.pass.h, shade_corrected: clamp 2, below": the file, the function, the decision, the side. number: among the decisions of its
-/// kind in the function, in the order of the text; those of guards have numbers of their own. In a shader: "fog.hlsl:25: clamp, below".
+/// "shade.pass.h, shade_corrected: clamp 2, below": file, function, decision, side. number: counts decisions of this kind in the function,
+/// in the order of the text; guards are counted separately. In a shader: "fog.hlsl:25: clamp, below".
 std::string name_of(const perturbed::Decision& decision, int number, bool is_guard, int side);
 
 }  // namespace rainref::judge

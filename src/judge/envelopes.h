@@ -1,4 +1,4 @@
-// Judging outputs by envelope: each invocation against every result that the profile allows, counted.
+// Judges outputs by envelope: compares each invocation with every result that the profile allows.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace rainref::judge {
 
-/// What a port stored in the case's outputs of is_placed(), one judgement for each rounding of half stores; in its
-/// `outputs` those that are judged otherwise have no counts. `port` as in judge_case. Throws Error(internal) where the model
-/// is not that of the outputs. Outside of the sample (JudgeOptions) no envelope is asked of what has the reference's bits.
+/// Judges the port's outputs that are is_placed(), once for each rounding of half stores; other outputs get no counts. `port` as in
+/// judge_case. Throws Error(internal) if the model does not fit the outputs. Outside of the sample (JudgeOptions), no envelope is computed
+/// for values with the reference's bits.
 std::vector<CaseJudgement> judge_envelopes(const capture::PassCase& c, const capture::PassModel& model,
                                            const std::vector<capture::Array>& port, const JudgeOptions& options,
                                            const std::vector<HalfMode>& modes);

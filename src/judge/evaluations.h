@@ -1,4 +1,4 @@
-// What this build can evaluate of a pass, bound to a run.
+// Evaluations that this build has of a pass, bound to a run.
 #pragma once
 
 #include <functional>
@@ -11,20 +11,20 @@
 
 namespace rainref::judge {
 
-/// Binds a pass to a case: capture::PassEvaluations::bind, or the shader that a pack brings with it.
+/// Binds a pass to a case: capture::PassEvaluations::bind, or a shader from the pack.
 using Bind = std::function<std::unique_ptr<capture::PassModel>(const capture::PassCase&)>;
 
-/// The evaluations that this build has of a pass, or null: it has none of a foreign effect.
+/// Returns this build's evaluations of a pass; null for a foreign effect.
 const capture::PassEvaluations* evaluations_of(const std::string& effect, const std::string& pass);
-/// Its binder; null where no output is judged by envelope.
+/// Returns the binder of a pass; null if no output is judged by envelope.
 Bind binder(const std::string& effect, const std::string& pass);
-/// Of a pass of a pack: of a foreign effect's the shader is bound. Throws as foreign::reference_of().
+/// Returns the binder of a pass of a pack; for a foreign effect it binds the shader. Throws like foreign::reference_of().
 Bind binder(const capture::Pack& pack, const std::string& pass);
 
-/// Whether an output is judged by envelope.
+/// True if an output is judged by envelope.
 bool is_enveloped(const capture::PassCase& c);
-/// The model of a run; null where no output is judged by one. Throws Error(internal) when it needs one and there is no
-/// `bind`, and what `bind` throws.
+/// Returns the model of a run; null if no output is judged by one. Throws Error(internal) if it needs a model and there is no `bind`, and
+/// whatever `bind` throws.
 std::unique_ptr<capture::PassModel> bound(const std::string& pass, const Bind& bind, const capture::PassCase& c);
 
 }  // namespace rainref::judge

@@ -1,4 +1,4 @@
-// The failures that a report shows.
+// The failures that a report lists.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace rainref::judge {
 
-/// In order of distance, then of place; at most OutputJudgement::max_failures.
+/// Sorts by distance, then by place, and keeps at most OutputJudgement::max_failures.
 void keep_worst(std::vector<Failure>& worst);
 
-/// A value that the alternatives of `accepted` do not hold; `accepted`: the codes that come nearest, null where there are none.
+/// A value that no alternative holds; `accepted`: the nearest codes, null if there are none.
 Failure failure_of(const Slot& slot, int x, int y, const capture::Array& want, const capture::Array& have,
                    const enclosed::CodeRange* accepted);
 

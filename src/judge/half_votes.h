@@ -1,4 +1,4 @@
-// How a port rounds its stores to binary16: one way for the whole port, found by what its passes stored.
+// Finds how a port rounds its stores to binary16: one way for the whole port, inferred from the outputs of its passes.
 #pragma once
 
 #include <cstddef>
@@ -11,50 +11,49 @@
 
 namespace rainref::judge {
 
-/// Failing invocations of a pass under each rounding that it was judged by. Fewer than two: it stores no halves, or
-/// their rounding is settled.
+/// Failing invocations of a pass under each rounding that it was judged by. Fewer than two roundings: it stores no halves, or their
+/// rounding is known.
 struct HalfVotes {
   std::string pass;
-  std::vector<HalfMode> modes;  ///< the same two, or two and `either`, of every pass that votes
+  std::vector<HalfMode> modes;  ///< the same two, or two and `either`, for every pass that votes
   std::vector<std::int64_t> failing;
-  /// The pass rounds to binary16 between its operations, too, in the shader or a blending unit, which need not round as stores do:
-  /// it is judged by the way that it fits and has no vote.
+  /// The pass also rounds to binary16 between its operations, in the shader or a blending unit, which need not round like stores. It is
+  /// judged by the rounding that it fits and has no vote.
   bool rounds_inside = false;
-  /// Of each mode the invocations that may fail besides: they were not asked about under it, because another mode holds them. Empty: none.
+  /// For each mode, invocations that may also fail: they were not tested under it, because another mode holds them. Empty: none.
   std::vector<std::int64_t> undecided = {};
-  /// How many of some hundreds of invocations are found inside without an envelope, by each mode: nearly all of these store what the
-  /// reference does. Empty: none.
+  /// For each mode, how many of some hundreds of invocations are inside without computing an envelope; nearly all of these have the
+  /// reference's bits. Empty: none.
   std::vector<std::int64_t> with_bits = {};
 
   std::int64_t most(std::size_t mode) const { return failing[mode] + (undecided.empty() ? 0 : undecided[mode]); }
-  /// Whether it is known if any fails.
+  /// True if it is known whether any invocation fails.
   bool is_known(std::size_t mode) const { return failing[mode] > 0 || most(mode) == 0; }
-  /// Whether every invocation is known under every mode.
+  /// True if every invocation is known under every mode.
   bool is_whole() const;
 };
 
-/// The rounding under which fewest passes fail. Of equals the one that clearly has more HalfVotes::with_bits; else the first, unless the
-/// second has a tenth fewer failing invocations. Where nothing fails under either, the one with more of these bits.
+/// Returns the rounding under which fewest passes fail. If equal, the one with clearly more HalfVotes::with_bits; else the first, unless
+/// the second has a tenth fewer failing invocations. If nothing fails under either, the one with more with_bits.
 HalfMode port_rounding(const std::vector<HalfVotes>& passes);
 
-/// Whether a pass fails under both roundings.
+/// True if a pass fails under both roundings.
 bool fails_by_each(const HalfVotes& pass);
-/// Whether a pass fails under every rounding and nothing tells which one is the port's: none of these passes can be stored by one of them
-/// alone, and neither clearly has more HalfVotes::with_bits.
+/// True if a pass fails under every rounding and nothing tells which one the port uses: none of the passes fits only one of them, and
+/// neither clearly has more HalfVotes::with_bits.
 bool is_rounding_open(const std::vector<HalfVotes>& passes);
 
-/// The rounding that a pass is judged by, and what is to be said of it.
+/// The rounding that a pass is judged by, and a doubt about it.
 struct FoundRounding {
-  std::size_t mode = 0;  ///< of HalfVotes::modes
+  std::size_t mode = 0;  ///< index in HalfVotes::modes
   std::string doubt;     ///< "": none
 };
-/// The port's where the pass fits it; else the other, or a mixture, where it fits that; else the port's. A pass that rounds inside: else
-/// that with fewest failures.
-/// `asked`: what the profile asks for, or `either`.
+/// Returns the port's rounding if the pass fits it; else the other, or a mixture, if it fits that; else the port's, or for a pass that
+/// rounds inside the one with fewest failures. `asked`: what the profile requires, or `either`.
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile);
 
-/// A pass whose undecided invocations could change what the functions above give for any of these passes, or the number of its failures by
-/// the rounding that is found. Nothing: what they give holds.
+/// Returns a pass whose undecided invocations could change a result of the functions above for any of these passes, or its number of
+/// failures under the found rounding. Nothing: the results are final.
 std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes, HalfMode asked);
 
 }  // namespace rainref::judge

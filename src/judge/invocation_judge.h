@@ -1,4 +1,4 @@
-// Invocation by invocation, for those who ask about a few.
+// Judges single invocations.
 #pragma once
 
 #include <array>
@@ -16,20 +16,20 @@
 namespace rainref::judge {
 
 enum class Accepted : std::uint8_t {
-  as_written,  ///< by an alternative of the formula as it stands, or there were too many
+  as_written,  ///< by an alternative of the formula as written, or there were too many
   rearranged,  ///< by a rearrangement that the profile allows
   no
 };
-/// Whether some alternative accepts what is stored for an invocation. What it is made of must outlive it. Any thread may ask.
+/// Tests whether some alternative accepts the stored values of an invocation. The arguments must outlive it. Thread-safe.
 class InvocationJudge {
  public:
-  /// `asks_again`: of many ports about the same few invocations. What the profile allows for one is then found once and kept, unless that
-  /// hangs on what is stored.
+  /// `asks_again`: many ports are tested on the same few invocations. The allowed results of an invocation are then kept, unless they
+  /// depend on the stored values.
   InvocationJudge(const capture::PassCase& c, const capture::PassModel& model, const enclosed::Profile& profile, HalfMode mode,
                   bool asks_again = false);
   /// `port` as in judge_case.
   Accepted accepts(int x, int y, const std::vector<capture::Array>& port) const;
-  /// Of each value whether it is outside the alternative that holds most of them.
+  /// For each value, true if it is outside the alternative that holds most of them.
   std::vector<char> outside(int x, int y, const std::vector<capture::Array>& port) const;
 
  private:

@@ -1,4 +1,4 @@
-// Judging every run of each pass that a port made, one run in memory at a time.
+// Judges all runs of each pass of a port, with one run in memory at a time.
 #pragma once
 
 #include <cstdint>
@@ -17,67 +17,64 @@ namespace rainref::judge {
 
 /// A run of a pass by a port.
 struct PortRun {
-  capture::PassCase c;                 ///< what the pass took; c.outputs: what the reference gives for it
-  std::vector<capture::Array> stored;  ///< what the port gave, in the order of c.outputs
-  std::string broken;                  ///< why the run fails whatever its outputs are; "": it does not
+  capture::PassCase c;                 ///< inputs of the pass; c.outputs: the reference's for them
+  std::vector<capture::Array> stored;  ///< the port's outputs, in the order of c.outputs
+  std::string broken;                  ///< why the run fails whatever its outputs are; "": no such reason
   std::string untested;                ///< why it cannot be judged; "": it can
-  bool has_no_files = false;           ///< it cannot be judged because the port's files are missing or cannot be used
+  bool has_no_files = false;           ///< it cannot be judged because the port's files are missing or unusable
 };
 
 /// Run k of a pass, in the order of execution.
 using LoadRun = std::function<PortRun(std::size_t k)>;
-/// Called with each run before it is judged, with the pass's model, or null where no output is judged by envelope:
-/// checks c.outputs, or computes them.
+/// Called with each run before it is judged: checks c.outputs, or computes them. The model is null if no output is judged by envelope.
 using SettleRun = std::function<void(PortRun&, const capture::PassModel*)>;
 
-/// The run of a failing pass that says most, for those who ask why it fails. A mistake shows in the others too.
+/// The most informative run of a failing pass, for the diagnosis. A mistake shows in the others too.
 struct FailedRun {
   const capture::PackPass& pass;
   const PortRun& run;
-  const capture::PassCase* before;  ///< the run of the same pass before it, settled; null: none
-  Bind bind;                        ///< null where no output is judged by envelope
-  const capture::PassModel* model;  ///< of the run; null where no output is judged by one
+  const capture::PassCase* before;  ///< the previous run of the same pass, settled; null: none
+  Bind bind;                        ///< null if no output is judged by envelope
+  const capture::PassModel* model;  ///< of the run; null if no output is judged by one
   const CaseJudgement& judgement;
   const PassJudgement& judged;  ///< with all runs of the pass
-  HalfMode half_mode;           ///< that the pass was judged by
+  HalfMode half_mode;           ///< the rounding that the pass was judged by
   const JudgeOptions& options;
-  const FailedRun* other = nullptr;  ///< the failing run that says next most; null: none
-  double share = 1;                  ///< of the time that there is for its pass, which is asked about under each rounding of halves
-  /// What is asked about is warned of and does not fail: `judgement` has it as failing. What is plain is tried alone, which bounds the
-  /// time.
+  const FailedRun* other = nullptr;  ///< the next most informative failing run; null: none
+  double share = 1;                  ///< share of the pass's time limit; a pass may be diagnosed under each rounding of halves
+  /// The elements give a WARN, not a FAIL; `judgement` counts them as failing. Only plain mistakes are tried, which limits the time.
   bool is_warned = false;
-  const capture::TracedProgram* program = nullptr;  ///< the port's own, on this run; null: it is not at hand
+  const capture::TracedProgram* program = nullptr;  ///< the port's own, on this run; null: not available
 };
-/// What would explain its failures, and what they share. The judge itself knows no mistakes: faults/diagnose.h does.
+/// Finds causes of the failures and their common property. The judge itself knows no mistakes: faults/diagnose.h does.
 using Explain = std::function<Explanation(const FailedRun&)>;
 
 struct PassRuns {
   std::size_t count = 0;
-  std::int64_t invocations = 0;  ///< of all runs together, which share a sample; 0: each has its own
+  std::int64_t invocations = 0;  ///< of all runs together, which share a sample; 0: each run has its own
   LoadRun load;
   SettleRun settle;
   std::function<void()> done_one;  ///< after each run; may be null
-  Explain explain;                 ///< asked about a pass that fails, or warns of elements; may be null
-  /// A pass that a port passes which does nothing is UNTESTED. What `settle` leaves of c.outputs is then what `load` gives.
+  Explain explain;                 ///< called for a pass that fails, or warns of elements; may be null
+  /// A pass that a do-nothing port would pass is UNTESTED. `load` must then return c.outputs as `settle` leaves them.
   bool tries_null_ports = false;
-  bool counts_coverage = false;  ///< PassJudgement::coverage is wanted
-  /// What a run takes is the port's own: where nothing can be computed with it, the run fails.
+  bool counts_coverage = false;  ///< computes PassJudgement::coverage
+  /// The inputs are the port's own: if nothing can be computed from them, the run fails.
   bool takes_inputs_of_port = false;
 };
 
-/// A pass and what the port has of it. `bind` may be null when no output of the pass is judged by envelope; keyed records
-/// are then judged by bits.
+/// A pass and the port's runs of it. `bind` may be null if no output is judged by envelope; keyed records are then judged by bits.
 struct PassTask {
   const capture::PackPass* pass;
   Bind bind;
   PassRuns runs;
 };
-/// Binds and settles a run that can be judged. Its model, as bound() gives it. run.untested says why it cannot be judged after all: a list
-/// has another length, or nothing can be computed with what the port took.
+/// Binds and settles a run that can be judged. Returns its model, as bound() does. Sets run.untested if it cannot be judged after all: a
+/// list has another length, or nothing can be computed from the port's inputs.
 std::unique_ptr<capture::PassModel> prepare(const PassTask& task, PortRun& run);
 
-/// The passes of one port, in this order. How its stores to binary16 round is one choice for all of them. `voters`: other passes of it,
-/// which are asked by a sample how stores round.
+/// Judges the passes of one port, in this order. All share one rounding of half stores. `voters`: other passes of the port, which a sample
+/// tests for their rounding.
 std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options,
                                         const std::vector<PassTask>& voters = {});
 

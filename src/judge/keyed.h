@@ -1,4 +1,4 @@
-// Judging a list of records by their ids: the order of the list is free, as parallel appends leave it.
+// Judges a list of records by their ids, in any order, since parallel appends leave no order.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace rainref::judge {
 
-/// Ids that something happened to, ascending, without repetition.
+/// Ids with a failure, ascending, each once.
 struct KeyedEvents {
-  std::vector<std::uint32_t> missing;    ///< must live and do not: a death or capture too many, a birth too few
-  std::vector<std::uint32_t> extra;      ///< live and may not: a death, capture or merge that did not happen, a birth too many
-  std::vector<std::uint32_t> duplicate;  ///< of more than one record
-  std::vector<std::uint32_t> outside;    ///< live rightly, with a float outside its envelope or an integer of other bits
+  std::vector<std::uint32_t> missing;    ///< must live and do not: an extra death or capture, or a missing birth
+  std::vector<std::uint32_t> extra;      ///< live and must not: a missing death, capture or merge, or an extra birth
+  std::vector<std::uint32_t> duplicate;  ///< in more than one record
+  std::vector<std::uint32_t> outside;    ///< may live, with a float outside its envelope or an integer with other bits
   /// "" or "missing: 3, 17; duplicate: 4": at most eight ids of each kind.
   std::string text() const;
 };
 
 struct KeyedJudgement {
-  /// Elements are the fields, id left out, of the records that either list has; of one that is missing, extra or there
-  /// twice all are outside. Failure::x is the id, channel the field.
+  /// Elements are the fields, without the id, of the records in either list; all fields of a missing, extra or duplicate record are
+  /// outside. Failure::x is the id, channel the field.
   OutputJudgement output;
   KeyedEvents events;
   std::int64_t groups = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
@@ -32,26 +32,25 @@ struct KeyedJudgement {
   std::uint64_t rearranged_distance = 0;  ///< as CaseJudgement::rearranged_distance
 };
 
-/// Whether a member is the key of its record: `id`, one uint.
+/// True if a member is the key of its record: `id`, one uint.
 bool is_key(const scene::Member& member);
-/// Whether a record has one.
+/// True if a record has a key.
 bool has_key(const scene::UniformBlock& record);
 
 /// Outputs of the case that are matched by id.
 std::vector<std::size_t> keyed_outputs(const capture::PassCase& c);
 
-/// Whether two lists hold the same records, byte for byte, in any order.
+/// True if two lists hold the same records, byte for byte, in any order.
 bool same_records(const capture::Array& a, const capture::Array& b);
 
-/// The extent of the declared range of each float of a record, in the order of declaration. Throws Error(internal) for a
-/// member that the model gives none.
+/// Extent of the declared range of each float of a record, in the order of declaration. Throws Error(internal) for a member without a range
+/// in the model.
 std::vector<double> extents_of(const scene::UniformBlock& record, const capture::KeyedModel& model);
 
-/// Judges a port's list. A group of ids passes when one alternative of the model holds all of it: who lives, their
-/// floats by envelope, their integers by bits. Ids that no group knows are extra. A group with too many alternatives is
-/// vacuous. Without a model, and under exact rules, each expected record is a group whose fields must have the expected
-/// bits. Throws Error(internal) for a record without a key or a model that does not fit it, Error(port_files) when the
-/// expected list has an id twice.
+/// Judges a port's list. A group of ids passes if one alternative of the model holds all of it: the ids that live, their floats by
+/// envelope, their integers by bits. Ids of no group are extra. A group with too many alternatives is vacuous. Without a model, and under
+/// exact rules, each expected record is a group whose fields must have the expected bits. Throws Error(internal) for a record without a key
+/// or a model that does not fit it, Error(port_files) if the expected list has an id twice.
 KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const capture::Array& port, const capture::KeyedModel* model,
                            const enclosed::Profile& profile);
 

@@ -1,7 +1,7 @@
-// Which invocations of a port have the bits of a device that is known.
+// Finds the invocations of a port that have the bits of a known device.
 //
-// A profile that allows what the device does in its lookups and in its sums of products has an envelope that holds what it gives, in one
-// alternative for all outputs together (tests: ShortCut.EveryEnvelopeHoldsTheKnownDevices).
+// If a profile allows what the device does in lookups and sums of products, its envelopes hold the device's results, in one alternative for
+// all outputs together (tests: ShortCut.EveryEnvelopeHoldsTheKnownDevices).
 #pragma once
 
 #include <functional>
@@ -16,24 +16,24 @@
 
 namespace rainref::judge {
 
-/// What known devices do that the reference does not, as Perturbeds are told: one samples in fixed point, one fuses sums of products, one
+/// Behaviours of known devices that differ from the reference, for Perturbed: one samples in fixed point, one fuses sums of products, one
 /// does both.
 std::vector<perturbed::Behaviour> known_devices();
-/// Whether a profile allows all that such a device does.
+/// True if a profile allows all that such a device does.
 bool allows(const enclosed::Profile& profile, const perturbed::Behaviour& device);
 
 class KnownDevice {
  public:
-  /// As ReferenceBits.
+  /// As for ReferenceBits.
   KnownDevice(const capture::PassModel& model, const std::vector<capture::Array>& port, const std::vector<Slot>& slots,
               const std::vector<HalfMode>& modes);
 
-  /// Chooses of `devices` the one whose bits most of the sampled invocations have that `is_wanted`; none where they are few.
+  /// Chooses from `devices` the one whose bits most of the sampled invocations have that `is_wanted` selects; none if these are few.
   void prepare(const Sample& sample, const std::vector<perturbed::Behaviour>& devices, const std::function<bool(int, int)>& is_wanted);
-  /// What was chosen.
+  /// The chosen device.
   const std::optional<perturbed::Behaviour>& device() const { return device_; }
-  /// Into `is_held`, for each rounding of halves, whether all that is stored for an invocation has the device's bits, which the calling
-  /// thread's Perturbeds follow.
+  /// Sets `is_held` for each rounding of halves: true if all stored values of an invocation have the device's bits. Sets the behaviour of
+  /// the calling thread's Perturbed evaluation.
   void find(int x, int y, std::vector<char>& is_held) const;
 
  private:

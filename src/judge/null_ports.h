@@ -1,4 +1,4 @@
-// Ports that do nothing. A pack whose pass one of them passes says nothing of that pass.
+// Null ports do nothing. If one of them passes a pack's pass, the pack does not test that pass.
 #pragma once
 
 #include <memory>
@@ -10,22 +10,23 @@
 
 namespace rainref::judge {
 
-/// What such a port stores for a case, in the order of its outputs.
+/// Outputs of a null port for a case, in order.
 struct NullPort {
   std::string what;  ///< "zeros", "a copy of its input wave"
   std::vector<capture::Array> outputs;
 };
-/// Zeros, and of each input that has the format and size of an output its copy there, zeros elsewhere; of lists none and each input's.
+/// One stores zeros; for each input with the format and size of an output, one copies it there and stores zeros elsewhere. Lists: an empty
+/// one, and a copy of each input list.
 std::vector<NullPort> null_ports(const capture::PassCase& c);
 
-/// Which of them pass all cases of a pass. They are given up at the first invocation that fails.
+/// Finds null ports that pass all cases of a pass. Each is dropped at its first failing invocation.
 class NullPorts {
  public:
-  /// `model` may be null where no output is judged by envelope, `typical` as in JudgeOptions: one that a judgement would warn of
-  /// does not pass. Cases that are taken as data say nothing. c.outputs must be what the reference gives.
+  /// `model` may be null if no output is judged by envelope. `typical` as in JudgeOptions: a null port that would get a warning does not
+  /// pass. Cases taken as data are ignored. c.outputs must be the reference's.
   void judge(const capture::PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile,
              const enclosed::Profile* typical, HalfMode mode, const parallel::Executor& executor);
-  /// One that passes every case; "" where none does, or nothing was judged.
+  /// A null port that passes every case; "" if there is none, or nothing was judged.
   std::string passing() const { return judged_ && !passing_.empty() ? passing_.front() : ""; }
 
  private:

@@ -1,4 +1,4 @@
-// What the judgement of some invocations of a case by envelope comes to, and the sum of such parts.
+// Counts from judging some invocations of a case by envelope, and their sum.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@ namespace rainref::judge {
 
 /// Counts under one rounding of half stores.
 struct Part {
-  /// In OutputJudgement::map until settle_beyond(): outside what the coarsest device may do, where the profile bounds nothing.
+  /// In OutputJudgement::map until settle_beyond(): the profile has no bound, and the value is outside what the coarsest device may do.
   static constexpr std::uint8_t beyond_mark = 5;
 
-  /// Of nothing.
+  /// All counts 0.
   explicit Part(const capture::PassCase& c);
-  /// Adds all but the maps.
+  /// Adds everything but the maps.
   void add(const Part& other);
 
-  /// Whether much of what the profile leaves open is beyond every device.
+  /// True if a large share of the elements that the profile leaves open is beyond every device.
   bool is_gross() const;
-  /// The same if all that was not asked were open.
+  /// The same if all elements that were not tested were open.
   bool may_be_gross() const;
-  /// Lets what is beyond every device fail where there is much of it; else it stays a warning.
+  /// Makes elements beyond every device fail if there are many; else they stay a warning.
   void settle_beyond();
-  /// Gives the outputs their widths.
+  /// Sets the widths of the outputs.
   void summarize();
 
-  /// What fails only where there is much of it.
+  /// Counts that become failures only if there are many.
   struct Gross {
     std::vector<Failure> worst;
     Widths farthest;

@@ -1,4 +1,4 @@
-// Images turned, moved, or with other channels: what goes wrong between a port and its files.
+// Images flipped, moved or with other channels: common errors between a port and its files.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,12 @@ void each_texel(capture::Array& a, Change change) {
     for (std::size_t t = 0; t + n <= texels.size(); t += n) change(texels.data() + t);
   }
 }
-// Of an image with all its levels.
+// For an image with all its levels.
 void flip_rows(capture::Array& image);
 void flip_columns(capture::Array& image);
 void swap_channels(capture::Array& image, int a, int b);
 void copy_channel(capture::Array& image, int from, int to);
-/// Moves level 0 by whole texels; the edge is repeated.
+/// Moves level 0 by whole texels, repeating the edge.
 void shift(capture::Array& image, int dx, int dy);
 /// Exchanges rows and columns of the largest square at the origin of level 0.
 void transpose(capture::Array& image);

@@ -1,7 +1,7 @@
-// Which invocations of a port have the reference's bits, but for the sign of a zero: they need no envelope.
+// Finds the invocations of a port that have the reference's bits, up to the sign of a zero. They need no envelope.
 //
-// Every profile allows what the reference does, so each of its envelopes, in one alternative for all outputs together, holds the
-// reference's values, and the store's codes the code that the reference stores. What has those bits lies inside.
+// Every profile allows what the reference does. So each envelope holds the reference's values, in one alternative for all outputs together,
+// and the store's codes include the code that the reference stores.
 #pragma once
 
 #include <array>
@@ -18,21 +18,19 @@ namespace rainref::judge {
 
 class ReferenceBits {
  public:
-  /// `c.outputs` are the reference's. `port` as in judge_case, `modes` the roundings of half stores that are tried. What is given must
-  /// outlive it.
+  /// `c.outputs` are the reference's. `port` as in judge_case, `modes`: the roundings of half stores to try. The arguments must outlive it.
   ReferenceBits(const capture::PassCase& c, const capture::PassModel& model, const std::vector<capture::Array>& port,
                 const std::vector<Slot>& slots, const std::vector<HalfMode>& modes);
 
-  /// Whether an evaluation of the pass says what is stored of halves by the rounding of this place among the modes: where it rounds inside,
-  /// by the reference's own alone.
+  /// True if an evaluation of the pass gives the stored values under the rounding modes[mode]. If the pass rounds inside: only under the
+  /// reference's own rounding.
   bool has_reference(std::size_t mode) const;
-  /// Whether the port has for an invocation what the reference stores, by each of two roundings.
+  /// For each of two roundings: true if the port stored what the reference stores for an invocation.
   std::array<bool, 2> stores(int x, int y) const;
-  /// Computes what the reference stores by the rounding of this place, or with `every` by all that are tried.
+  /// Computes what the reference stores under the rounding modes[leading]; with `every`, under all roundings.
   void prepare(const parallel::Executor& executor, std::size_t leading, bool every);
-  /// Whether all that is stored for an invocation, free values too, has the reference's bits by the mode of this place, or by either
-  /// rounding where a mixture is asked for. False where the pass has no such reference: where it rounds inside, the reference's own
-  /// rounding alone has one.
+  /// True if all stored values of an invocation, free ones too, have the reference's bits under modes[mode], or under either rounding if
+  /// that is a mixture. False if there is no such reference: if the pass rounds inside, only the reference's own rounding has one.
   bool has(std::size_t mode, int x, int y) const;
 
  private:
@@ -44,7 +42,7 @@ class ReferenceBits {
   const std::vector<capture::Array>& port_;
   const std::vector<Slot>& slots_;
   const std::vector<HalfMode>& modes_;
-  std::array<std::vector<capture::Array>, 2> other_;  // by mode, where that is another rounding than the reference's own
+  std::array<std::vector<capture::Array>, 2> other_;  // by mode, if that is not the reference's own rounding
 };
 
 }  // namespace rainref::judge

@@ -1,4 +1,4 @@
-// What the reference gives for a case.
+// Computes the reference's outputs of a case.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace rainref::judge {
 
-/// The reference's outputs for a case: what the pack should hold, or that with halves stored by another rounding. Keyed
-/// records where the model knows them, in any order; what no model gives is as in the case.
+/// The expected outputs, or the same with halves stored by another rounding. Keyed records are in any order if the model computes them;
+/// outputs without a model are copied from the case.
 std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model,
                                               const parallel::Executor& executor, HalfMode mode = HalfMode::either);
 

@@ -1,7 +1,7 @@
-// The invocations whose envelopes are asked for what a report says of them: how wide they are, and how many bound nothing.
+// The invocations whose envelopes are computed for statistics in a report: widths, and shares without a bound.
 //
-// The run is cut into strata of equally many invocations, row by row, and one of each is drawn. So a total over the run is the strata's
-// length times the sample's, but for chance, and Hoeffding's inequality says how far chance takes it.
+// A run is divided row by row into strata of equally many invocations, and one of each is drawn. A total over the run is estimated as the
+// strata's length times the sample's total; Hoeffding's inequality bounds the error.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,17 @@
 
 namespace rainref::judge {
 
-/// Invocations of a pass that are asked at least, where it has so many: of all its runs together.
+/// Least number of invocations of a pass to compute, over all its runs, if it has that many.
 inline constexpr std::int64_t least_sample = 16384;
 
-/// Where so many sampled invocations fail under every rounding, the rest would say no more: the search for causes looks at no more.
+/// If this many sampled invocations fail under every rounding, the rest is not judged: the search for causes uses no more.
 inline constexpr std::int64_t enough_failing = 400;
 
-/// What a run is asked at least, of `least` in all runs: its share, but enough to tell whether half of its elements have a bound.
-/// `invocations`: of the run; `of`: of all runs together.
+/// Least number of invocations of a run, from `least` for all runs: its share, but enough to decide whether half of its elements have a
+/// bound. `invocations`: of the run; `of`: of all runs together.
 std::int64_t sample_of_run(std::int64_t least, std::int64_t invocations, std::int64_t of);
 
-/// Invocations of a run, as far as the sizes of its outputs tell.
+/// Number of invocations of a run, from the sizes of its outputs.
 template <class Outputs, class ArrayOf>
 std::int64_t invocations_of(const Outputs& outputs, const ArrayOf& array_of) {
   std::int64_t most = 0;
@@ -31,30 +31,30 @@ std::int64_t invocations_of(const Outputs& outputs, const ArrayOf& array_of) {
 
 class Sample {
  public:
-  /// At least `least` invocations of the run, drawn by its uniforms and expected outputs, so by nothing that a port says; all of them
-  /// where `least` is 0, or more than half as many as there are.
+  /// Draws at least `least` invocations. The draw depends on the run's uniforms and expected outputs, so not on the port. Takes all if
+  /// `least` is 0, or more than half of them.
   Sample(const capture::PassCase& c, const capture::PassModel& model, std::int64_t least);
 
   bool is_whole() const { return stride_ == 1; }
   bool has(int x, int y) const { return is_whole() || drawn(index(x, y) / stride_) == index(x, y); }
-  /// How many invocations one of the sample stands for.
+  /// Number of invocations that one of the sample represents.
   std::int64_t stride() const { return stride_; }
-  /// How many invocations it has.
+  /// Number of sampled invocations.
   std::int64_t size() const { return (count_ + stride_ - 1) / stride_; }
-  /// Calls visit(x, y) with each invocation of the sample, or with each `step`th.
+  /// Calls visit(x, y) for each sampled invocation, or for each `step`th.
   template <class Visit>
   void each(std::int64_t step, Visit visit) const {
     for (std::int64_t k = 0; k * stride_ < count_; k += step)
       if (const std::int64_t at = drawn(k); at < count_) visit(static_cast<int>(at % width_), static_cast<int>(at / width_));
   }
-  /// The same with those of some strata, `first` to `end` - 1; there are size() of them.
+  /// The same for the strata `first` to `end` - 1 of size().
   template <class Visit>
   void each_of(std::int64_t first, std::int64_t end, Visit visit) const {
     for (std::int64_t k = first; k < end; ++k)
       if (const std::int64_t at = drawn(k); at < count_) visit(static_cast<int>(at % width_), static_cast<int>(at / width_));
   }
-  /// stride() times what the sample counts, at most `values` of an invocation, lies on either side no farther from the count over all
-  /// invocations than this, but once in 2^40 cases. 0 of a whole sample.
+  /// Margin of error: stride() times the sample's count, of at most `values` for each invocation, differs from the true count by at most
+  /// this, except with probability 2^-40. 0 if the sample is complete.
   double margin(double values) const;
 
  private:

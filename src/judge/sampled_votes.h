@@ -1,4 +1,4 @@
-// How a pass that is not judged itself tells the rounding of stores to binary16: a few of its invocations are asked.
+// Tests a few invocations of a pass that is not judged itself for the rounding of half stores.
 #pragma once
 
 #include "judge/half_votes.h"
@@ -7,9 +7,9 @@
 
 namespace rainref::judge {
 
-/// What HalfVotes says of a pass, by some hundreds of invocations of a few of its runs; its counts are theirs. No modes where the pass
-/// tells nothing: it has no output of halves that an envelope judges, it rounds inside, or its runs cannot be judged. Equal counts where it
-/// fails by both. PassRuns::settle is not called.
+/// HalfVotes of a pass from some hundreds of invocations of a few of its runs; the counts are of these. No modes if the pass is not
+/// informative: no output of halves is judged by envelope, it rounds inside, or its runs cannot be judged. Equal counts if it fails under
+/// both. PassRuns::settle is not called.
 HalfVotes sampled_votes(PassTask task, const JudgeOptions& options);
 
 }  // namespace rainref::judge

@@ -1,5 +1,4 @@
-// Whether what a port's run took is what it should have taken: its inputs the outputs of the runs before it, its
-// uniforms this run's.
+// Checks the inputs of a port's run: they must be the outputs of the runs before it, and its uniforms must be this run's.
 #pragma once
 
 #include <functional>
@@ -13,25 +12,25 @@
 
 namespace rainref::judge {
 
-/// Every buffer that a port dumped, by hash: "puddle.shade/0001.0/in.hit".
+/// Hashes of all buffers that a port dumped: "puddle.shade/0001.0/in.hit".
 class DumpedContents {
  public:
   void add(const std::string& buffer, std::string hash) { hashes_[buffer] = std::move(hash); }
-  /// "" for a buffer that was not dumped.
+  /// Hash of a buffer; "" if it was not dumped.
   const std::string& hash(const std::string& buffer) const;
-  /// Buffers of this content, in the order of their names.
+  /// Buffers with this content, sorted by name.
   std::vector<std::string> with(const std::string& hash) const;
 
  private:
   std::map<std::string, std::string> hashes_;
 };
 
-/// Why an input is not the output that it should be, and what it is instead, if it is anything that was dumped.
-/// `input` and `output` are buffers of unlike content; `read` gives a buffer's values.
+/// Explains why an input is not the output that it should be, and names the dumped buffer that it equals, if any. `input` and `output` have
+/// different contents; `read` returns a buffer's values.
 std::string broken_link(const std::string& input, const std::string& output, const DumpedContents& contents,
                         const std::function<capture::Array(const std::string&)>& read);
 
-/// Sentences about many runs: one for each subject, with a count and the first example.
+/// Collects sentences of many runs: one for each subject, with a count and the first example.
 class Tally {
  public:
   void add(const std::string& subject, const std::string& example);
@@ -46,25 +45,25 @@ class Tally {
   std::vector<Entry> entries_;
 };
 
-/// What of the host's inputs and uniforms is not the scene's, and no failure.
+/// Differences of the host's inputs and uniforms from the scene that are not failures.
 struct HostNotes {
-  Tally rounded;   ///< as near as a host in float comes (host_values.h)
-  Tally foreign;   ///< forgiven: the host chose otherwise
-  Tally of_state;  ///< what hangs on the port's own state and nobody checks
+  Tally rounded;   ///< within float rounding (host_values.h)
+  Tally foreign;   ///< allowed: the host chose otherwise
+  Tally of_state;  ///< depends on the port's own state and is not checked
 };
-/// How a host is held to the plan.
+/// How a host is compared with the plan.
 struct HostRules {
-  bool is_foreign = false;                                ///< what it chose otherwise is noted
+  bool is_foreign = false;                                ///< its other choices are notes
   const capture::PassEvaluations* evaluations = nullptr;  ///< of the pass; null: none
 
   bool hangs_on_state(std::string_view name) const;
 };
 
-/// Why the uniforms of a run, which took `taken`, cannot be its own, or "": another time, a counter of another run, or, of a host that is
-/// not foreign, a number that the plan does not say.
+/// Explains why the uniforms of a run with inputs `taken` cannot be its own, or returns "": another time, another run's counter, or, unless
+/// the host is foreign, a number that differs from the plan.
 std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const capture::PassCase& taken, const HostRules& rules,
                            HostNotes& notes);
-/// Why an input of the run cannot be what the host gives, or "". `hash`: content_hash() of `given`.
+/// Explains why an input of the run cannot be the host's, or returns "". `hash`: content_hash() of `given`.
 std::string check_given(const ShadowPlan& plan, const PlannedRun& run, std::size_t input, const capture::Array& given,
                         const std::string& hash, const HostRules& rules, HostNotes& notes);
 

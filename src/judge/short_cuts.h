@@ -1,5 +1,5 @@
-// The ways to know that an invocation lies inside its envelopes without computing them, the quickest first: it has the reference's bits, or
-// those of a known device, or it lies in a part of them that the pass finds sooner.
+// Fast tests that an invocation is inside its envelopes without computing them, fastest first: it has the reference's bits, or those of a
+// known device, or it lies in a part of the envelopes that the pass finds faster.
 #pragma once
 
 #include <array>
@@ -16,29 +16,29 @@ namespace rainref::judge {
 
 class ShortCuts {
  public:
-  /// What is given must outlive it.
+  /// The arguments must outlive it.
   ShortCuts(const capture::PassCase& c, const capture::PassModel& model, const std::vector<capture::Array>& port,
             const JudgeOptions& options, const std::vector<Slot>& slots, const std::vector<HalfMode>& modes);
-  /// Finds the rounding of halves that most of the sample is stored by. Before all others.
+  /// Finds the rounding of halves that fits most of the sample. Call first.
   void find_rounding(const Sample& sample);
-  /// Computes what the rest is compared with, and finds a device that most of the sample comes from. Before lies_inside() and before any
+  /// Computes the data for the comparisons, and finds a device that fits most of the sample. Call before lies_inside() and before creating
   /// Work.
   void prepare(const Sample& sample);
-  /// How many of some hundreds of sampled invocations lie inside by a rounding of halves, as far as short cuts tell.
+  /// How many of some hundreds of sampled invocations the fast tests find inside under a rounding of halves.
   std::int64_t counted(std::size_t mode) const { return mode < counts_.size() ? counts_[mode] : 0; }
 
-  /// What a thread needs to ask; one after the other.
+  /// Scratch data of one thread.
   struct Work {
     explicit Work(const ShortCuts& of) {
       if (of.device_.device()) device.emplace(*of.device_.device());
     }
-    std::vector<char> is_held;  ///< of each rounding of halves: whether the invocation lies inside by it
+    std::vector<char> is_held;  ///< for each rounding of halves: true if the invocation lies inside under it
     Alternatives parts;
     std::vector<enclosed::CodeRange> ranges;
     std::optional<perturbed::Scope> device;
   };
-  /// Whether an invocation is known to lie inside, by the profile and by what known devices do: by the rounding that most have, or by each
-  /// that is tried. work.is_held says by which. `stored` holds what the port stored for it, if false comes back.
+  /// True if an invocation is known to be inside the profile and the known devices: under the rounding that most have, or under each one
+  /// that is tried. work.is_held says which. If false, `stored` holds the port's values.
   bool lies_inside(int x, int y, Stored& stored, Work& work) const;
 
  private:
@@ -46,7 +46,7 @@ class ShortCuts {
   bool has_reference_bits(int x, int y) const;
   void count(const Sample& sample);
   bool has_parts() const;
-  /// For each rounding, whether an invocation lies in a part of the envelopes of both profiles, into work.is_held.
+  /// Sets work.is_held for each rounding: true if an invocation lies in a part of the envelopes of both profiles.
   void find_in_part(int part, int x, int y, const Stored& stored, Work& work) const;
 
   const capture::PassCase& case_;
@@ -58,7 +58,7 @@ class ShortCuts {
   ReferenceBits bits_;
   KnownDevice device_;
   std::array<std::int64_t, 2> counts_{};
-  std::size_t leading_ = 0;  ///< what it leaves unasked is known to lie inside by this rounding, not by the other
+  std::size_t leading_ = 0;  ///< rounding under which skipped invocations are known to be inside, not necessarily under the other
 };
 
 }  // namespace rainref::judge

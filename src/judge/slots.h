@@ -1,4 +1,4 @@
-// Where the values of an invocation lie in the outputs of a case.
+// Locations of an invocation's values in the outputs of a case.
 #pragma once
 
 #include <string>
@@ -25,33 +25,33 @@ struct Slot {
   }
   const std::byte* at(const capture::Array& a, int x, int y) const { return a.levels[0].data() + offset(x, y); }
   std::int64_t code(const capture::Array& a, int x, int y) const { return enclosed::ordered_code(kind, at(a, x, y)); }
-  /// Whether two stored values have one code, below the largest of their format: beyond that a profile says what a store may do. The zeros
+  /// True if two stored values have one code, below the largest of their format; beyond it the profile says what a store may do. +0 and -0
   /// are one code.
   bool is_same(const std::byte* a, const std::byte* b) const;
 };
 std::vector<Slot> slots_of(const capture::PassCase& c);
-/// The same with the ranges that the model knows better.
+/// The same with the model's own ranges where it has them.
 std::vector<Slot> slots_of(const capture::PassCase& c, const capture::PassModel& model);
 
-/// Whether an output is judged value by value where it stands: an image by envelope, or a keyed list whose records have no id, so that
-/// their place is the key. Such a list is a row of texels.
+/// True if an output is judged value by value at its place: an image by envelope, or a keyed list whose records have no id, so that the
+/// index is the key. Such a list is a row of texels.
 bool is_placed(const capture::CaseOutput& output);
 
-/// Why a list whose records stand at their places cannot be judged, or "": "out.drops: expected 10 records, found 0". `stored`: in the
+/// Explains why a list of records without ids cannot be judged, or returns "": "out.drops: expected 10 records, found 0". `stored`: in the
 /// order of c.outputs.
 std::string length_fault(const capture::PassCase& c, const std::vector<capture::Array>& stored);
 
-/// A stored value as a shader reads it.
+/// Converts a stored value as a shader reads it.
 float stored_value(const Slot& slot, const std::byte* at);
-/// The middle of the values that are stored so: a store toward zero leaves what lies up to a step farther from it.
+/// The middle of the values that are stored as this code: a store toward zero maps values up to one step farther from zero to it.
 float middle_value(const Slot& slot, const std::byte* at, HalfMode mode);
-/// Whether a stored float is not a number.
+/// True if a stored float is NaN.
 bool is_nan(FormatInfo::Kind kind, const std::byte* at);
-/// How a slot is stored where a device rounds its halves like this; `either` is the reference's own way.
+/// Rounding of a slot's store on a device with this rounding of halves; `either` is the reference's own.
 Rounding rounding_of(const Slot& slot, HalfMode mode);
-/// Whether every slot is stored so as the reference stores it.
+/// True if every slot is stored with the reference's rounding.
 bool is_own_rounding(const std::vector<Slot>& slots, HalfMode mode);
-/// Stores as the reference does.
+/// Stores a value as the reference does.
 void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at);
 
 }  // namespace rainref::judge

@@ -1,4 +1,4 @@
-// What a port stored for an invocation, and what the reference does.
+// Values stored for an invocation, by a port and by the reference.
 #pragma once
 
 #include <array>
@@ -13,17 +13,16 @@
 
 namespace rainref::judge {
 
-/// The range of a value that no device can reproduce; nothing for others. Under exact rules a march has one number of
-/// steps, too.
+/// The range of a value that no device can reproduce; nothing for others. Under exact rules the step count of a march is reproducible too.
 std::optional<std::array<double, 2>> free_range(const capture::PassModel& model, std::size_t value, const enclosed::Profile& profile);
 
-/// Of one invocation, value by value.
+/// The values of one invocation.
 struct Stored {
   std::vector<std::int64_t> got, expected;
   std::vector<float> got_values, expected_values;
-  std::vector<char> same;        ///< the reference's bits: -0 is not +0
+  std::vector<char> same;        ///< it has the reference's bits: -0 is not +0
   std::vector<char> free;        ///< declared as not reproducible
-  std::vector<char> impossible;  ///< not a number, or free and outside what it may be
+  std::vector<char> impossible;  ///< NaN, or free and out of its range
   bool any_impossible = false;
 
   /// `port` holds the case's outputs, in their order.
@@ -31,9 +30,9 @@ struct Stored {
             const std::vector<capture::Array>& port, int x, int y);
 };
 
-/// Whether an alternative of these codes holds a value: exact rules compare bits.
+/// True if an alternative with these codes holds a value. Exact rules compare bits.
 bool holds(const enclosed::Profile& profile, const Stored& stored, std::size_t v, const enclosed::CodeRange& range);
-/// Whether it holds all of them.
+/// True if it holds all values.
 bool inside(const enclosed::Profile& profile, const std::vector<enclosed::CodeRange>& ranges, const Stored& stored);
 
 }  // namespace rainref::judge

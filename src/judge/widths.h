@@ -1,4 +1,4 @@
-// How wide the envelopes of an output are, quantity by quantity, in codes and in the quantity's unit.
+// Widths of the envelopes of an output, for each quantity, in codes and in the quantity's unit.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +9,25 @@
 
 namespace rainref::judge {
 
-/// Codes accepted besides the first; of a vacuous range 4e9.
+/// Number of accepted codes besides the first; 4e9 for a vacuous range.
 std::uint32_t width_of(const enclosed::CodeRange& range);
-/// What this share of the widths stays below; 0 of none. Reorders them.
+/// The quantile of the widths at `share`; 0 if there are none. Reorders them.
 double quantile(std::vector<std::uint32_t>& widths, double share);
 
-/// Counts the elements of each quantity, and the width of each envelope: codes accepted besides the first, of which a vacuous
-/// one counts as 4e9; and the extent of its values.
+/// Counts the elements of each quantity and their widths: accepted codes besides the first (4e9 if vacuous), and the extent of the values.
 class Widths {
  public:
   void add(int quantity, const enclosed::CodeRange& range, double width, bool is_vacuous, bool is_loose);
-  /// An element with too many alternatives to bound.
+  /// Adds an element with too many alternatives to bound.
   void add_unbounded(int quantity);
-  /// One beside the sample, whose width does not count.
+  /// Adds an element outside the sample, whose width does not count.
   void add_unsampled(int quantity);
-  /// One that no bound is asked for.
+  /// Adds an element that needs no bound.
   void add_free(int quantity);
-  /// One that was counted already is outside, by so much in its unit.
+  /// Adds the distance of an outside element that was already counted, in its unit.
   void add_failing(int quantity, double distance);
   void append(const Widths& more);
-  /// The median and what 99 % stay below, of all and of each quantity, whose names are left alone; nothing where there are
-  /// none.
+  /// Sets the median and the 99 % quantile, of all and of each quantity, and keeps the names; nothing if there are no widths.
   void summarize(OutputJudgement& out);
 
  private:
