@@ -1,4 +1,4 @@
-// A buffer outside the pass that computed it: what packs, captures and dumps of ports are made of.
+// A buffer outside the pass that computed it; packs, captures and dumps of ports consist of these.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace rainref::capture {
 
-/// Images: levels[l] holds the canonical bytes of mip level l (rows from row 0 = v 0, no padding, little endian) of
-/// max(1, width >> l) x max(1, height >> l) texels. Records: levels[0] holds `width` records of `record.size` bytes,
-/// and height is 1; format is that of texels like the records (record_format.h), and means nothing where there is none.
+/// Images: levels[l] holds the canonical bytes of mip level l (rows from row 0 = v 0, no padding, little endian) of max(1, width >> l) x
+/// max(1, height >> l) texels. Records: levels[0] holds `width` records of `record.size` bytes, and height is 1; format is the texel format
+/// with the same layout (record_format.h), and meaningless if there is none.
 struct Array {
   bool is_records = false;
   Format format = Format::r8;
@@ -23,7 +23,7 @@ struct Array {
 
   int level_width(int level) const { return width >> level > 1 ? width >> level : 1; }
   int level_height(int level) const { return height >> level > 1 ? height >> level : 1; }
-  /// Bytes of a texel or of a record.
+  /// Bytes of a texel or record.
   std::size_t element_bytes() const { return is_records ? record.size : static_cast<std::size_t>(info(format).texel_bytes()); }
 };
 

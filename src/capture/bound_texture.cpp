@@ -15,7 +15,7 @@
 namespace rainref::capture {
 namespace {
 
-/// Adds the decoded values of a level.
+/// Appends the decoded values of a level.
 template <class Stored, class Decode>
 void decode_all(const std::vector<std::byte>& bytes, std::vector<float>& out, Decode decode) {
   const std::size_t before = out.size(), count = bytes.size() / sizeof(Stored);
@@ -68,13 +68,13 @@ std::vector<float> taken_of(const Array& a, int levels, int first, int taken) {
   return texels;
 }
 
-// Decoded texels, with the bytes that they are made of: as long as these are held nobody writes them.
+// Decoded texels and the bytes that they come from: while these are held, nobody can write them.
 struct Decoded {
   std::vector<float> texels;
   std::vector<Bytes> of;
 };
 using Texels = std::shared_ptr<const Decoded>;
-// Known as long as somebody holds them, by the first level.
+// By the first level; an entry is valid while somebody holds it.
 using Known = std::map<std::tuple<const std::byte*, Format, int, int, int>, std::weak_ptr<const Decoded>>;
 Texels shared_texels(const Array& a, int levels, int first, int taken) {
   const auto made = [&] {
@@ -99,7 +99,7 @@ Texels shared_texels(const Array& a, int levels, int first, int taken) {
   known[key] = texels;
   return texels;
 }
-/// The values alone, which hold the rest.
+/// A pointer to the values that keeps the whole alive.
 std::shared_ptr<const std::vector<float>> values_of(const Texels& texels) { return {texels, &texels->texels}; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Captured images as passes take them: decoded to floats.
+// Captured images decoded to floats for passes.
 #pragma once
 
 #include <cstring>
@@ -11,15 +11,15 @@
 
 namespace rainref::capture {
 
-/// The values of a level, row-major, channels interleaved: halves and floats as they are, unorm8 code / 255, srgb8
-/// linear, both correctly rounded; uint32 rounded to float.
+/// Decodes a level, row-major, channels interleaved: halves and floats exactly; unorm8 as code / 255 and srgb8 as linear, both correctly
+/// rounded; uint32 rounded to float.
 std::vector<float> decoded(const Array& image, int level = 0);
 
-/// The same of level 0. Copies of a large one share its values: a search for causes binds one case hundreds of times.
+/// Decodes level 0. Copies of a large image share the values: a search for causes binds one case hundreds of times.
 std::shared_ptr<const std::vector<float>> shared_decoded(const Array& image);
 
-/// A Texture over the decoded values of an input, with all its levels, address rules and border. Some channels of it,
-/// `count` from `first` on, or all (0). Copies share large ones as by shared_decoded().
+/// A Texture of the decoded values of an input, with all levels, address rules and border. Has `count` channels from `first` on, or all
+/// (0). Copies share large images like shared_decoded().
 class BoundTexture {
  public:
   BoundTexture() = default;
@@ -31,11 +31,11 @@ class BoundTexture {
   Texture view_;
 };
 
-/// The input of this name; throws Error(port_files) when the case lacks it, or when it is no image (or no records).
+/// The input of this name; throws Error(port_files) if the case lacks it, or if it is not an image (or not records).
 const CaseInput& image_input(const PassCase& c, std::string_view name);
 const CaseInput& record_input(const PassCase& c, std::string_view name);
 
-/// The case's uniform block as its struct; throws Error(port_files) when the size differs.
+/// Copies the case's uniform block to its struct; throws Error(port_files) if the size differs.
 void copy_uniforms(const PassCase& c, void* to, std::size_t bytes);
 template <class Uniforms>
 Uniforms uniforms_of(const PassCase& c) {
@@ -43,7 +43,7 @@ Uniforms uniforms_of(const PassCase& c) {
   copy_uniforms(c, &u, sizeof u);
   return u;
 }
-/// Records as the structs they are; throws like copy_uniforms.
+/// Copies records to their structs; throws like copy_uniforms.
 template <class Record>
 std::vector<Record> records_of(const CaseInput& input);
 const std::byte* record_bytes(const CaseInput& input, std::size_t record_size);

@@ -1,4 +1,4 @@
-// Bytes that copies share.
+// Bytes that copies share until they are written.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace rainref::capture {
 
-/// The bytes of a level. Copies share them until one copy is written: a search for causes copies a case for each mistake that it tries, and
-/// writes one buffer of it. To read is safe on many threads. edit() is for one thread, before others begin to write what it returns.
+/// The bytes of a level. Copies share them until one is written: a search for causes copies a case for each mistake and writes one of its
+/// buffers. Reading is thread-safe. edit() must be called by one thread, before others write through its result.
 class Bytes {
  public:
   using value_type = std::byte;
   using const_iterator = std::vector<std::byte>::const_iterator;
 
   Bytes() = default;
-  /// So many zeros.
+  /// `count` zeros.
   explicit Bytes(std::size_t count) : Bytes(std::vector<std::byte>(count)) {}
   Bytes(std::vector<std::byte> bytes) : bytes_(std::make_shared<std::vector<std::byte>>(std::move(bytes))) {}
   template <class Iterator>
@@ -31,13 +31,13 @@ class Bytes {
   const_iterator end() const { return all().end(); }
   const std::byte& operator[](std::size_t at) const { return all()[at]; }
 
-  /// The bytes to be written, of this copy alone.
+  /// Returns the bytes for writing, owned by this copy alone.
   std::vector<std::byte>& edit() {
     if (!bytes_ || bytes_.use_count() > 1) bytes_ = std::make_shared<std::vector<std::byte>>(all());
     return *bytes_;
   }
 
-  /// Whether two copies are the same bytes, without a look at them.
+  /// True if two copies share their bytes; does not compare them.
   bool shares(const Bytes& other) const { return bytes_ == other.bytes_; }
   friend bool operator==(const Bytes& a, const Bytes& b) { return a.shares(b) || a.all() == b.all(); }
 

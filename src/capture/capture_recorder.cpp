@@ -73,7 +73,7 @@ Array array_of(const Texture& texture) {
   return array;
 }
 
-/// The same rgba32f image, whose values are halves, as rgba16f.
+/// Converts an rgba32f image whose values are halves to rgba16f.
 Array as_halves(const Array& floats) {
   Array halves = floats;
   halves.format = Format::rgba16f;
@@ -123,7 +123,7 @@ void CaptureRecorder::before(const PassStart& start) {
     to.linear = from.filter == Filter::linear;
     if (const auto* texture = std::get_if<const Texture*>(&from.content)) {
       to.array = array_of(**texture);
-      // A texture of halves is handed on as halves, which a device filters as such.
+      // A half texture is captured as halves, so that a device filters halves.
       if (effect_.buffer(from.name, variant_).format == "rgba16f") to.array = as_halves(to.array);
       to.address_u = (*texture)->address_u;
       to.address_v = (*texture)->address_v;
@@ -154,7 +154,7 @@ void CaptureRecorder::pass(const PassCall& call) {
   for (const PassOutput& output : call.outputs) {
     const bool is_records = std::holds_alternative<RecordView>(output.content);
     const BufferInfo& buffer = effect_.buffer(output.name, variant_);
-    // An image has no keys.
+    // An image has no ids.
     const Judge judge = declared->judge == Judge::keyed && !is_records ? Judge::envelope : declared->judge;
     open_->outputs.push_back({std::string(output.name), array_of(output.content, record_of(output.name, is_records)), rounding_, judge,
                               buffer.range, buffer.unit, buffer.colour_space});

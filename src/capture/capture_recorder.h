@@ -1,4 +1,4 @@
-// Runs of passes as cases: what they took and what they gave, copied while it was there.
+// Records runs of passes as cases: their inputs and outputs, copied while they exist.
 #pragma once
 
 #include <algorithm>
@@ -12,22 +12,22 @@
 
 namespace rainref::capture {
 
-/// The array of a buffer, of records or of a texture with its levels. `record` is the layout of records.
+/// Copies a buffer of records or a texture with its levels. `record` is the layout of records.
 Array array_of(const std::variant<BufferView, RecordView>& content, const scene::UniformBlock& record);
 Array array_of(const Texture& texture);
 
-/// Makes a case of every run that is wanted and hands it over, in the order of execution.
+/// Makes a case of every wanted run and passes it on, in the order of execution.
 class CaptureRecorder : public Recorder {
  public:
-  /// Whether a run is wanted.
+  /// Returns true if a run is wanted.
   using Wanted = std::function<bool(int frame, std::string_view pass)>;
   using Sink = std::function<void(PassCase)>;
-  /// `effect` must outlive the recorder. Without inputs a case holds uniforms and outputs only.
+  /// `effect` must outlive the recorder. Without inputs, a case holds uniforms and outputs only.
   CaptureRecorder(const EffectInfo& effect, std::string variant, bool with_inputs, Wanted wanted, Sink sink);
 
   bool reads(int frame, std::string_view pass) const override { return wanted_(frame, pass); }
   void before(const PassStart& start) override;
-  /// Throws Error(internal) for a run whose start was not recorded, and for a buffer that the effect does not declare.
+  /// Throws Error(internal) for a run whose start was not recorded, or a buffer that the effect does not declare.
   void pass(const PassCall& call) override;
 
  private:
@@ -42,7 +42,7 @@ class CaptureRecorder : public Recorder {
   const scene::UniformBlock& record_of(std::string_view buffer, bool is_records) const;
 };
 
-/// Tells several recorders, which must outlive it.
+/// Forwards to several recorders, which must outlive it.
 class RecorderList : public Recorder {
  public:
   explicit RecorderList(std::vector<Recorder*> all) : all_(std::move(all)) {}

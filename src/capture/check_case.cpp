@@ -32,7 +32,7 @@ class CaseCheck {
       refuse("uniforms.bin", fmt::format("{} bytes", size), fmt::format("{}", c_.uniforms.size()));
     const std::vector<std::string> writes = effect_.writes(pass, c_.variant);
     for (std::size_t o = 0; o < c_.outputs.size(); ++o) check_output(pass, writes, o);
-    // Models give values by the places of outputs.
+    // Models return values in the order of the outputs.
     std::vector<std::string> found;
     for (const CaseOutput& output : c_.outputs) found.push_back(output.name);
     if (found != writes)
@@ -92,8 +92,8 @@ class CaseCheck {
       refuse(what, fmt::format("{} as out.{} has", shape(first), first_image_->name), shape(a));
   }
 
-  /// The format that the buffer's declaration names, those that its scene key offers, or records. What is looked up by
-  /// coordinates may come as floats of as many channels: textures are captured so.
+  /// Accepts the format in the buffer's declaration, those of its scene key, or records. An input that is looked up by coordinates may be
+  /// floats with the same number of channels, because textures are captured that way.
   void check_type(const std::string& what, const std::string& buffer_name, const Array& a, bool is_exact) {
     const BufferInfo& buffer = effect_.buffer(buffer_name, c_.variant);
     if (buffer.format == "records") {
@@ -125,7 +125,7 @@ class CaseCheck {
   std::span<const scene::Parameter> parameters_;
   const PassCase& c_;
   const CaseOutput* first_image_ = nullptr;
-  std::vector<std::pair<std::string, Format>> chosen_;  ///< scene keys and what they were set to
+  std::vector<std::pair<std::string, Format>> chosen_;  ///< scene keys and their formats
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Whether a captured case is one that its pass, as this build declares it, can be evaluated on. Packs and dumps come from
-// anywhere, and everything behind this check trusts what it let through.
+// Checks that a captured case fits its pass as this build declares it. Packs and dumps may come from anyone; all later code relies on this
+// check.
 #pragma once
 
 #include <span>
@@ -10,17 +10,17 @@
 
 namespace rainref::capture {
 
-/// Checks what can be said without the values: pass and variant, the uniform block's size, each buffer's name, format,
-/// record layout and size, and how outputs are judged. An input that is loaded texel by texel has the outputs' size, all
-/// image outputs of a pass have one, and buffers whose format one scene key chooses have one format. That an input is
-/// there at all the pass's model asks. `parameters` are the effect's scene keys.
+/// Checks everything but the values: pass and variant, the uniform block's size, each buffer's name, format, record layout and size, and
+/// the way outputs are judged. An input that is loaded texel by texel must have the outputs' size. All image outputs of a pass must have
+/// one size, and buffers whose format one scene key selects must have one format. The pass's model checks that inputs exist. `parameters`
+/// are the effect's scene keys.
 /// Throws Error(port_files): "puddle.display/0011.0: in.colour: expected 35x21 as out.picture has, found 71x43".
 void check_case(const EffectInfo& effect, std::span<const scene::Parameter> parameters, const PassCase& c);
 
-/// Why nothing can be computed with the case's uniforms, or "": "uniform step is 200, expected 1 to 8". For a case that
-/// check_case accepts, like the next.
+/// Explains why nothing can be computed from the case's uniforms, or returns "": "uniform step is 200, expected 1 to 8". This function and
+/// the next need a case that check_case accepts.
 std::string uniform_fault(const EffectInfo& effect, const PassCase& c);
-/// The same of its input records, whose floats are finite numbers: "in.drops: record 3: x is nan, expected a finite number".
+/// The same for its input records, whose floats must be finite: "in.drops: record 3: x is nan, expected a finite number".
 std::string record_fault(const PassCase& c);
 
 }  // namespace rainref::capture

@@ -38,7 +38,7 @@ std::string channel_text(const std::byte* at, FormatInfo::Kind kind) {
   return "";
 }
 
-// One number of an element: a channel, a component of a record's member, or padding.
+// One scalar of an element: a channel, a component of a record's member, or padding.
 struct Part {
   std::string name;
   std::size_t offset, bytes;

@@ -8,7 +8,7 @@ namespace rainref::capture {
 namespace {
 
 void add_buffer(Hasher& hasher, const BufferView& buffer) {
-  if (buffer.parts.size() == 1 && buffer.parts.front()->format() == buffer.format) {  // its rows as they lie
+  if (buffer.parts.size() == 1 && buffer.parts.front()->format() == buffer.format) {  // stored rows are used directly
     for (int y = 0; y < buffer.height(); ++y) hasher.add(std::span(buffer.parts.front()->row_bytes(y), buffer.row_bytes()));
     return;
   }

@@ -1,4 +1,4 @@
-// Hashes of what passes write.
+// Hashes of the outputs of passes.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace rainref::capture {
 /// XXH3-128 of the canonical bytes: rows top down without padding.
 Hash128 hash_of(const BufferView& buffer);
 
-/// "1 wave_step wave 0123...": one line for each frame, pass and buffer. Substeps of a frame run into one hash.
+/// "1 wave_step wave 0123...": one line for each frame, pass and buffer. The substeps of a frame share one hash.
 struct HashLine {
   int frame;
   std::string pass, buffer;
@@ -22,17 +22,17 @@ struct HashLine {
   std::string text() const;
 };
 
-/// Hashes every output of every pass, and adds up the passes' times.
+/// Hashes every output of every pass, and sums the passes' times.
 class HashRecorder : public Recorder {
  public:
   explicit HashRecorder(bool hashing = true) : hashing_(hashing) {}
-  /// With hashing off only the times are kept.
+  /// If off, only the times are recorded.
   void set_hashing(bool on) { hashing_ = on; }
   bool reads(int, std::string_view) const override { return hashing_; }
   void pass(const PassCall& call) override;
-  /// The lines of the frame so far, in the order of the passes, which are then forgotten; they also enter the scene's hash.
+  /// Returns the lines of the frame so far, in the order of the passes, removes them, and adds them to the scene's hash.
   std::vector<HashLine> take_lines();
-  /// Hash of all lines taken so far, each ended by a newline.
+  /// Hash of all lines taken so far, each with a newline at its end.
   Hash128 scene_hash() const { return scene_.finish(); }
 
   struct Time {
@@ -41,7 +41,7 @@ class HashRecorder : public Recorder {
     int calls = 0;
   };
   const std::vector<Time>& times() const { return times_; }
-  /// Those of the part of a run before, to which these are added.
+  /// Sets the times of an earlier part of the run, to which later ones are added.
   void begin_with(std::vector<Time> times) { times_ = std::move(times); }
 
  private:

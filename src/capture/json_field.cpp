@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// A long value is cut: a message is one line.
+// Shortens a long value, because a message is one line.
 std::string shown(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "an array";
@@ -23,7 +23,7 @@ std::string shown(const Json& value) {
   return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
-constexpr std::size_t longest_word = 80;  // that anybody may have meant as one of ours
+constexpr std::size_t longest_word = 80;  // longer words get no suggestion
 
 }  // namespace
 

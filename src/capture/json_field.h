@@ -1,4 +1,4 @@
-// Values of a JSON file that someone else may have written, checked one by one.
+// Values of a JSON file that is not trusted, checked one by one.
 #pragma once
 
 #include <cstddef>
@@ -14,41 +14,41 @@
 
 namespace rainref::capture {
 
-/// A value and where it stands. Whatever is not as asked is Error(port_files): "FILE: cases[3].width: expected a whole
-/// number from 1 to 65536, found -1".
+/// A value and its location. Throws Error(port_files) for any unexpected value: "FILE: cases[3].width: expected a whole number from 1 to
+/// 65536, found -1".
 class JsonField {
  public:
   JsonField(const nlohmann::ordered_json& value, std::string file, std::string path = "")
       : value_(value), file_(std::move(file)), path_(std::move(path)) {}
 
-  /// A member that must be there.
+  /// Returns a required member.
   JsonField operator[](std::string_view key) const;
   bool has(std::string_view key) const;
-  /// Null, or a member that is not there.
+  /// True if the member is null or missing.
   bool is_null(std::string_view key) const;
   std::vector<JsonField> elements() const;
-  /// Members of an object, in order.
+  /// Returns the members of an object, in order.
   std::vector<std::pair<std::string, JsonField>> members() const;
-  /// Refuses an object with a member that is not among these, naming the nearest one.
+  /// Throws if the object has a member with another key, and names the nearest key.
   void require_known(std::span<const std::string> keys) const;
 
   bool is_number() const;
   std::string text() const;
   bool boolean() const;
-  /// A whole number of 0 or more.
+  /// A non-negative integer.
   std::size_t count() const;
   std::int64_t whole(std::int64_t low, std::int64_t high) const;
   double number() const;
   std::vector<std::string> texts() const;
-  /// What to say of a text that is none of the names: "; did you mean 'x'?", or "" where nothing is near.
+  /// Returns the hint for an unknown name: "; did you mean 'x'?", or "" if no name is near.
   using Hint = std::function<std::string(const std::string& text)>;
-  /// The index of the text among these names. Without a hint, or where it says nothing, the nearest name is suggested.
+  /// Returns the index of the text among these names. Without a hint, or if it is "", the error suggests the nearest name.
   int one_of(std::span<const std::string> names, const Hint& hint = {}) const;
-  /// The value as JSON.
+  /// Returns the value as JSON.
   std::string dump() const;
 
   [[noreturn]] void fail(const std::string& expected) const;
-  /// An error that is about the value but no matter of its type.
+  /// Throws an error about the value that does not concern its type.
   [[noreturn]] void refuse(const std::string& message) const;
 
  private:

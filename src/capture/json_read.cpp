@@ -13,7 +13,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// "line 3, column 7: unexpected ','; expected ..." out of the library's message, which says more about itself.
+/// Extracts "line 3, column 7: unexpected ','; expected ..." from the library's longer message.
 std::string json_reason(std::string text) {
   if (const std::size_t at = text.find("parse error at "); at != std::string::npos) text.erase(0, at + 15);
   if (const std::size_t at = text.find("syntax error while parsing"); at != std::string::npos) {
@@ -24,7 +24,8 @@ std::string json_reason(std::string text) {
 
 }  // namespace
 
-// The library keeps one of several equal keys without a word, and takes any depth: what walks the result then runs out of stack.
+// The library silently keeps one of several equal keys, and accepts any depth, which would overflow the stack of code that walks the
+// result.
 OrderedJson parse_json(std::string_view text, const std::string& name, const JsonLimits& limits) {
   const auto refuse = [&](const std::string& why) { throw Error(limits.code, fmt::format("{}: {}", name, why)); };
   if (text.size() > limits.bytes) refuse(fmt::format("{} bytes; expected at most {}", text.size(), limits.bytes));

@@ -1,4 +1,4 @@
-// JSON that someone else may have written. Its size and its depth are looked at before anything is made of it.
+// Reads JSON that is not trusted. Size and depth are checked before it is parsed.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace rainref::capture {
 
-/// What a document may be, and the exit code of one that is more, or none.
+/// Limits of a document, and the exit code if it exceeds them or is not JSON.
 struct JsonLimits {
   std::uint64_t bytes;
-  int depth;  ///< objects and lists that a value may lie in
+  int depth;  ///< nesting of objects and lists
   ExitCode code = ExitCode::port_files;
 };
-/// Of what people write by hand: port.json, sidecars, a failure of a sweep.
+/// For files written by hand: port.json, sidecars, the error file of a sweep.
 inline constexpr JsonLimits small_json{std::uint64_t{1} << 20, 8};
-/// Of what names some files a line: manifests, records of cells, notes of states.
+/// For files that list other files: manifests, records of cells, notes of states.
 inline constexpr JsonLimits large_json{std::uint64_t{256} << 20, 16};
 
-/// The value that a text is. `name` starts every message. Throws Error(limits.code) for a text that is longer, nests deeper, repeats a key
-/// of an object, or is no JSON (with line and column).
+/// Parses a text. `name` starts every message. Throws Error(limits.code) for a text that is too long, is nested too deeply, repeats a key
+/// of an object, or is not JSON (with line and column).
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& name, const JsonLimits& limits);
-/// The same of a file. A longer one is refused before it is read. Throws Error(io) where it cannot be read.
+/// Parses a file. Rejects a file that is too long before reading it. Throws Error(io) if it cannot be read.
 nlohmann::ordered_json read_json(const std::filesystem::path& file, const std::string& name, const JsonLimits& limits);
 
 }  // namespace rainref::capture

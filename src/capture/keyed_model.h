@@ -1,4 +1,4 @@
-// A pass whose output is a list of records with ids, read as enclosures: what conformance judges such a list by.
+// The model of a pass whose output is a list of records with ids, evaluated with enclosures, for judging such a list.
 #pragma once
 
 #include <cstddef>
@@ -11,36 +11,36 @@
 
 namespace rainref::capture {
 
-/// What one alternative says of one id.
+/// The record of one id in one alternative.
 struct KeyedRecord {
   std::uint32_t id = 0;
-  bool lives = true;                        ///< false: the list has no record of this id; the fields mean nothing
-  std::vector<enclosed::Enclosure> floats;  ///< of each float of the record, in the order of declaration, padding left out
-  std::vector<std::uint32_t> words;         ///< bits of each other integer, likewise, the id left out
+  bool lives = true;                        ///< false: the list has no record of this id, and the fields are meaningless
+  std::vector<enclosed::Enclosure> floats;  ///< of each float of the record, in the order of declaration, without padding
+  std::vector<std::uint32_t> words;         ///< bits of the other integers in order, without the id
 };
 
-/// The least and the most that a float member of a record ordinarily is, each of its components, in the member's unit.
-/// Beyond it a value counts by its own size.
+/// The usual minimum and maximum of a float member's components, in the member's unit. Outside, a value is measured relative to its own
+/// size.
 struct FieldRange {
   std::string_view member;
   double low, high;
 };
 
-/// Groups of records that share decisions: a drop that another one captures is in the group of its absorbing drop, so that the
-/// two agree on what happened. Most groups hold one id. Evaluation is thread-safe.
+/// Groups of records that share decisions: a drop that another one captures is in the group of the drop that absorbs it, so that both agree
+/// on the result. Most groups hold one id. Evaluation is thread-safe.
 class KeyedModel {
  public:
   virtual ~KeyedModel() = default;
   virtual int groups() const = 0;
-  /// Of every float member: what the widths of its envelopes are compared with.
+  /// The range of every float member, to which the widths of its envelopes are compared.
   virtual const std::vector<FieldRange>& ranges() const = 0;
-  /// Appends a record for every id that the group may give, under the profile and the enumeration in force; the same ids in
-  /// every alternative. No id is in two groups.
+  /// Appends a record for every id that the group may produce, under the active profile and enumeration; the same ids in every alternative.
+  /// No id is in two groups.
   virtual void enclose(int group, std::vector<KeyedRecord>& out) const = 0;
-  /// As enclose(), of every rearrangement that the profile in force allows. False where there is no such evaluation.
+  /// Like enclose(), for every rearrangement that the active profile allows. False if there is no such evaluation.
   virtual bool rearrange(int, std::vector<KeyedRecord>&) const { return false; }
-  /// The bytes of the whole list, in any order: what the reference gives, and what Perturbeds give under the behaviour in
-  /// force (perturbed.h). Nothing where the model cannot say.
+  /// The bytes of the whole list, in any order: the reference's, or those of Perturbed under the active behaviour (perturbed.h). Nothing if
+  /// the model cannot compute it.
   virtual std::optional<std::vector<std::byte>> reference() const { return std::nullopt; }
   virtual std::optional<std::vector<std::byte>> perturbed() const { return std::nullopt; }
 };

@@ -123,7 +123,7 @@ PackInput read_input(const JsonField& from, const Records& records) {
   return input;
 }
 
-/// Whether records have a key: an id, or, of those that are nothing but floats, their place in the list.
+/// True if records have a key: an id, or the index in the list if they consist of floats only.
 bool is_keyed_record(const Array& shape) {
   const auto& members = shape.record.members;
   return shape.is_records && (record_format(shape.record) || std::any_of(members.begin(), members.end(), [](const scene::Member& m) {
@@ -153,7 +153,7 @@ std::uint32_t read_bits(const JsonField& field) {
   return *whole_from<std::uint32_t>(std::string_view(bits).substr(2), 16);
 }
 
-/// The value that stands beside the bits is for people, who must not be told another one. Null stands for what JSON cannot hold.
+/// The value beside the bits is for people, so it must agree with them. Null stands for a value that JSON cannot represent.
 void require_value(const JsonField& value, scene::Scalar scalar, std::uint32_t bits) {
   bool is_same = false;
   if (scalar == scene::Scalar::float32) {

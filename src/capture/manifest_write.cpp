@@ -25,7 +25,7 @@ Json graph_json(const EffectInfo& effect, const std::string& variant) {
       Json edge{{"pass", pass.name}, {"input", read.buffer}, {"from", read.from.empty() ? "host" : read.from}};
       if (!read.from.empty()) edge["run"] = read.previous ? "previous" : "this";
       edges.push_back(edge);
-      // What a pass reads of its own run before it cannot be written in place.
+      // A buffer that a pass reads from its own previous run cannot be written in place.
       if (read.previous && read.from == pass.name) ping_pong.push_back({{"pass", pass.name}, {"buffer", read.buffer}});
     }
   }
@@ -46,7 +46,7 @@ Json pass_json(const EffectInfo& effect, const PassInfo& pass, const std::string
           {"independence", pass.independence}};
 }
 
-// A 4-byte scalar as value and as bits.
+// A 4-byte scalar as a value and as bits.
 std::pair<Json, Json> scalar_json(const std::byte* at, scene::Scalar scalar) {
   std::uint32_t bits;
   std::memcpy(&bits, at, sizeof bits);
@@ -81,7 +81,7 @@ Json uniforms_json(const scene::UniformBlock& block, const std::vector<std::byte
   return out;
 }
 
-// What inputs and outputs share.
+// Keys that inputs and outputs share.
 Json storage_json(const std::string& name, const Array& array, const BufferInfo& buffer, const std::vector<PackFile>& files) {
   Json out{{"name", name}};
   put_file(out, files.front());
@@ -115,7 +115,7 @@ Json storage_json(const std::string& name, const Array& array, const BufferInfo&
   return out;
 }
 
-// What storing does with a value beyond the format's range.
+// Effect of storing a value beyond the format's range.
 const char* overflow(const Array& array, Rounding rounding) {
   if (array.is_records) return "none";
   switch (info(array.format).kind) {
@@ -216,7 +216,7 @@ namespace {
 constexpr std::size_t short_line = 140;
 
 void print(const Json& json, int depth, int deepest, std::string& out) {
-  // A name may be no UTF-8; what JSON cannot hold becomes U+FFFD.
+  // A name may be invalid UTF-8; invalid bytes become U+FFFD.
   const std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (!json.is_structured() || line.size() <= short_line || depth >= deepest) {
     out += line;

@@ -1,4 +1,4 @@
-// The manifest of a pack, piece by piece. Keys and their meaning: docs/packs.md.
+// Writes a pack's manifest in parts. docs/packs.md documents the keys.
 #pragma once
 
 #include <string>
@@ -17,16 +17,16 @@ inline constexpr const char* pack_format = "rainref.pack";
 inline constexpr int pack_version = 1;
 inline constexpr const char* manifest_name = "manifest.json";
 
-/// A file of a pack: its path below the pack's folder, with slashes.
+/// A file of a pack: its path relative to the pack's folder, with slashes.
 struct PackFile {
   std::string path;
   std::size_t bytes;
   Hash128 hash;
 };
 
-/// Adds the keys that say where a file lies and what it holds.
+/// Adds the keys for a file's path and contents.
 void put_file(nlohmann::ordered_json& to, const PackFile& file);
-/// All but `cases`: format, versions, configuration, conventions, graph and passes, for these passes of the effect.
+/// Everything but `cases`: format, versions, configuration, conventions, graph, and these passes of the effect.
 nlohmann::ordered_json manifest_head(const EffectInfo& effect, const scene::Config& config, const std::string& scene_name, bool with_inputs,
                                      const std::vector<std::string>& passes);
 /// A case without its inputs and outputs.
@@ -36,7 +36,7 @@ nlohmann::ordered_json input_json(const CaseInput& input, const BufferInfo& buff
 nlohmann::ordered_json output_json(const CaseOutput& output, const BufferInfo& buffer, const PassInfo& pass,
                                    const std::vector<PackFile>& files);
 
-/// Indented down to this depth; what is short stands on one line, and in a manifest each input and output of a case.
+/// Indented to this depth. Short values are on one line, and so is each input and output of a case in a manifest.
 std::string manifest_text(const nlohmann::ordered_json& manifest, int deepest = 4);
 
 }  // namespace rainref::capture

@@ -27,12 +27,12 @@ namespace {
 }  // namespace
 
 NewFolder::NewFolder(fs::path target, MayReplace may_replace) : shown_(std::move(target)), may_replace_(std::move(may_replace)) {
-  // "pack/" names the folder pack.
+  // "pack/" means the folder pack.
   if (!shown_.has_filename()) shown_ = shown_.parent_path();
   try {
     target_ = followed(shown_);
     remove_leftovers(target_.parent_path());
-    has_older();  // what may not be replaced is known before the work
+    has_older();  // fails before the work if it may not be replaced
     parents_.emplace(target_.parent_path());
     hidden_.emplace(target_.parent_path(), Hidden::Kind::folder);
     folders_.insert(hidden_->path());
@@ -43,7 +43,7 @@ NewFolder::NewFolder(fs::path target, MayReplace may_replace) : shown_(std::move
 
 NewFolder::~NewFolder() { hidden_.reset(); }
 
-// Whether a folder that is not empty stands under the final name. It is one that may be replaced.
+// True if the final name is a non-empty folder. Throws if that may not be replaced.
 bool NewFolder::has_older() const {
   std::error_code error;
   if (!fs::exists(target_, error)) return false;
@@ -72,14 +72,14 @@ void NewFolder::write(const std::string& path, std::span<const std::byte> bytes)
   if (std::fflush(out.get()) != 0) fail(shown, errno);
   begin_write_back(::fileno(out.get()));
   files_.push_back(file);
-  // A full disk may show only here.
+  // A full disk may be reported only here.
   if (std::fclose(out.release()) != 0) fail(shown, errno);
 }
 
 void NewFolder::commit() {
   try {
     sync_contents();
-    // Asked again: something else may have come to lie there since.
+    // Checked again: something else may have been created since.
     if (has_older())
       hidden_->replace(target_);
     else
@@ -98,7 +98,7 @@ bool NewFolder::commit_if_first(const std::vector<fs::path>& also) {
     all.insert(all.end(), folders_.begin(), folders_.end());
     all.insert(all.end(), also.begin(), also.end());
     sync_to_disk(all);
-    hidden_->become(target_);  // which no folder gives way to that holds something
+    hidden_->become(target_);  // fails if the target is a non-empty folder
     hidden_.reset();
     parents_->keep();
     return true;

@@ -1,4 +1,4 @@
-// Folders that appear under their final name only when whole.
+// Folders that get their final name only when complete.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@
 
 namespace rainref::capture {
 
-/// A folder being written, under a hidden name beside its final one (base/hidden.h). commit() gives it its name. Without a
-/// commit it is removed with all that is in it, and so are the parents that were made for it.
+/// A folder that is written under a hidden name beside its final one (base/hidden.h). commit() renames it. Without a commit, it is removed
+/// with its contents and with the parents that were created for it.
 ///
-/// The final name is free, an empty folder, or a folder that commit() may replace: `may_replace` says why not, or "". A
-/// symbolic link stays, and what it names is written. Every failure is Error(io).
+/// The final name may be free, an empty folder, or a folder that commit() may replace: `may_replace` returns the reason if not, or "". A
+/// symbolic link stays, and its target is replaced. Every failure is Error(io).
 ///
-/// A process that is killed leaves the old folder or the new one under the final name, never half of one. All that it wrote is
-/// on the disk before it has that name. Its hidden folder is removed when the next one is made there.
+/// If a process is killed, the final name has the complete old folder or the complete new one. All files are on disk before the folder is
+/// renamed. A hidden folder that remains is removed when the next one is made there.
 class NewFolder {
  public:
   using MayReplace = std::function<std::string(const std::filesystem::path&)>;
@@ -31,30 +31,30 @@ class NewFolder {
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
 
-  /// Writes a new file, its folders included. The path is relative, with slashes.
+  /// Writes a new file and creates its folders. The path is relative, with slashes.
   void write(const std::string& path, std::span<const std::byte> bytes);
-  /// Where it lies until then, for files that others write, and bring to the disk, there.
+  /// Path of the hidden folder, for files that the caller writes and syncs to disk.
   const std::filesystem::path& path() const { return hidden_->path(); }
-  /// Call once, last.
+  /// Call once, as the last call.
   void commit();
-  /// The same where the final name is free still; otherwise what has come to lie there stays, this folder goes, and false is returned. Of
-  /// any number that race for a name one gets it. All that it holds is on the disk then; its name is once folders_of_names() are
-  /// (sync_to_disk), for which who makes many folders need not wait each time: `also` are those of earlier ones, for which it waits
-  /// together with its own files.
+  /// Like commit() if the final name is still free. Otherwise keeps the existing folder, removes this one and returns false. If several
+  /// processes compete for a name, one gets it. The contents are then on disk; the name is on disk only after sync_to_disk of
+  /// folders_of_names(). A caller that makes many folders can defer that: `also` are the folders of names of earlier ones, which are synced
+  /// together with this one's files.
   bool commit_if_first(const std::vector<std::filesystem::path>& also = {});
-  /// The folders that hold its name and those of the parents that were made for it. Before the commit.
+  /// The folders that contain its name and those of the parents that were created for it. Call before the commit.
   std::vector<std::filesystem::path> folders_of_names() const;
 
  private:
   void sync_contents() const;
   bool has_older() const;
 
-  std::filesystem::path shown_, target_;  // as the caller named it, and with its links followed
+  std::filesystem::path shown_, target_;  // as the caller named it, and with links resolved
   MayReplace may_replace_;
   std::optional<MadeFolders> parents_;
   std::optional<Hidden> hidden_;
-  std::vector<std::filesystem::path> files_;  // that write() wrote
-  std::set<std::filesystem::path> folders_;   // that files lie in, hidden_ included
+  std::vector<std::filesystem::path> files_;  // written by write()
+  std::set<std::filesystem::path> folders_;   // that contain files, hidden_ included
 };
 
 }  // namespace rainref::capture

@@ -20,7 +20,7 @@ namespace {
 using Literal = PythonLiteral;
 
 constexpr std::string_view signature = "\x93NUMPY";
-// numpy.load itself refuses headers over 10 000 characters unless told otherwise.
+// numpy.load itself rejects headers over 10 000 characters by default.
 constexpr std::size_t longest_header = 65536;
 constexpr std::string_view accepted = "'|u1', '<f2', '<f4' or '<u4'";
 
@@ -31,7 +31,7 @@ struct Refusal {
 
 std::size_t type_bytes(std::string_view type) { return static_cast<std::size_t>(type.back() - '0'); }
 
-// What a message shows of a text that may be anything: printable, and short.
+// Makes an arbitrary text printable and short for a message.
 std::string shown(std::string_view text) {
   std::string out(text.substr(0, 40));
   std::ranges::replace_if(
@@ -39,7 +39,7 @@ std::string shown(std::string_view text) {
   return text.size() > 40 ? out + "..." : out;
 }
 
-// The canonical name of a type of numbers; `where` says whose it is.
+// The canonical name of a number type; `where` names its owner.
 std::string number_type(const Literal& descr, const std::string& where, const Refusal& refuse) {
   if (descr.kind != Literal::string) refuse(fmt::format("{}: expected {}", where, accepted));
   const std::string& text = descr.text;
@@ -51,7 +51,7 @@ std::string number_type(const Literal& descr, const std::string& where, const Re
   refuse(fmt::format("{}: expected {}, found '{}'", where, accepted, shown(text)));
 }
 
-// numpy pads packed structures by nameless fields of type '|V<bytes>'.
+// numpy pads packed structures with nameless fields of type '|V<bytes>'.
 std::optional<std::size_t> padding_bytes(const Literal& name, const Literal& type) {
   if (!name.text.empty() || type.kind != Literal::string || !type.text.starts_with("|V")) return std::nullopt;
   const auto number = parse_python_literal(std::string_view(type.text).substr(2));
@@ -175,7 +175,7 @@ void read_shape(const Literal& shape, NpyHeader& out, const Refusal& refuse) {
   }
 }
 
-// The dictionary as text, and where the data start.
+// Returns the dictionary as text, and the offset of the data.
 std::string_view header_text(std::span<const std::byte> file, std::size_t& data_offset, const Refusal& refuse) {
   constexpr std::size_t after_version = signature.size() + 2;
   const std::size_t compared = std::min(file.size(), signature.size());
@@ -198,11 +198,11 @@ std::string_view header_text(std::span<const std::byte> file, std::size_t& data_
   return {reinterpret_cast<const char*>(file.data()) + after_version + length_bytes, length};
 }
 
-// Shape times type must be what the file holds: one comparison finds truncation, trailing bytes and absurd shapes.
+// Shape times type must equal the size of the data: one comparison finds truncation, trailing bytes and absurd shapes.
 void check_size(const NpyHeader& header, std::size_t file_size, const Refusal& refuse) {
   const std::size_t found = file_size - header.data_offset;
   std::optional<std::size_t> expected = header.record_bytes;
-  // A side of 0 makes the product 0 whatever the others are.
+  // A side of 0 makes the product 0, whatever the others are.
   if (std::ranges::find(header.shape, 0u) != header.shape.end()) expected = 0;
   for (const std::size_t side : header.shape) {
     if (expected) expected = checked_product(*expected, side);

@@ -1,4 +1,4 @@
-// The header of a .npy file: what lies behind it, and where.
+// The header of a .npy file: type, shape, and the offset of the data.
 //
 //   \x93NUMPY  major minor  length (2 bytes in version 1, 4 in 2 and 3)  {'descr': ..., 'fortran_order': ..., 'shape':
 //   ...}
@@ -14,10 +14,10 @@
 
 namespace rainref::capture {
 
-/// A field of a structured array: a number, or `components` of them in a row.
+/// A field of a structured array: a number, or `components` of them.
 struct NpyField {
   std::string name;
-  std::string type;  ///< as NpyHeader::type
+  std::string type;  ///< as for NpyHeader::type
   std::size_t offset = 0;
   std::size_t components = 1;
 
@@ -26,21 +26,20 @@ struct NpyField {
 
 struct NpyHeader {
   std::string type;              ///< "|u1", "<f2", "<f4" or "<u4"; "" for a structured array
-  std::vector<NpyField> fields;  ///< of a structured array, in order of offset, none overlapping
+  std::vector<NpyField> fields;  ///< of a structured array, in order of offset, without overlap
   std::size_t record_bytes = 0;  ///< of one element, padding included
   std::vector<std::size_t> shape;
   std::size_t data_offset = 0;
 
-  /// Product of the shape; 1 for shape (). The data are elements() * record_bytes, and fill the file to its end.
+  /// Product of the shape; 1 for shape (). The data have elements() * record_bytes bytes and end with the file.
   std::size_t elements() const;
 };
 
-/// Reads the header of a whole .npy file, version 1.0, 2.0 or 3.0: C order, little endian, types u1 f2 f4 u4,
-/// structured types packed, padded by void fields, or given as names, formats, offsets and itemsize. `name` starts
-/// every message.
+/// Reads the header of a whole .npy file, version 1.0, 2.0 or 3.0: C order, little endian, types u1 f2 f4 u4, structured types packed,
+/// padded by void fields, or given as names, formats, offsets and itemsize. `name` starts every message.
 ///
-/// Throws Error(port_files) when the header is anything else, when shape and type do not multiply up to exactly the
-/// bytes that follow, or when the file is truncated. Needs memory in proportion to the header, never to the shape.
+/// Throws Error(port_files) for any other header, if shape and type do not give exactly the number of bytes that follow, or if the file is
+/// truncated. Memory use is proportional to the header, not to the shape.
 NpyHeader parse_npy_header(std::span<const std::byte> file, std::string_view name);
 
 }  // namespace rainref::capture

@@ -62,7 +62,7 @@ std::string header(const Array& array, int level) {
     shape += format.channels == 1 ? ")" : fmt::format(", {})", format.channels);
   }
   std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': {}, }}", type, shape);
-  // Magic, version and length take ten bytes; the data start at a multiple of 64.
+  // Magic, version and length have ten bytes; the data start at a multiple of 64.
   constexpr std::size_t before = 10, alignment = 64;
   const std::size_t end = (before + text.size() + 1 + alignment - 1) / alignment * alignment;
   text.append(end - before - text.size() - 1, ' ');

@@ -1,4 +1,4 @@
-// NumPy's array files, format 1.0, as packs hold them.
+// NumPy array files, format 1.0, as used in packs.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace rainref::capture {
 
-/// One mip level of an image, (height, width) or (height, width, channels) of the storage type; or records, one
-/// structured array with named fields, gaps between them without a name. C order, little endian.
+/// One mip level of an image, (height, width) or (height, width, channels) of the storage type; or records, one structured array with named
+/// fields and nameless gaps. C order, little endian.
 std::vector<std::byte> npy_bytes(const Array& array, int level);
 
 }  // namespace rainref::capture

@@ -1,4 +1,4 @@
-// A pass whose angles come from asin or acos: AlternativeFormula for what looks up by direction.
+// A pass whose angles come from asin or acos: AlternativeFormula for lookups by direction.
 #pragma once
 
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace rainref::capture {
 
-/// A model whose enclosures take every formula of an angle (OtherAngles). Its evaluations are the pass's own.
+/// A model whose enclosures hold every formula for an angle (OtherAngles). Its other evaluations are the pass's own.
 class ByOtherAngles : public PassModel {
  public:
   explicit ByOtherAngles(std::unique_ptr<PassModel> of) : PassModel(of->width(), of->height(), of->values()), of_(std::move(of)) {}
@@ -28,7 +28,7 @@ class ByOtherAngles : public PassModel {
   std::unique_ptr<PassModel> of_;
 };
 
-/// Where `bind` is that of the pass.
+/// `bind` is the pass's own.
 template <std::unique_ptr<PassModel> (*bind)(const PassCase&)>
 AlternativeFormula by_other_angles() {
   return {"asin or acos for atan2",

@@ -45,7 +45,7 @@ std::vector<std::byte> whole_file(const fs::path& path, std::uintmax_t bytes) {
   return out;
 }
 
-// What the bytes of a level are when its header says so; else the reason why not.
+// Explains why a level's header does not fit the expected shape, or returns "".
 std::string header_mismatch(const NpyHeader& header, const Array& shape, int level) {
   if (shape.is_records) {
     if (header.fields.size() != shape.record.members.size() || header.record_bytes != shape.record.size) {
@@ -79,7 +79,7 @@ std::string header_mismatch(const NpyHeader& header, const Array& shape, int lev
                      fmt::join(header.shape, ", "));
 }
 
-/// The bytes that a pass takes are what the manifest says of them; padding may hold anything.
+/// The uniform bytes must equal the manifest's values; padding may hold anything.
 void require_uniforms(const fs::path& file, const PackCase& entry, const scene::UniformBlock& block, const std::vector<std::byte>& bytes) {
   for (const scene::Member& m : block.members) {
     for (std::size_t at = m.offset; at < m.offset + m.size(); at += 4) {
@@ -102,7 +102,7 @@ Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
   }
   const fs::path path = folder_ / manifest_name;
   if (!fs::is_regular_file(path, error)) {
-    // `run --capture` makes a folder of its own in that of the run.
+    // `run --capture` makes a folder inside the run's folder.
     const fs::path inner = folder_ / "capture";
     refuse(folder_, fmt::format("no pack: there is no {}{}", manifest_name,
                                 fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", inner.string()) : ""));
@@ -125,7 +125,7 @@ std::vector<std::byte> Pack::read_file(const PackFileEntry& file) const {
   const fs::path path = folder_ / file.path;
   std::error_code error;
   if (!fs::is_regular_file(path, error)) refuse(path, "the manifest names this file, but it is missing");
-  // A link may lead anywhere.
+  // A link may point anywhere.
   const fs::path real = fs::canonical(path, error), root = fs::canonical(folder_, error);
   if (error || std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
     refuse(path, "the file lies outside the pack");
@@ -145,7 +145,7 @@ Array Pack::read(const PackArray& array) const {
     const NpyHeader header = parse_npy_header(file, path.string());
     const std::string why = header_mismatch(header, out, static_cast<int>(level));
     if (!why.empty()) refuse(path, why);
-    file.erase(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(header.data_offset));  // moved, not copied to fresh memory
+    file.erase(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(header.data_offset));  // moved, not copied to new memory
     out.levels.emplace_back(std::move(file));
   }
   return out;

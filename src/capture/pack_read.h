@@ -1,4 +1,4 @@
-// Reading packs and captures: the manifest at once, arrays one case at a time.
+// Reads packs and captures: the whole manifest, arrays one case at a time.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,14 @@
 
 namespace rainref::capture {
 
-/// A file as the manifest names it. The path is relative and stays inside the pack.
+/// A file in the manifest. The path is relative and stays inside the pack.
 struct PackFileEntry {
   std::string path;
   std::size_t bytes = 0;
   std::string xxh3;  ///< as `xxhsum -H2` prints it
 };
 
-/// An array as the manifest describes it, without its values.
+/// An array in the manifest, without values.
 struct PackArray {
   std::string name;
   Array shape;                        ///< levels empty
@@ -30,10 +30,10 @@ struct PackArray {
   std::vector<PackFileEntry> levels;  ///< one file for each level
 };
 struct PackInput : PackArray {
-  CaseInput rules;  ///< name, address, border and filters; array without values
+  CaseInput rules;  ///< name, address, border and filters; the array has no values
 };
 struct PackOutput : PackArray {
-  CaseOutput rules;  ///< name, rounding and judge; array without values
+  CaseOutput rules;  ///< name, rounding and judge; the array has no values
 };
 
 struct PackCase {
@@ -41,7 +41,7 @@ struct PackCase {
   int frame = 0, step = 0, level = -1;
   float time = 0, dt = 0;
   PackFileEntry uniforms;
-  std::vector<std::byte> block;  ///< the uniform block's bytes as its members' values say; 0 elsewhere
+  std::vector<std::byte> block;  ///< the uniform block's bytes from its members' values; 0 elsewhere
   std::vector<PackInput> inputs;
   std::vector<PackOutput> outputs;
 };
@@ -50,18 +50,17 @@ struct PackPass {
   std::string name, formula, sentence;
   std::vector<std::string> reads, writes;
   scene::UniformBlock block;
-  std::map<std::string, std::string> unexercised{};  ///< alternatives that the scene says are never taken, and why
+  std::map<std::string, std::string> unexercised{};  ///< alternatives that the scene declares as never taken, and why
 };
 
-/// Where an input of a pass comes from; `from` is "host" or a pass.
+/// Source of an input of a pass; `from` is "host" or a pass.
 struct PackEdge {
   std::string pass, input, from;
   bool previous = false;
 };
 
-/// An opened pack. Every error names the pack and what was expected and found: Error(io) where there is no folder or
-/// it cannot be read; Error(port_files) where the manifest or a file is missing, malformed, of a newer version, or not
-/// what the manifest's hash says.
+/// An open pack. Every error names the pack and what was expected and found: Error(io) if the folder does not exist or cannot be read;
+/// Error(port_files) if the manifest or a file is missing, malformed, of a newer version, or does not match the manifest's hash.
 class Pack {
  public:
   /// Reads and checks the manifest.
@@ -76,12 +75,12 @@ class Pack {
   std::vector<PackPass> passes;                             ///< in the order of execution
   std::vector<PackEdge> edges;
   std::vector<PackCase> cases;  ///< in the order of execution
-  /// Of an effect that is none of rainref's own: the files that say what computes it, the description first (foreign/effect_file.h).
+  /// For a foreign effect: the files of its reference, the description first (foreign/effect_file.h).
   std::vector<PackFileEntry> reference;
 
-  /// The pass of this name; Error(usage) naming the nearest one.
+  /// The pass of this name; otherwise Error(usage) with the nearest name.
   const PackPass& pass(std::string_view name) const;
-  /// A case as the manifest describes it: shapes and rules without values, a level for each file, the uniforms as their values say.
+  /// A case from the manifest alone: shapes and rules without values, a level for each file, the uniforms from their values.
   PassCase described(const PackCase& entry) const;
   /// Reads a case with all its values, each file verified.
   PassCase read(const PackCase& entry) const;
@@ -89,7 +88,7 @@ class Pack {
   Array read(const PackArray& array) const;
   std::vector<std::byte> read_file(const PackFileEntry& file) const;
 
-  /// A file below the folder that the manifest does not name, or "". One of the name `besides` does not count.
+  /// A file in the folder that the manifest does not name, or "". Ignores a file named `besides`.
   std::string file_beside(std::string_view besides = "") const;
 
  private:

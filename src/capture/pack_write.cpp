@@ -12,7 +12,7 @@
 namespace rainref::capture {
 namespace {
 
-// Why the folder may not be replaced by a new pack, or "".
+// Explains why the folder may not be replaced by a new pack, or returns "".
 std::string may_replace(const std::filesystem::path& folder) {
   try {
     const std::string spare = Pack(folder).file_beside();

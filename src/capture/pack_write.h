@@ -1,4 +1,4 @@
-// Packs and captures on disk: a folder of arrays and the manifest that describes them (docs/packs.md).
+// Writes packs and captures: a folder of arrays and their manifest (docs/packs.md).
 #pragma once
 
 #include <filesystem>
@@ -15,22 +15,22 @@
 
 namespace rainref::capture {
 
-/// Writes a pack case by case; arrays are not kept. The folder appears with finish(), whole. An older pack of rainref
-/// that lies there is replaced, if it holds nothing else; any other folder that is not empty is Error(io).
+/// Writes a pack case by case, without keeping the arrays. finish() makes the complete folder visible. An older pack of rainref is replaced
+/// if its folder contains nothing else; any other non-empty folder is Error(io).
 ///
-/// An input that is equal to an array already written, of this case or another, is not written again: its manifest
-/// entry names that file. Outputs always have files of their own.
+/// An input equal to an array that was already written, for any case, is not written again: its manifest entry names that file. Outputs
+/// always have their own files.
 class PackWriter {
  public:
-  /// `passes`: those that cases may be of. `effect` must outlive the writer.
+  /// `passes`: all passes that have cases. `effect` must outlive the writer.
   PackWriter(std::filesystem::path folder, const EffectInfo& effect, const scene::Config& config, const std::string& scene_name,
              bool with_inputs, const std::vector<std::string>& passes);
   ~PackWriter();
   void add(const PassCase& c);
-  /// A file that says what computes a foreign effect, the description first.
+  /// Adds a file of a foreign effect's reference, the description first.
   void add_reference(const std::string& path, std::span<const std::byte> bytes);
-  /// What the cases exercise of a pass text: how many of its alternatives, and which they do not, `is_sampled` as far as a
-  /// sample of the invocations tells. For people; a judge counts again.
+  /// Records what the cases exercise of a pass text: the number of alternatives, and those never taken; `is_sampled` if a sample of the
+  /// invocations was counted. For readers; a judgement counts again.
   void add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never,
                     const std::map<std::string, std::string>& reasons, bool is_sampled);
 
@@ -38,7 +38,7 @@ class PackWriter {
     int cases = 0, files = 0;
     std::size_t bytes = 0;
   };
-  /// Writes the manifest and gives the folder its name. Call once, last.
+  /// Writes the manifest and renames the folder. Call once, as the last call.
   Total finish();
 
  private:

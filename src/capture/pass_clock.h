@@ -1,4 +1,4 @@
-// What an effect tells a Recorder besides images: how long a pass took, and its lists.
+// Data for a Recorder besides images: the time of a pass, and its lists.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace rainref::capture {
 
-/// Seconds since it was made.
+/// Seconds since its construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -19,7 +19,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Time that tiles spend in one pass, over all threads.
+/// Time that tiles spend in one pass, summed over all threads.
 class PassClock {
  public:
   template <class Body>
@@ -28,7 +28,7 @@ class PassClock {
     body();
     nanoseconds_ += static_cast<std::int64_t>(watch.seconds() * 1e9);
   }
-  /// The pass's share of the wall clock with this many threads at work.
+  /// The pass's wall-clock time with this many threads.
   double seconds(int threads) const { return static_cast<double>(nanoseconds_) * 1e-9 / threads; }
 
  private:

@@ -1,4 +1,4 @@
-// What a pass is, for people, packs and reports: declared once by each effect.
+// Descriptions of passes for people, packs and reports, declared once by each effect.
 #pragma once
 
 #include <array>
@@ -11,40 +11,40 @@
 
 namespace rainref::capture {
 
-/// A buffer that passes read or write. One whose meaning differs between variants has an entry for each of them.
+/// A buffer that passes read or write. If its meaning depends on the variant, it has one entry for each variant.
 struct BufferInfo {
   std::string name;
-  std::string format;    ///< a storage format's name, "records", or the scene key that chooses it
+  std::string format;    ///< a storage format's name, "records", or the scene key that selects it
   std::string sentence;  ///< meaning of the channels, with units
   std::string unit = "1";
-  std::array<double, 2> range{0, 1};  ///< of the stored values; an unorm format always has 0 to 1
-  std::string encoding = "none";      ///< from the stored to the meant value
+  std::array<double, 2> range{0, 1};  ///< of the stored values; always 0 to 1 for unorm formats
+  std::string encoding = "none";      ///< conversion from the stored value to its meaning
   std::string colour_space = "none", alpha = "none";
   std::string orientation = "";  ///< of panoramas and cubes
-  std::string record = "";       ///< the layout in EffectInfo::records, where the format is "records"
+  std::string record = "";       ///< the layout in EffectInfo::records, if the format is "records"
   std::string variant = "";      ///< "": every one
 };
 
-/// What a pass reads and where that comes from.
+/// An input of a pass and its source.
 struct ReadInfo {
   std::string buffer;
   std::string from = "";     ///< the pass that wrote it; "": the host
-  bool previous = false;     ///< from the run of that pass before this one, in this frame or the one before
+  bool previous = false;     ///< from the previous run of that pass, in this frame or the one before
   std::string variant = "";  ///< "": every one
-  bool per_texel = false;    ///< an invocation loads its own texel: the image has the size of the pass's outputs
+  bool per_texel = false;    ///< each invocation loads its own texel: the image has the size of the pass's outputs
 };
-/// The same read, per texel.
+/// The same input, loaded per texel.
 inline ReadInfo per_texel(ReadInfo read) {
   read.per_texel = true;
   return read;
 }
 
-/// A pass as one variant runs it.
+/// A pass in one variant.
 struct PassVariant {
   std::string name;
-  int revision;          ///< counts up whenever the order of operations or a constant changes
-  Judge judge;           ///< of every output; of an image beside keyed records: envelope
-  std::string uniforms;  ///< the block in PassInfo::uniforms
+  int revision;          ///< increases whenever the order of operations or a constant changes
+  Judge judge;           ///< of every output; images beside keyed records: envelope
+  std::string uniforms;  ///< name of the block in PassInfo::uniforms
 };
 
 struct PassInfo {
@@ -57,7 +57,7 @@ struct PassInfo {
   std::string independence = "gather";            ///< gather, ordered_scatter, unordered_scatter or compaction
   std::vector<std::string> order_free_sums = {};  ///< sums whose terms a port may add in any order
 
-  /// Null where this variant does not run the pass.
+  /// Null if this variant does not run the pass.
   const PassVariant* variant(std::string_view variant_name) const;
   /// The uniform block of a variant that runs the pass.
   const scene::UniformBlock& block(std::string_view variant_name) const;
@@ -71,11 +71,11 @@ struct EffectInfo {
   std::vector<scene::UniformBlock> records;
   std::string up_axis = "y", handedness = "right", depth = "none";
 
-  // What is not declared is a defect: Error(internal).
+  // Throws Error(internal) for a name that is not declared.
   const PassInfo& pass(std::string_view pass_name) const;
   const BufferInfo& buffer(std::string_view buffer_name, std::string_view variant) const;
   const scene::UniformBlock& record(std::string_view record_name) const;
-  /// What a pass writes in a variant: of its `writes` those that the variant has.
+  /// The outputs of a pass in a variant: those of its `writes` that the variant has.
   std::vector<std::string> writes(const PassInfo& pass, std::string_view variant) const;
   /// Names of the passes that a variant runs, in the order of execution.
   std::vector<std::string> pass_names(std::string_view variant) const;
@@ -85,7 +85,7 @@ struct EffectInfo {
 std::string formula(const EffectInfo& effect, const PassInfo& pass, const PassVariant& variant);
 /// "envelope", "bits", "keyed" or "input_only".
 const char* name(Judge judge);
-/// "as-published: input_only; corrected: bits", or one word where they agree.
+/// "as-published: input_only; corrected: bits", or one word if both are equal.
 std::string judge_text(const PassInfo& pass);
 
 }  // namespace rainref::capture

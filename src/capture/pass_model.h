@@ -1,4 +1,4 @@
-// A pass bound to one case, read with every number: what conformance judges by, and all it knows of an effect.
+// A pass bound to one case, evaluated with every number type. Judging uses it, and knows nothing else of an effect.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@
 
 namespace rainref::capture {
 
-/// The invocations of a pass on a case: width() x height() of them, each giving values() numbers, which are the channels
-/// of the outputs at its texel, output after output. The case must outlive the model. Evaluation is thread-safe.
+/// The invocations of a pass on a case: width() x height() of them, each with values() numbers, the channels of the outputs at its texel,
+/// output after output. The case must outlive the model. Evaluation is thread-safe.
 class PassModel {
  public:
   PassModel(int width, int height, int values) : width_(width), height_(height), values_(values) {}
@@ -30,39 +30,38 @@ class PassModel {
   virtual void evaluate(int x, int y, scalar::Scalar<float>* out) const = 0;
   virtual void evaluate(int x, int y, scalar::Scalar<double>* out) const = 0;
   virtual void evaluate(int x, int y, perturbed::Perturbed* out) const = 0;
-  /// Under the profile and the enumeration in force. `port` holds the values that the port stored for this invocation: a pass
-  /// whose result is judged by what it must satisfy (a march by the gap at its end) may take them, others do not.
+  /// Evaluates under the active profile and enumeration. `port` holds the port's stored values of this invocation. A pass whose result is
+  /// judged by a condition (a march by the gap at its end) may use them; others do not.
   virtual void enclose(int x, int y, const float* port, enclosed::Enclosure* out) const = 0;
-  /// How many parts of what enclose() gives are found sooner, the quickest first.
+  /// Number of parts of enclose() that are faster to evaluate, the fastest first.
   virtual int parts() const { return 0; }
-  /// One of them: what lies in it lies in one alternative of enclose(). False where there is none for this invocation.
+  /// Evaluates one part: values inside it are inside one alternative of enclose(). False if this invocation has no such part.
   virtual bool enclose_part(int /*part*/, int, int, const float*, enclosed::Enclosure*) const { return false; }
-  /// As enclose(), of every rearrangement that the profile in force allows. False where the pass has no such evaluation: it is
-  /// judged as it is written.
+  /// Like enclose(), for every rearrangement that the active profile allows. False if the pass has no such evaluation: it is then judged as
+  /// written.
   virtual bool rearrange(int, int, const float*, enclosed::Enclosure*) const { return false; }
-  /// Whether enclose() depends on `port`: on values alone that are the same however halves are rounded, as floats and flags.
+  /// True if enclose() depends on `port`, and only on values that do not depend on the rounding of halves, such as floats and flags.
   virtual bool needs_port() const { return false; }
-  /// Whether the pass itself rounds to binary16 on its way, as its outputs are stored.
+  /// True if the pass itself rounds to binary16 between its operations, like its outputs' stores.
   virtual bool rounds_inside() const { return false; }
-  /// Whether an invocation meets those records alone that may count near its texel.
+  /// True if an invocation evaluates only records that may contribute near its texel.
   virtual bool chooses_records() const { return false; }
-  /// Of a value that is declared as not reproducible (a count of steps) the least and the most that it may be: it is held
-  /// to them, no more. Nothing for others.
+  /// The minimum and maximum of a value that is declared as not reproducible (a step count); nothing else about it is checked. Nothing for
+  /// other values.
   virtual std::optional<std::array<double, 2>> free_range(int) const { return std::nullopt; }
   bool is_free(int value) const { return free_range(value).has_value(); }
-  /// Of a value that has another range in each case (a place among so many texels) the extent of that; nothing for others, whose
-  /// output declares it.
+  /// The extent of a value whose range depends on the case (a position among texels); nothing for others, whose output declares it.
   virtual std::optional<double> extent(int) const { return std::nullopt; }
-  /// Of an output of Judge::keyed; null: its records are judged by bits.
+  /// The model of an output of Judge::keyed; null: its records are judged by bits.
   virtual const KeyedModel* keyed(std::string_view) const { return nullptr; }
-  /// The input whose decoded texels these are; "" where the pass does not know.
+  /// The input with these decoded texels; "" if unknown.
   virtual std::string_view input_of(const float*) const { return ""; }
 
  private:
   int width_, height_, values_;
 };
 
-/// The model of a pass that is one template over its number: Pass has width, height, values and
+/// The model of a pass that is one template over its number type: Pass has width, height, values and
 ///   template <class N> void operator()(int x, int y, N* out) const.
 template <class Pass>
 class ModelOf : public PassModel {
@@ -94,7 +93,7 @@ std::unique_ptr<PassModel> model_of(Pass pass) {
   return std::make_unique<ModelOf<Pass>>(std::move(pass));
 }
 
-/// A pass that gives one keyed list and no image.
+/// A pass with one keyed list as output and no image.
 class ListPass : public PassModel {
  public:
   ListPass(std::string output, std::unique_ptr<KeyedModel> list) : PassModel(0, 0, 0), output_(std::move(output)), list_(std::move(list)) {}
@@ -109,26 +108,25 @@ class ListPass : public PassModel {
   std::unique_ptr<KeyedModel> list_;
 };
 
-/// Another formula of what a pass computes, equal in real arithmetic: engineers write it, and a port of it is told so.
+/// Another formula for a pass's result, equal in real arithmetic. Engineers use it; if a port does, the report says so.
 struct AlternativeFormula {
   std::string name;                                     ///< "asin for the height of a direction"
-  std::string sentence;                                 ///< what stands in the port, and what the pass has
-  std::unique_ptr<PassModel> (*bind)(const PassCase&);  ///< as PassEvaluations::bind; null where the case has no use for it
+  std::string sentence;                                 ///< what the port contains, and what the pass contains
+  std::unique_ptr<PassModel> (*bind)(const PassCase&);  ///< as PassEvaluations::bind; null if it does not apply to the case
 };
 
-/// How an effect offers its passes to be judged.
+/// An effect's evaluations of a pass for judging.
 struct PassEvaluations {
   std::string pass;
-  /// Null where no output is judged by envelope.
-  /// Throws Error(port_files) when the case lacks an input or has one of another shape.
+  /// Null if no output is judged by envelope. Throws Error(port_files) if the case lacks an input or has one of another shape.
   std::unique_ptr<PassModel> (*bind)(const PassCase&);
-  /// The reference's outputs, in the order of c.outputs, where they are judged by bits, keyed records without a model in
-  /// any order; else null. Throws like bind.
+  /// Returns the reference's outputs, in the order of c.outputs, if they are judged by bits; keyed records without a model are in any
+  /// order. Else null. Throws like bind.
   std::vector<Array> (*recompute)(const PassCase&) = nullptr;
-  /// Why what the host derived from the other inputs cannot belong to them, or ""; null where nothing is derived.
+  /// Explains why an input that the host derived from other inputs cannot belong to them, or returns ""; null if nothing is derived.
   std::string (*doubt)(const PassCase&) = nullptr;
   std::vector<AlternativeFormula> alternatives = {};
-  /// Uniforms and inputs of the host that it makes of the run's own state: a port's are its own, and no scene says them.
+  /// Uniforms and host inputs that depend on the run's own state: a port has its own values, and no scene determines them.
   std::vector<std::string> of_state = {};
 };
 

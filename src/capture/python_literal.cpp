@@ -71,7 +71,7 @@ class Parser {
       out.number = 10 * out.number + digit;
       rest_.remove_prefix(1);
     }
-    if (rest_.starts_with("L")) rest_.remove_prefix(1);  // Python 2 writes long integers so
+    if (rest_.starts_with("L")) rest_.remove_prefix(1);  // Python 2 writes long integers this way
     return true;
   }
 
@@ -83,7 +83,7 @@ class Parser {
       if (!value(out.items.emplace_back(), depth + 1)) return false;
       comma = take(",");
     }
-    // (x) is x in brackets, (x,) the tuple.
+    // (x) is x in parentheses, (x,) is a tuple.
     if (kind == PythonLiteral::tuple && out.items.size() == 1 && !comma) {
       PythonLiteral inner = std::move(out.items.front());
       out = std::move(inner);

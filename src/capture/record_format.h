@@ -1,4 +1,4 @@
-// The storage format whose texels are the records of a list: such a list may be taken for an image of one row.
+// The storage format with the same layout as the records of a list: such a list can be treated as an image of one row.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace rainref::capture {
 
-/// Of records of one, two or four floats and nothing else; nothing for others.
+/// For records of one, two or four floats and nothing else; nothing for others.
 inline std::optional<Format> record_format(const scene::UniformBlock& record) {
   const bool is_floats =
       std::all_of(record.members.begin(), record.members.end(), [](const scene::Member& m) { return m.scalar == scene::Scalar::float32; });

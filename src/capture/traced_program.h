@@ -1,4 +1,4 @@
-// A port's own program, followed through one invocation: what it computed, instruction by instruction, and where that stands in its source.
+// A port's own program, traced for one invocation: its values, instruction by instruction, and their source lines.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +10,29 @@
 
 namespace rainref::capture {
 
-/// A line of a program's source, without the blanks around it. The text is "" where the program does not carry it.
+/// A line of a program's source, without surrounding blanks. The text is "" if the program does not contain it.
 struct SourceLine {
   std::string file;
-  std::uint32_t line = 0;  ///< 0: the program does not say
+  std::uint32_t line = 0;  ///< 0: unknown
   std::string text = {};
 };
 
-/// What one invocation of a program did, in order.
+/// The execution of one invocation of a program, in order.
 struct ProgramTrace {
-  /// By which instruction a node of `values` was made, and in which call of a function.
-  static constexpr std::uint32_t given = 0xffffffff;  ///< no instruction: constants and numbers of the invocation, which are there before
+  /// The instruction that made a node of `values`, and its function call.
+  static constexpr std::uint32_t given = 0xffffffff;  ///< no instruction: constants and numbers of the invocation
   struct Step {
     std::uint32_t instruction;
     std::int32_t call;   ///< -1: the entry point
-    std::uint32_t part;  ///< which of the nodes that the instruction makes at once
+    std::uint32_t part;  ///< index among the nodes that the instruction makes
   };
   struct Call {
-    std::uint32_t instruction;  ///< that calls
-    std::int32_t caller;        ///< the call in which that stands; -1: the entry point
+    std::uint32_t instruction;  ///< the call instruction
+    std::int32_t caller;        ///< the call that contains it; -1: the entry point
   };
   perturbed::Trace values;
   std::vector<Step> steps;            ///< one for each node
-  std::vector<std::int32_t> outputs;  ///< nodes of what is stored, in the order of PassModel's values; -1: of nothing
+  std::vector<std::int32_t> outputs;  ///< nodes of the stored values, in the order of PassModel's values; -1: no node
   std::vector<Call> calls;
 };
 
@@ -40,8 +40,8 @@ struct ProgramTrace {
 class TracedProgram : public PassModel {
  public:
   using PassModel::PassModel;
-  /// Executes the invocation of a texel. A value that is stored, passed on or put into a vector is a node again (perturbed::Op::stored),
-  /// for a mistake may stand there. Throws what an evaluation throws.
+  /// Executes the invocation of a texel. A value that is stored, passed on or put into a vector becomes a new node (perturbed::Op::stored),
+  /// because a mistake may be there. Throws what an evaluation throws.
   virtual void trace(int x, int y, ProgramTrace& out) const = 0;
   virtual SourceLine line(std::uint32_t instruction) const = 0;
 };

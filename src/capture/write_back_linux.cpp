@@ -1,4 +1,4 @@
-// sync_file_range is Linux's alone.
+// sync_file_range exists only on Linux.
 #include <fcntl.h>
 
 #include "capture/write_back.h"
