@@ -1,4 +1,4 @@
-// The first draft of an effect's description (effect_file.h).
+// Writes the first draft of an effect's description (effect_file.h).
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,8 @@
 
 namespace rainref::foreign {
 
-/// A description of these shaders, pass by pass in this order, as far as they say it themselves; "?" stands for what they do not. The
-/// passes have the names of the files. Throws Error(io), Error(port_files) and spirv::Refusal for a file that is no shader that can be
-/// executed.
+/// Describes these shaders, one pass each, in this order, from what the modules contain; "?" stands for what they do not. Passes are named
+/// after the files. Throws Error(io), Error(port_files), and spirv::Refusal for a file that is not an executable shader.
 std::string draft_of(const std::vector<std::filesystem::path>& shaders);
 
 }  // namespace rainref::foreign

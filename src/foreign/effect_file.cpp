@@ -44,7 +44,7 @@ Enum named_or(const JsonField& from, const char* key, Enum otherwise) {
   return static_cast<Enum>(from[key].one_of(names));
 }
 
-/// Reads one pass; what it takes of others is checked when all are known.
+/// Reads one pass; its inputs from other passes are checked once all passes are known.
 class PassReader {
  public:
   PassReader(const JsonField& from, const std::filesystem::path& folder, std::string effect, EffectFile& file) : from_(from), file_(file) {
@@ -80,7 +80,7 @@ class PassReader {
   }
 
  private:
-  /// What the shader has at the binding that an entry of the file is of, by its own words or by its place.
+  /// The shader's descriptor for an entry of the file, by name or by binding.
   const Wanted& descriptor(const JsonField& at, std::initializer_list<Bound> kinds) {
     const auto position = static_cast<std::int64_t>(pass_.program.at.size());
     constexpr std::int64_t most = 1 << 16;
@@ -109,7 +109,7 @@ class PassReader {
     pass_.block = capture::read_uniform_block(block);
     require_layout(block, pass_.block, found->block);
   }
-  /// The same places and types; names are the author's choice.
+  /// Offsets and types must be equal; names are the author's choice.
   void require_layout(const JsonField& at, const scene::UniformBlock& said, const scene::UniformBlock& own) const {
     const auto place = [](const scene::Member& m) {
       return fmt::format("{}{} at byte {}", scene::name(m.scalar), m.components > 1 ? std::to_string(m.components) : "", m.offset);
@@ -198,7 +198,7 @@ class PassReader {
     output.unit = buffer.unit;
     pass_.outputs.push_back(std::move(output));
   }
-  /// A buffer has one entry, whoever names it; what its writer says of it counts.
+  /// A buffer has one entry, whichever pass names it; its writer's description counts.
   const capture::BufferInfo& declare(const JsonField& at, const std::string& name, const capture::Array& array) {
     capture::BufferInfo buffer{name, array.is_records ? "records" : std::string(info(array.format).name), text_or(at, "sentence", "")};
     buffer.unit = text_or(at, "unit", "1");
@@ -239,7 +239,7 @@ class PassReader {
   Pass pass_;
 };
 
-/// What passes take from others is there, of the same shape.
+/// Checks that inputs from other passes exist and have the same shape.
 void require_graph(const JsonField& passes, const EffectFile& file) {
   const std::vector<JsonField> all = passes.elements();
   std::vector<std::string> names;

@@ -1,6 +1,6 @@
-// An effect that is none of rainref's own, as its author describes it: shaders that are trusted, and what they take and give.
+// A foreign effect, described by its author: trusted shaders, and their inputs and outputs.
 //
-// `rainref describe --spirv` writes the first draft of the file; docs/any_effect.md says what must be completed.
+// `rainref describe --spirv` writes a first draft of the file; docs/any_effect.md says what must be completed.
 #pragma once
 
 #include <cstddef>
@@ -15,20 +15,20 @@
 namespace rainref::foreign {
 
 inline constexpr const char* file_format = "rainref.effect";
-inline constexpr const char* variant = "reference";  ///< the only one of a foreign effect
+inline constexpr const char* variant = "reference";  ///< the only variant of a foreign effect
 
-/// What a pass takes, and where from.
+/// An input of a pass and its source.
 struct Input {
-  capture::CaseInput like;  ///< name, rules and shape; of records the layout
+  capture::CaseInput like;  ///< name, rules and shape; layout for records
   std::size_t levels = 1;
-  std::string from;       ///< a pass; "": a file of the run
-  bool previous = false;  ///< from that pass's run before this one
+  std::string from;       ///< source pass; "": a file of the run
+  bool previous = false;  ///< from the source pass's previous run
 };
 struct Pass {
   std::string name;
-  spirv::Program program;        ///< program.spirv: the file, beside the description or where that says
-  std::vector<std::byte> words;  ///< of it
-  scene::UniformBlock block;     ///< without members where the shader takes none
+  spirv::Program program;        ///< program.spirv: the file, at the path relative to the description
+  std::vector<std::byte> words;  ///< of the program
+  scene::UniformBlock block;     ///< without members if the shader has no uniforms
   bool has_uniforms = false;
   std::vector<Input> inputs;
   std::vector<capture::CaseOutput> outputs;  ///< without values
@@ -40,9 +40,9 @@ struct EffectFile {
   std::vector<Pass> passes;  ///< in the order of execution
 };
 
-/// Reads and checks a description, with its shaders. Throws Error(port_files) naming the file, the place in it, what was expected and what
-/// was found; where a shader says otherwise (a binding, a format, an offset) what it says; spirv::Refusal for a shader that cannot be a
-/// reference: its invocations work together, write records, or do what is not executed.
+/// Reads and checks a description and its shaders. Throws Error(port_files) naming the file, the place, and what was expected and found,
+/// also if a shader contradicts it (a binding, a format, an offset). Throws spirv::Refusal for a shader that cannot be a reference: its
+/// invocations cooperate, it writes records, or it uses something unsupported.
 EffectFile read_effect(const std::filesystem::path& file);
 
 }  // namespace rainref::foreign

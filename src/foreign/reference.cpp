@@ -10,7 +10,7 @@
 namespace rainref::foreign {
 namespace {
 
-/// Why a case is none of this pass, or "".
+/// Explains why a case does not belong to this pass, or returns "".
 std::string case_fault(const EffectFile& effect, const Pass& pass, const capture::PassCase& c) {
   const capture::PassCase like = case_of(effect, pass, c.frame, c.step);
   const auto differs = [](const capture::Array& a, const capture::Array& b) {
@@ -34,7 +34,7 @@ std::string case_fault(const EffectFile& effect, const Pass& pass, const capture
 
 std::shared_ptr<const EffectFile> reference_of(const capture::Pack& pack) {
   if (pack.reference.empty()) return nullptr;
-  // Hashes first: what is read below is what the manifest names.
+  // Hashes first, so that what is read below is what the manifest names.
   for (const capture::PackFileEntry& file : pack.reference) static_cast<void>(pack.read_file(file));
   const auto refuse = [&](const std::string& why) {
     throw Error(ExitCode::port_files, fmt::format("{}: {}", pack.folder().string(), why));

@@ -1,4 +1,4 @@
-// The shaders that a pack of a foreign effect brings with it, as its reference.
+// The reference shaders that a pack of a foreign effect contains.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,15 @@
 
 namespace rainref::foreign {
 
-/// What computes a pack; null where rainref's own effect does. Throws Error(port_files) where it is damaged or is not what the manifest
-/// says: passes, uniform blocks and the shapes of each case.
+/// Reads a pack's own reference; null if the effect is one of rainref's. Throws Error(port_files) if it is damaged or does not match the
+/// manifest: passes, uniform blocks and the shapes of each case.
 std::shared_ptr<const EffectFile> reference_of(const capture::Pack& pack);
 
-/// A pass of it on a case that is as it describes. The effect and the case must outlive the model. Throws as spirv::spirv_model(); null for
-/// a pass that it has not.
+/// The model of a pass on a case that matches the description; null for a pass that the effect lacks. The effect and the case must outlive
+/// it. Throws like spirv::spirv_model().
 std::unique_ptr<capture::PassModel> model_of(const EffectFile& effect, const std::string& pass, const capture::PassCase& c);
 
-/// What a pass is given in a run, without values, as its description says.
+/// The inputs of a pass in a run, without values, from its description.
 capture::PassCase case_of(const EffectFile& effect, const Pass& pass, int frame, int step);
 
 }  // namespace rainref::foreign

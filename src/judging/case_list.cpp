@@ -21,7 +21,7 @@ bool is_among(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The place of a name; Error(usage) with the nearest one.
+/// Index of a name; Error(usage) with the nearest name.
 template <class Things>
 std::size_t index_of(const Things& things, std::string_view name, const std::string& id, const char* what) {
   std::vector<std::string> names;
@@ -34,7 +34,7 @@ std::size_t index_of(const Things& things, std::string_view name, const std::str
 
 std::string place_of(const capture::CaseOutput& output, const std::string& id) { return fmt::format("{}/out.{}", id, output.name); }
 
-/// The bytes of a port's rows, one behind the other.
+/// Copies a port's rows to contiguous bytes.
 Array given_array(const capture::CaseOutput& output, const std::string& id, const void* data, std::size_t row_bytes, std::size_t count) {
   Array array = output.array;
   const std::string place = place_of(output, id);
@@ -114,7 +114,7 @@ void CaseList::add_next_frame(Simulation& simulation, const std::vector<std::str
     throw Error(ExitCode::usage, fmt::format("cases: expected those of a simulation of {} {}, found those of {}{} {}", simulation.effect(),
                                              variant, pack_ ? "a pack of " : "", effect_, variant_));
   const std::vector<std::string> names = wanted(passes);
-  std::vector<capture::PassCase> found;  // all of the frame or none
+  std::vector<capture::PassCase> found;  // all of the frame, or none
   capture::CaptureRecorder recorder(
       *registry::find(effect_)->info, variant, true, [&](int, std::string_view pass) { return is_among(names, pass); },
       [&](capture::PassCase c) { found.push_back(std::move(c)); });

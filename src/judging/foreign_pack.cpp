@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using capture::Array, capture::PassCase;
 
-/// Inputs and uniforms of the author's run.
+/// Input and uniform files of the author's run.
 class RunFiles {
  public:
   RunFiles(const foreign::EffectFile& effect, fs::path folder) : effect_(effect), folder_(std::move(folder)) {
@@ -59,7 +59,7 @@ class RunFiles {
     if (!pass.has_uniforms) return std::vector<std::byte>(pass.block.size);
     const fs::path path = folder_ / id / "uniforms.bin";
     std::vector<std::byte> bytes = read_file(path, {pass.block.size, ExitCode::port_files});
-    std::size_t least = 0;  // what lies behind the last member is padding, which a host may leave out
+    std::size_t least = 0;  // bytes after the last member are padding, which a host may omit
     for (const scene::Member& m : pass.block.members) least = std::max(least, m.offset + m.size());
     if (bytes.size() < least)
       throw Error(ExitCode::port_files,
@@ -85,7 +85,7 @@ class RunFiles {
   port_dump::PortInfo info_;
 };
 
-/// What a pass gave last, and when.
+/// The latest outputs of a pass, and their run.
 struct Given {
   int frame = 0, step = 0;
   std::vector<capture::CaseOutput> outputs;
@@ -134,7 +134,7 @@ class Packing {
   [[noreturn]] void refuse(const judge::DumpedRun& at, const std::string& why) const {
     throw Error(ExitCode::port_files, fmt::format("{}: {}", files_.path(at.id), why));
   }
-  /// A file of the run, or what the pass gave that it comes from.
+  /// A file of the run, or the output of its source pass.
   Array input(const foreign::Input& input, const capture::CaseInput& like, const judge::DumpedRun& at) const {
     const std::string stem = "in." + like.name;
     const auto given = given_.find(input.from);
@@ -147,7 +147,7 @@ class Packing {
       if (output.name == like.name) return output.array;
     throw Error(ExitCode::internal, fmt::format("{} has no output {}", input.from, like.name));
   }
-  /// The judge asks each invocation for its own texel alone; the whole dispatch must give the same.
+  /// The judge evaluates each invocation only for its own texel; the whole dispatch must give the same.
   void require_own_texels(const foreign::Pass& pass, const PassCase& c, const judge::DumpedRun& at) const {
     const std::vector<Array> whole = spirv::execute(c, pass.program, pass.words, "'" + pass.program.spirv.filename().string() + "'");
     for (std::size_t o = 0; o < whole.size(); ++o)
@@ -184,7 +184,7 @@ scene::Config config_of(const foreign::EffectFile& effect) {
           ""};
 }
 
-/// The description, with its shaders beside it.
+/// Adds the description with its shaders.
 void add_reference(capture::PackWriter& writer, const fs::path& description, const foreign::EffectFile& effect) {
   nlohmann::ordered_json json = capture::read_json(description, description.string(), capture::large_json);
   for (std::size_t p = 0; p < effect.passes.size(); ++p) json["passes"][p]["spirv"] = effect.passes[p].name + ".spv";

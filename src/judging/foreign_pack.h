@@ -1,4 +1,4 @@
-// A pack of an effect that is none of rainref's own: inputs of its author's run, and what trusted shaders make of them.
+// A pack of a foreign effect: the inputs of its author's run, and the outputs of trusted shaders for them.
 #pragma once
 
 #include <filesystem>
@@ -18,12 +18,12 @@ struct ForeignPackRequest {
 struct ForeignPack {
   capture::PackWriter::Total total;
   std::vector<std::string> passes;
-  std::vector<std::string> warnings;  ///< passes of which the pack says nothing
+  std::vector<std::string> warnings;  ///< passes that the pack does not test
 };
 
-/// Executes every run that the inputs' folder has, in the order of execution, and writes the pack. An input without a file is what its
-/// pass gave, where the description says from which. Throws Error(port_files) naming the file for what is missing or not as described, for
-/// a shader that writes texels of other invocations, and for one that stores what is no number; Error(io).
+/// Executes every run in the inputs' folder, in the order of execution, and writes the pack. An input without a file is the output of the
+/// pass that the description names. Throws Error(port_files) naming the file if something is missing or not as described, if a shader
+/// writes texels of other invocations, or if it stores NaN; Error(io).
 ForeignPack make_foreign_pack(const ForeignPackRequest& request, const parallel::Executor& executor);
 
 }  // namespace rainref::judging

@@ -19,7 +19,7 @@ T loaded(const std::byte* from) {
   return value;
 }
 
-/// Whether the output stores what of these floats it can hold.
+/// True if these floats are rounded to the output's format.
 bool are_stored(const port_dump::StoredImage& given, Kind to) {
   const auto all_are = [&](std::initializer_list<Kind> kinds) {
     return std::all_of(given.channels.begin(), given.channels.end(), [&](const port_dump::StoredImage::Channel& c) {

@@ -1,4 +1,4 @@
-// An image that a port gave in memory and that says itself what its texels are.
+// An image that a port passed in memory with its own texel format.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace rainref::judging {
 
-/// The canonical bytes of an output whose texels are these, by the rule of files (port_dump::canonical_level), with its errors and notes.
-/// But floats of an output of 8-bit codes, and floats that no half equals, are stored as the output stores them: to nearest even, an
-/// infinity for what is too large for a half; sRGB encoded where it is sRGB, but for alpha; of a NaN code 0.
+/// Converts the texels to the canonical bytes of an output by the rules for files (port_dump::canonical_level), with the same errors and
+/// notes. Exception: floats for an output of 8-bit codes, and floats that are not exact halves, are rounded as the output stores them: to
+/// nearest even; infinity if too large for a half; sRGB encoded if the output is sRGB, except alpha; NaN gives code 0.
 std::vector<std::byte> canonical_image(const port_dump::StoredImage& given, const capture::Array& expected, port_dump::ReadNotes& notes);
 
 }  // namespace rainref::judging

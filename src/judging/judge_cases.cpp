@@ -23,7 +23,7 @@
 namespace rainref::judging {
 namespace {
 
-/// A run as the judge takes it.
+/// Converts a run to the judge's form.
 judge::PortRun port_run(const Run& run) {
   judge::PortRun out;
   out.c = *run.c;
@@ -133,7 +133,7 @@ Failure failure(const std::string& id, const judge::OutputJudgement& o, const ju
   return out;
 }
 
-/// The elements of a pass that failed, those of the worst output first.
+/// The failing elements of a pass, those of the worst output first.
 std::vector<Failure> worst_of(const judge::PassJudgement& pass) {
   std::vector<std::pair<const judge::CaseJudgement*, const judge::OutputJudgement*>> outputs;
   for (const judge::CaseJudgement& c : pass.cases)

@@ -1,4 +1,4 @@
-// Judging what a port gave for cases in memory: what rainref::Judgement and the handles of rainref.h hold.
+// Judges a port's outputs for cases in memory; rainref::Judgement and the handles of rainref.h hold the result.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace rainref::judging {
 
-/// A judgement, the same in public words, and what its page shows: the outputs as they were when it was made.
+/// A judgement, its public form, and the data of its page: the outputs at the time of judging.
 struct Judged {
   judge::PortJudgement judged;
   reports::PageSource source;
@@ -23,10 +23,10 @@ struct Judged {
   std::string html() const;
   std::string junit() const;
 };
-/// A judgement in public words.
+/// Converts a judgement to its public form.
 Verdict verdict_of(const judge::PortJudgement& judged);
 
-/// Judges every pass that anything was given for. Error(usage) for an unknown profile, Error(port_files) where nothing was given.
+/// Judges every pass that has outputs. Error(usage) for an unknown profile, Error(port_files) if there are no outputs.
 Judged judge_cases(const CaseList& cases, const JudgeOptions& options, const parallel::Executor& executor);
 
 }  // namespace rainref::judging

@@ -19,7 +19,7 @@
 namespace rainref::judging {
 namespace {
 
-/// The judge's part of the options, with causes and with what is read of the port.
+/// Converts the options for the judge, with the search for causes and the buffers read from the port.
 class JudgeCall {
  public:
   explicit JudgeCall(const FolderOptions& o) : options(o) {
@@ -41,7 +41,7 @@ class JudgeCall {
   judge::ValidateOptions options;
   Programs programs;  ///< the port's own
 
-  /// What is to be said of the searches that ended early.
+  /// Adds notes about searches that reached their time limit.
   void add_notes(judge::PortJudgement& judgement) const {
     for (const std::string& pass : cut_short_)
       judgement.notes.push_back(

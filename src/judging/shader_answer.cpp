@@ -23,7 +23,7 @@ using Places = std::vector<std::array<int, 2>>;
 
 constexpr std::size_t most_places = 32;
 
-/// Texels that fail, or, where none does, some all over the picture.
+/// Failing texels; if there are none, some spread over the picture.
 Places places_of(const judge::CaseJudgement& judged, const PassModel& model) {
   std::set<std::array<int, 2>> found;
   for (const judge::OutputJudgement& output : judged.outputs)
@@ -35,7 +35,7 @@ Places places_of(const judge::CaseJudgement& judged, const PassModel& model) {
   return {found.begin(), found.end()};
 }
 
-/// Whether a model may give what is stored; nothing where it has too many alternatives, or no bound.
+/// True if a model may give the stored values; nothing if it has too many alternatives, or no bound.
 std::optional<bool> may_give(const PassModel& model, const std::vector<judge::Slot>& slots, const std::vector<Array>& stored, int x, int y,
                              const enclosed::Profile& profile, judge::HalfMode mode) {
   judge::Alternatives all;
@@ -55,7 +55,7 @@ std::optional<bool> may_give(const PassModel& model, const std::vector<judge::Sl
   return is_open ? std::nullopt : std::optional(false);
 }
 
-/// What a pass's program says of the case that fails most, or of the first one.
+/// Executes a pass's program on the case with most failures, or on the first one.
 std::string answer_of(const judge::PassJudgement& pass, const LoadStored& load, const BindPass& bind, const Programs& programs,
                       const std::string& profile) {
   const auto failing = [](const judge::CaseJudgement& c) { return c.failing; };
@@ -77,7 +77,7 @@ std::string answer_of(const judge::PassJudgement& pass, const LoadStored& load, 
       ask_shader(run->c, *reference, *shader, run->stored, places_of(*most, *reference), judge::profile(profile), pass.half_mode), fails);
 }
 
-/// The port's program of a pass, where its invocations can be followed. Why they cannot, ask_shaders() says.
+/// Returns the port's program of a pass if it can be traced. ask_shaders() reports why it cannot.
 std::unique_ptr<capture::TracedProgram> followed_program(const judge::FailedRun& failed, const Programs& programs) try {
   return program_model(programs, failed.judged.formula, failed.run.c);
 } catch (const Error&) {
@@ -166,7 +166,7 @@ void ask_shaders(const LoadStored& load, const BindPass& bind, const Programs& p
       said = answer_of(pass, load, bind, programs, judgement.profile);
     } catch (const Error& e) {
       if (e.code() == ExitCode::internal) throw;
-      said = e.what();  // the verdict stands without it
+      said = e.what();  // the verdict does not depend on it
     }
     if (!said.empty()) judgement.notes.push_back(pass.pass + ": " + said);
   }
