@@ -1,4 +1,4 @@
-// Runs that may be killed: their state in the folder of the results, and going on from it.
+// Checkpoints of runs that may be killed: their state in the results folder, from which they resume.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace rainref::cli {
 
-/// What a run has made besides its files, and its summary needs.
+/// Results of a run that are not in files but are needed for its summary.
 struct RunSoFar {
   double seconds = 0;
   std::vector<capture::HashRecorder::Time> times;
@@ -23,12 +23,12 @@ class Checkpoint {
  public:
   Checkpoint(const std::filesystem::path& folder, const RunOptions& options);
 
-  /// Bytes of the file; nothing where there is none.
+  /// Size of the file; nothing if there is none.
   std::optional<std::uintmax_t> bytes() const;
-  /// Goes on where the file says: the state into `opened`, and the comparisons with truth so far into `truth`. Throws Error(usage) for a
-  /// file that is none, damaged, of another scene, or of a run that asked for other pictures; Error(io) where it cannot be read.
+  /// Resumes from the file: sets `opened` to the state and `truth` to the comparisons so far. Throws Error(usage) if the file is no
+  /// checkpoint, is damaged, or belongs to another scene or to a run with other picture options; Error(io) if it cannot be read.
   RunSoFar resume(simulation::Opened& opened, nlohmann::ordered_json& truth) const;
-  /// Puts the file in the place of the one before, once it is whole. Throws Error(io).
+  /// Writes the file, and replaces the previous one when it is complete. Throws Error(io).
   void write(const simulation::Opened& opened, const RunSoFar& so_far, const nlohmann::ordered_json& truth) const;
   /// Throws Error(io).
   void remove() const;

@@ -3,7 +3,7 @@
 
 namespace rainref::cli {
 
-/// Parses and runs. Returns the exit code; prints errors as one line on standard error.
+/// Parses the arguments and runs the command. Returns the exit code; prints errors as one line on standard error.
 int main(int argc, const char* const* argv);
 
 }  // namespace rainref::cli

@@ -1,4 +1,4 @@
-// How a program that was started has ended.
+// How a child process ended.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace rainref::cli {
 
-/// One sentence about `what` from the status that waitpid gives; "" for exit code 0.
+/// One sentence about `what` from a waitpid status; "" for exit code 0.
 std::string failure_of(const std::string& what, int status);
 
-/// The lines of a text, the last 20 of them.
+/// The last 20 lines of a text.
 std::vector<std::string> last_lines_of(const std::string& text);
 
 }  // namespace rainref::cli

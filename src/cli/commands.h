@@ -14,23 +14,23 @@ namespace rainref::cli {
 /// Options that `run`, `hash` and `pack` share.
 struct SceneOptions {
   std::filesystem::path scene;
-  std::vector<std::string> overrides;  ///< of --set, then of --frames and --size
+  std::vector<std::string> overrides;  ///< from --set, then --frames and --size
   int threads = 0;                     ///< 0: one for each processor
 };
 
 struct RunOptions {
   SceneOptions scene;
   std::filesystem::path output;  ///< empty: out/<name of the scene>
-  std::filesystem::path film;    ///< of the frames from `first` on, each K-th with `every`; empty: none
-  int first = 0;                 ///< frames before it are simulated and not rendered
+  std::filesystem::path film;    ///< of the frames from `first` on, every K-th with `every`; empty: none
+  int first = 0;                 ///< earlier frames are simulated but not rendered
   int every = 0;                 ///< 0: the last frame only
-  int checkpoint_every = 0;      ///< frames between states that a killed run can go on from; 0: none
-  bool overwrite = false;        ///< what an earlier run left in the folder goes
-  bool resume = false;           ///< from such a state, where there is one
+  int checkpoint_every = 0;      ///< frames between checkpoints; 0: none
+  bool overwrite = false;        ///< deletes what an earlier run left in the folder
+  bool resume = false;           ///< from a checkpoint, if there is one
   bool png = true, exr = false;
   bool json = false;
-  bool keep_images = true;     ///< what default scenes begin with, in the user's cache folder
-  bool compare_truth = false;  ///< against the traced truth, on the frames that are written
+  bool keep_images = true;     ///< keeps the start images of default scenes in the user's cache folder
+  bool compare_truth = false;  ///< with the traced truth, for the frames that are written
   enum Capture : std::uint8_t { none, passes, all } capture = none;
 };
 
@@ -38,9 +38,9 @@ struct PackOptions {
   SceneOptions scene;
   std::filesystem::path output;
   std::vector<int> frames;          ///< ascending
-  bool may_add_frames = false;      ///< of passes that a port which does nothing passes in these
+  bool may_add_frames = false;      ///< for passes that a null port would pass with these frames
   std::vector<std::string> passes;  ///< empty: every pass of the variant
-  bool shows_coverage = false;      ///< lists what of each pass's text no case takes
+  bool shows_coverage = false;      ///< lists the alternatives of each pass's text that no case takes
 };
 
 /// `pack --spirv`.
@@ -51,22 +51,22 @@ struct ForeignPackOptions {
 
 struct ValidateRequest {
   std::filesystem::path pack, port;
-  std::filesystem::path shadow;  ///< dumps of a port's own run, judged instead of `port`; "": a pack is judged
-  SceneOptions scene;            ///< with `shadow`: the scene that the port ran; empty: a manifest lies beside the dumps
+  std::filesystem::path shadow;  ///< dumps of a port's own run, judged in place of `port`; "": a pack is judged
+  SceneOptions scene;            ///< with `shadow`: the scene that the port ran; empty: a manifest is beside the dumps
   std::string profile = "vulkan";
-  std::vector<std::string> only;  ///< these passes alone; empty: all
-  bool partial = false;           ///< a pass without files of the port is not judged, and nothing of it is missing
-  std::filesystem::path spirv;    ///< a folder with bindings.json: the port's own shaders are asked who is wrong; "": they are not
-  bool no_causes = false;         ///< what went wrong is not looked for
-  double causes_within = 0;       ///< seconds of that for a pass; 0: as long as it takes
-  std::string exec;               ///< the port's own command, run first; "": `port` holds its outputs
-  double timeout_s = 600;         ///< of each run of it
-  int repeat = 1;                 ///< runs of it
+  std::vector<std::string> only;  ///< only these passes; empty: all
+  bool partial = false;           ///< a pass without files of the port is not judged, and its files are not reported as missing
+  std::filesystem::path spirv;    ///< a folder with bindings.json: executes the port's own shaders to find out who is wrong; "": no
+  bool no_causes = false;         ///< no search for causes
+  double causes_within = 0;       ///< time limit in seconds for the causes of a pass; 0: none
+  std::string exec;               ///< the port's own command, run first; "": `port` already holds its outputs
+  double timeout_s = 600;         ///< for each run of the command
+  int repeat = 1;                 ///< number of runs of the command
   bool allow_untested = false;
   bool strict = false;        ///< each WARN fails
-  bool exhaustive = false;    ///< every envelope is computed
-  bool foreign_host = false;  ///< with `shadow`: what the host chose otherwise than the scene is a note
-  bool verbose = false;       ///< all that is known of each pass
+  bool exhaustive = false;    ///< computes every envelope
+  bool foreign_host = false;  ///< with `shadow`: a host's choices that differ from the scene are notes
+  bool verbose = false;       ///< all details of each pass
   int threads = 0;
   std::string command;  ///< as typed, for the report
   ReportOptions reports;

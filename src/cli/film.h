@@ -1,4 +1,4 @@
-// Films: pictures piped into ffmpeg's program, one after the other.
+// Films: pictures piped to ffmpeg one after the other.
 #pragma once
 
 #include <filesystem>
@@ -9,31 +9,31 @@
 
 namespace rainref::cli {
 
-/// Pictures a second: frames a second over how many of them go to one picture.
+/// Pictures per second: the frame rate divided by the number of frames for each picture.
 struct FilmRate {
   double fps;
   int every = 1;
   double per_second() const { return fps / every; }
 };
 
-/// What can be known before any work. Throws Error(usage) where the name ends in none of .mp4, .webm and .gif, or where a GIF cannot have
-/// that rate; Error(io) where no folder of PATH has ffmpeg, or where something else than a file has the name.
+/// Checks that can be made before any work. Throws Error(usage) if the name does not end in .mp4, .webm or .gif, or if a GIF cannot have
+/// that rate; Error(io) if ffmpeg is not in PATH, or if the name exists and is not a file.
 void require_film(const std::filesystem::path& path, FilmRate rate);
 
-/// A film being made. Its bytes go to a hidden file beside it; finish() gives that its name. Until then a file of that name stays as it
-/// was, and without it nothing is left, nor does ffmpeg go on. The folder is made where it is missing.
+/// A film being written to a hidden file beside it; finish() renames that. Until then an existing file of that name is unchanged. Without
+/// finish(), nothing remains and ffmpeg is stopped. A missing folder is created.
 ///
-/// ffmpeg gets each picture as raw bytes, red, green and blue, top row first, and nothing else, so the same pictures are the same input.
-/// It runs in one thread and writes no dates: the same ffmpeg makes the same file.
+/// ffmpeg gets only the raw pixels of each picture, red, green and blue, top row first, so equal pictures give equal input. It runs in one
+/// thread and writes no dates: one version of ffmpeg writes equal files.
 class Film {
  public:
-  /// Throws as require_film, and Error(io) where the place cannot be written to or no process can be made.
+  /// Throws like require_film, and Error(io) if the folder cannot be written to or no process can be started.
   Film(const std::filesystem::path& path, int width, int height, FilmRate rate);
   ~Film();
 
-  /// The next picture: rgba8 of the film's size, row 0 on top. Throws Error(io) with the last lines that ffmpeg printed where it has ended.
+  /// Adds the next picture: rgba8 of the film's size, row 0 on top. Throws Error(io) with ffmpeg's last lines of output if it has ended.
   void add(const Image& picture);
-  /// Waits for ffmpeg. Throws like add, also where it has ended with another exit code than 0.
+  /// Waits for ffmpeg. Throws like add, also if its exit code is not 0.
   void finish();
   int pictures() const { return pictures_; }
 

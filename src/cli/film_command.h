@@ -1,4 +1,4 @@
-// What ffmpeg is asked for.
+// The arguments for ffmpeg.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace rainref::cli {
 
-/// ffmpeg's arguments: raw pictures from its standard input to `output`, in the format that the name `film` says. Throws Error(usage) as
+/// Arguments for raw pictures from standard input to `output`, in the format of the extension of `film`. Throws Error(usage) like
 /// require_film.
 std::vector<std::string> film_arguments(const std::filesystem::path& film, int width, int height, FilmRate rate,
                                         const std::filesystem::path& output);

@@ -1,4 +1,4 @@
-// JSON as the command line prints it.
+// JSON for the command line's output.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace rainref::cli {
 
-/// Indented. A file's name may be no UTF-8; what JSON cannot hold becomes U+FFFD.
+/// Indented. A file's name may be invalid UTF-8; invalid bytes become U+FFFD.
 std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace rainref::cli

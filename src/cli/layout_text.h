@@ -1,4 +1,4 @@
-// What `rainref describe --layout` prints.
+// The output of `rainref describe --layout`.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace rainref::cli {
 
-/// The uniform blocks, records and lists of an effect's passes, pass after pass: of all, or of one, in every variant or in one. Each
-/// block and record is there once, before its first use. What one pass of one variant needs can be pasted into one shader: its bindings
-/// differ, as port_runner numbers them. Throws Error(usage) naming the nearest pass or variant.
+/// The uniform blocks, records and lists of an effect's passes in order: of all passes or one, in all variants or one. Each block and
+/// record appears once, before its first use. The text for one pass of one variant can be pasted into one shader: bindings depend on the
+/// pass, as port_runner numbers them. Throws Error(usage) naming the nearest pass or variant.
 std::string layout_text(const capture::EffectInfo& effect, scene::Language language, const std::optional<std::string>& pass,
                         const std::optional<std::string>& variant);
 

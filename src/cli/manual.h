@@ -1,13 +1,13 @@
-// The manual page and what shells complete, written from the options themselves.
+// The manual page and shell completions, generated from the option declarations.
 #pragma once
 
 #include <string>
 
 namespace rainref::cli {
 
-/// In troff, for section 1.
+/// In troff format, for section 1.
 std::string man_page();
-/// Completion of verbs, options, their words, files, and scenes, which the program is asked for.
+/// Completion of verbs, options, their words, files, and scenes, which the script asks the program for.
 std::string bash_completion();
 std::string zsh_completion();
 

@@ -1,4 +1,4 @@
-// Values of options that are text on the command line.
+// Parsing of option values.
 #pragma once
 
 #include <string>
@@ -6,16 +6,16 @@
 
 namespace rainref::cli {
 
-/// A whole number from `low` to `high`; Error(usage) naming the option for anything else.
+/// An integer from `low` to `high`; Error(usage) naming the option for anything else.
 int whole_number(const std::string& text, const char* option, int low, int high);
 
-/// The parts of "a,b,c"; one empty part of "".
+/// The parts of "a,b,c"; one empty part for "".
 std::vector<std::string> list_of(const std::string& text);
 
-/// One of these words; Error(usage) naming the option, `expected` and the nearest word for anything else.
+/// Checks that the text is one of these words; otherwise Error(usage) naming the option, `expected` and the nearest word.
 void require_word(const std::string& text, const char* option, const char* expected, const std::vector<std::string>& words);
 
-/// What is to be written somewhere; Error(usage) naming the option and `expected` where it is "".
+/// Checks that a path to write is not ""; otherwise Error(usage) naming the option and `expected`.
 void require_text(const std::string& text, const char* option, const char* expected);
 
 }  // namespace rainref::cli

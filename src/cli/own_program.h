@@ -1,4 +1,4 @@
-// This program, started again as a process of its own.
+// Runs this program again as a child process.
 #pragma once
 
 #include <filesystem>
@@ -7,19 +7,18 @@
 
 namespace rainref::cli {
 
-/// Where the output of a child goes; "": where that of this process goes.
+/// Files for the output of a child; "": inherited from this process.
 struct ChildOutput {
   std::filesystem::path standard_output, standard_error;
 };
 
-/// Runs this program with these arguments, with one variable ("NAME=value") more where it is not "", and waits. It gets SIGTERM when this
-/// process dies, however it dies. Gives the exit code, or the signal that it died of, below zero. Throws Error(io) when there is no
-/// process.
+/// Runs this program with these arguments and one more environment variable ("NAME=value", if not ""), and waits. The child gets SIGTERM if
+/// this process dies in any way. Returns the exit code, or the negative signal number. Throws Error(io) if no process can be started.
 int run_own_program(const std::vector<std::string>& arguments, const std::string& variable = "", const ChildOutput& output = {});
 
-/// What this process was started with, without the program.
+/// The arguments of this process, without the program.
 std::vector<std::string> own_arguments();
-/// Where this program lies.
+/// Path of this program.
 std::filesystem::path own_program();
 
 }  // namespace rainref::cli

@@ -1,4 +1,4 @@
-// The frames that a pack takes of each pass.
+// Selects the frames of each pass for a pack.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace rainref::cli {
 
-/// The scene at a small size of the same aspect. Which passes run in which frame is the same, and the pictures are soon made.
+/// The scene at a small size with the same aspect, which renders quickly. The same passes run in the same frames.
 inline scene::Config at_small_size(scene::Config config) {
   const scene::Integer2 size = config.integer2("run.size");
   const std::int64_t divisor = std::gcd(size[0], size[1]), width = size[0] / divisor, height = size[1] / divisor;
@@ -24,7 +24,7 @@ inline scene::Config at_small_size(scene::Config config) {
   return config;
 }
 
-/// To the next frame. Its picture is made only where a pass of it is wanted.
+/// Advances one frame. Renders only if one of the frame's rendered passes is wanted.
 inline void go_on(simulation::Opened& scene, Recorder& recorder, bool renders) {
   scene.simulate(&recorder);
   if (renders)
@@ -33,12 +33,12 @@ inline void go_on(simulation::Opened& scene, Recorder& recorder, bool renders) {
     scene.skip(&recorder);
 }
 
-/// The frames to take of each pass: those asked for in which it runs; where there is none, the first in which it does.
+/// The frames of each pass: those asked for in which it runs; if there are none, the first in which it runs.
 class Frames : public Recorder {
  public:
   explicit Frames(const std::vector<int>& asked) : asked_(asked) {}
-  /// Runs the scene beforehand, until each pass has run in a frame asked for; to the last of these, and on to the end of the run while
-  /// some of the passes have not run.
+  /// Runs the scene in advance until each pass has run in a frame asked for: to the last of these frames, and on to the end of the run
+  /// while a pass has not run.
   void follow(simulation::Opened scene, const std::vector<std::string>& passes) {
     first_.clear();
     runs_when_asked_.clear();
@@ -70,7 +70,7 @@ class Frames : public Recorder {
     if (is_rendering_) rendered_.emplace(call.pass);
   }
 
-  /// Whether it runs when the picture is made, and not when the water moves.
+  /// True if the pass runs when the picture is rendered, not in the simulation step.
   bool is_rendered(const std::string& pass) const { return rendered_.contains(pass); }
   bool has(std::string_view pass) const { return first_.find(pass) != first_.end(); }
   void add(const std::string& pass, int frame) { added_[pass] = frame; }
@@ -78,7 +78,7 @@ class Frames : public Recorder {
     if (const auto added = added_.find(pass); added != added_.end() && added->second == frame) return true;
     return runs_when_asked_.find(pass) != runs_when_asked_.end() ? is_asked(frame) : has(pass) && first_.find(pass)->second == frame;
   }
-  /// Of all passes.
+  /// Last frame over all passes.
   int last(const std::vector<std::string>& passes) const {
     int last = 0;
     for (const std::string& pass : passes) last = std::max(last, runs_when_asked_.contains(pass) ? asked_.back() : first_.at(pass));

@@ -1,4 +1,4 @@
-// Running a port's own program.
+// Runs a port's own program.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,8 @@
 
 namespace rainref::cli {
 
-/// A new empty folder for this user alone, removed at the end with all that is in it. Its path is plain (see PortFolders).
+/// A new empty folder that only this user can access, deleted at the end with its contents. Its path has only safe characters (see
+/// PortFolders).
 class TemporaryRun {
  public:
   TemporaryRun();
@@ -21,18 +22,18 @@ class TemporaryRun {
   std::optional<Hidden> folder_;
 };
 
-/// How a command is told its pack and the folder for its outputs.
+/// Passes the pack and the output folder to a command.
 ///
-/// What stands for {pack} and {out} is an absolute path of letters, digits and `/._-` alone. No shell, however deeply it is
-/// nested or quoted, takes such a word apart. Where the real path has other characters it is that of a link to it.
+/// {pack} and {out} are replaced by absolute paths with only letters, digits and `/._-`, so that no shell splits or interprets them,
+/// however nested or quoted. If the real path has other characters, a link to it is used.
 class PortFolders {
  public:
   PortFolders(const std::filesystem::path& pack, const std::filesystem::path& out);
-  /// The command with {pack} and {out} replaced.
+  /// Returns the command with {pack} and {out} replaced.
   std::string filled_in(const std::string& command) const;
-  /// RAINREF_PACK=... and RAINREF_OUT=..., the real absolute paths, whatever their characters.
+  /// Returns RAINREF_PACK=... and RAINREF_OUT=..., the real absolute paths with any characters.
   std::vector<std::string> environment() const;
-  /// After the command: Error(port_files) when it put something of its own in the place of the link that was {out}.
+  /// Call after the command: Error(port_files) if it replaced the link of {out} by something else.
   void check() const;
 
  private:
@@ -44,13 +45,13 @@ class PortFolders {
 
 /// How a command ended.
 struct CommandEnd {
-  std::string failure;                  ///< one sentence; "" when it exited with 0
-  std::vector<std::string> last_lines;  ///< of what it printed to either stream, at most 20
+  std::string failure;                  ///< one sentence; "" if the exit code was 0
+  std::vector<std::string> last_lines;  ///< of its standard output and standard error, at most 20
 };
 
-/// Runs a command by /bin/sh, without input, with these variables added to the environment, and waits for it. Whatever it
-/// started and left running is killed, with all that came of it, also what made itself a session or a parent of its own: when
-/// the shell ends, when the time is over, and when rainref is interrupted. Throws Error(io) when no process can be made.
+/// Runs a command with /bin/sh, without input, with these environment variables added, and waits. All its descendants are killed, also
+/// those that started a session or changed their parent: when the shell ends, when the time is over, and when rainref is interrupted.
+/// Throws Error(io) if no process can be started.
 CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment = {});
 
 }  // namespace rainref::cli

@@ -1,4 +1,4 @@
-// prctl, where there are processes: WebAssembly has neither, and a program there fails before it starts another.
+// prctl, or a stub if the system lacks it. WebAssembly has no processes either; a program fails there before it starts one.
 #pragma once
 
 #if __has_include(<sys/prctl.h>)

@@ -7,14 +7,14 @@
 
 namespace rainref::cli {
 
-/// Frames (or another unit) done, rate and time left, on one line of standard error that is redrawn ten times a second at most. Silent
-/// when standard error is no terminal.
+/// Shows frames (or another unit) done, rate and time left, on one line of standard error that is redrawn at most ten times per second.
+/// Silent if standard error is not a terminal.
 class Progress {
  public:
   Progress(std::string what, int total, const char* unit = "frames");
   ~Progress();
   void advance();
-  /// Shows this in its place until it advances: what takes long meanwhile.
+  /// Shows the name of a long operation until the bar advances.
   void meanwhile(std::string_view what);
 
  private:

@@ -1,4 +1,4 @@
-// Scene files as a user names them.
+// Scene files named by the user.
 #pragma once
 
 #include "cli/commands.h"
@@ -7,11 +7,11 @@
 
 namespace rainref::cli {
 
-/// scene::load of the options' file and overrides; of a picture that rainref wrote, the scene in it. A file that is not there brings the
-/// nearest scene that is into the message.
+/// scene::load of the options' file and overrides; for a picture that rainref wrote, the scene stored in it. If the file does not exist,
+/// the error names the nearest scene.
 scene::Config load_scene(const SceneOptions& options);
 
-/// The scene, ready to run; what is doubtful about its files, and what was chosen in reading them, is said on standard error.
+/// Opens the scene for a run. Warnings about its files, and choices made while reading them, go to standard error.
 simulation::Opened open_scene(const scene::Config& config, const parallel::Executor& executor);
 
 }  // namespace rainref::cli

@@ -1,4 +1,4 @@
-// The options that say which scene, and how it is run.
+// Options that select a scene and how to run it.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,17 @@ class App;
 
 namespace rainref::cli {
 
-/// What `run`, `hash`, `pack` and `validate --shadow` take, as text.
+/// Values of the options of `run`, `hash`, `pack` and `validate --shadow`, as text.
 struct SceneFlags {
   std::string scene;
   std::optional<std::string> size, simd, frames, threads;
   std::vector<std::string> set;
 };
 
-/// SCENE, --frames (`with_frames`), --size, --threads, --simd and --set of a verb.
+/// Adds SCENE, --frames (`with_frames`), --size, --threads, --simd and --set to a verb.
 void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames = true);
 
-/// What they ask for; selects the SIMD target. Error(usage) for a value that is none.
+/// Converts the values and selects the SIMD target. Error(usage) for an invalid value.
 SceneOptions resolve(const SceneFlags& flags);
 
 }  // namespace rainref::cli

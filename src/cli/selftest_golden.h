@@ -1,4 +1,4 @@
-// Golden hashes that `rainref selftest` carries with it. Written by scripts/accept_golden.
+// Golden hashes built into `rainref selftest`. Written by scripts/accept_golden.
 #pragma once
 
 namespace rainref::cli {

@@ -15,7 +15,7 @@
 
 namespace rainref::cli {
 
-/// A plan, its cells, and where they lie.
+/// A plan, its cells, and their folder.
 struct OpenPlan {
   std::unique_ptr<sweep::Plan> plan;
   sweep::Cells cells;
@@ -26,7 +26,7 @@ struct OpenPlan {
   std::filesystem::path tables() const { return store.root() / "plans" / plan->name(); }
 };
 
-/// A bar on the terminal while a large plan's cells are checked.
+/// A progress bar for checking the cells of a large plan.
 sweep::Planned planning_progress();
 
 struct SweepOptions {
@@ -43,14 +43,14 @@ struct SweepOptions {
 };
 
 int sweep_plan(const SweepOptions& options);
-/// In a process of its own, which may die: another one then goes on.
+/// Runs in a child process that may die; then starts another that continues.
 int sweep_run(const SweepOptions& options);
 int sweep_status(const SweepOptions& options);
 int sweep_collect(const SweepOptions& options);
 int sweep_gc(const SweepOptions& options);
 int sweep_script(const SweepOptions& options);
 
-/// How a cell of this plan is made, with an executor that outlives it.
+/// Returns the function that makes a cell of this plan. The executor must outlive it.
 sweep::Maker cell_maker(const OpenPlan& open, const parallel::Executor& executor);
 
 }  // namespace rainref::cli

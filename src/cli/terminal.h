@@ -1,5 +1,4 @@
-// What the command line prints. All of it passes here, so that no byte of a port's output, of a pack or of a file's name can
-// command a terminal.
+// Output of the command line. All output passes through here, so that no byte from a port, a pack or a file name can control a terminal.
 #pragma once
 
 #include <string_view>
@@ -8,21 +7,21 @@
 
 namespace rainref::cli {
 
-/// To standard output, through printable(). Throws std::system_error where it takes no more.
+/// Prints to standard output, through printable(). Throws std::system_error if writing fails.
 void print_text(std::string_view text);
-/// To standard error, through printable(): what else goes to standard output, which has a report. Failures are not reported.
+/// Prints to standard error, through printable(): text for standard output when a report is written there. Failures are ignored.
 void print_aside(std::string_view text);
-/// To standard output, byte by byte: a report that a program reads. Throws as print_text.
+/// Writes a machine-readable report to standard output, unchanged. Throws like print_text.
 void print_report(std::string_view report);
 template <typename... T>
 void say(fmt::format_string<T...> format, T&&... arguments) {
   print_text(fmt::format(format, std::forward<T>(arguments)...));
 }
 
-/// "rainref: " and the message, as one line on standard error. Failures are not reported: there is nowhere to.
+/// Prints "rainref: " and the message as one line on standard error. Failures are ignored, because they cannot be reported.
 void complain(std::string_view message);
 
-/// Whether nobody reads standard output any more, such as `head` when it has had enough.
+/// True if nobody reads standard output any more, for example after `head` has ended.
 bool reader_is_gone();
 
 }  // namespace rainref::cli

@@ -22,37 +22,36 @@ namespace rainref::cli {
 
 struct ValidateRequest;
 
-/// What the command line asks for.
+/// Values of the options.
 struct ReportOptions {
   std::optional<std::string> json, junit, html, baseline;
 };
-/// --json, --junit, --html and --baseline of a verb.
+/// Adds --json, --junit, --html and --baseline to a verb.
 void add_report_options(CLI::App& verb, ReportOptions& options);
 
-/// A command line as a shell would read it, for reports: "rainref validate 'my pack' --port out".
+/// Quotes a command line for a shell, for reports: "rainref validate 'my pack' --port out".
 std::string command_text(int argc, const char* const* argv);
 
-/// The reports of one run. Make it before the work: it opens every file and reads the baseline, so that what cannot be
-/// written or read is known at once.
+/// The reports of one run. Construct it before the work: it opens every file and reads the baseline, so that errors appear at once.
 class Reports {
  public:
-  /// Throws Error(io) for a file that cannot be written or a baseline that cannot be read, Error(usage) for a bad
-  /// baseline, an empty name, and two reports under one name.
+  /// Throws Error(io) for a file that cannot be written or a baseline that cannot be read, Error(usage) for an invalid baseline, an empty
+  /// name, or two reports with one name.
   Reports(const ReportOptions& options, bool allow_untested);
 
-  /// Throws Error(usage) where the baseline names a pass, an output or a case that is not there.
+  /// Throws Error(usage) if the baseline names a pass, output or case that does not exist.
   void check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const;
-  /// Lets the listed failures pass. Before write, and before the exit code is taken.
+  /// Permits the failures in the baseline. Call before write, and before computing the exit code.
   void apply_baseline(judge::PortJudgement& judgement) const;
-  /// Whether one of them goes to standard output, so that nothing else may.
+  /// True if a report goes to standard output, so that nothing else may.
   bool has_standard_output() const { return json_.is_standard_output || junit_.is_standard_output || html_.is_standard_output; }
-  /// Writes the files, each under its name only when whole.
+  /// Writes the files; each gets its name only when complete.
   void write(const judge::PortJudgement& judgement, const reports::PageSource& source);
-  /// When nothing could be judged: the reports say why, so that none of an earlier run stays behind.
+  /// Call if nothing could be judged: the reports contain the error, so that none of an earlier run remains.
   void write_error(const Error& error, const ValidateRequest& request);
 
  private:
-  /// Neither: not asked for.
+  /// Neither name nor standard output: not requested.
   struct File {
     std::unique_ptr<AtomicFile> file;
     bool is_standard_output = false;

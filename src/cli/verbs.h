@@ -1,4 +1,4 @@
-// Each verb as the command line has it: its options, and what runs it with them.
+// The verbs of the command line: their options, and the functions that run them.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace rainref::cli {
 
 struct Verb {
   const CLI::App* parser;
-  std::function<int()> run;  ///< after parsing: the exit code, or Error
+  std::function<int()> run;  ///< called after parsing: returns the exit code, or throws Error
 };
 
 // Each declares one verb with its options.
@@ -29,7 +29,7 @@ Verb mutate_verb(CLI::App& app);
 Verb sweep_verb(CLI::App& app);
 Verb selftest_verb(CLI::App& app);
 
-/// What the program says of itself, and all of its verbs. `command`: as typed.
+/// Adds the program's description and all verbs. `command`: as typed.
 std::vector<Verb> add_verbs(CLI::App& app, const std::string& command);
 
 }  // namespace rainref::cli
