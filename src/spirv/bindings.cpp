@@ -20,8 +20,8 @@ namespace {
 using capture::CaseInput;
 using capture::CaseOutput;
 
-constexpr std::size_t count_bytes = 16;       // what stands before the records of an output
-constexpr std::size_t absent_bytes = 256;     // of a list that the case lacks: zeros
+constexpr std::size_t count_bytes = 16;       // bytes before the records of an output
+constexpr std::size_t absent_bytes = 256;     // of a list that is missing in the case: zeros
 constexpr std::size_t most_list = 256 << 20;  // bytes of an output of records
 constexpr std::size_t most_bytes = 4 << 20;   // of a module
 
@@ -55,7 +55,7 @@ Specialization specialization_of(const Program& program, const capture::PassCase
   return values;
 }
 
-/// What one binding leads to, and its memory.
+/// A resource of one binding, and its memory.
 struct CaseBinding::Bound {
   std::vector<std::byte> bytes;
   BoundBuffer buffer;

@@ -93,7 +93,7 @@ void Parser::add_type(const Raw& raw) {
       take_element(2);
       slots = 2;
       break;
-    default:  // a function's result; its parameters are those of the function
+    default:  // a function's result; its parameters are the function's
       t.kind = Kind::function;
       take_element(1);
       break;
@@ -131,7 +131,7 @@ void Parser::add_structure(const Raw& raw, Type& t) {
     if (module_.types.size() > most_types) refuse(raw, fmt::format("more than {} types are not executed", most_types));
     t.members.push_back(member);
   }
-  // One of nothing has a slot all the same: what goes through all parts of a value takes as long as the value has slots.
+  // A type without parts has a slot too, so that the work to visit all parts of a value is bounded by its number of slots.
   t.slots = std::max<std::uint32_t>(static_cast<std::uint32_t>(slots), 1);
 }
 

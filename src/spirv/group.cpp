@@ -7,7 +7,7 @@
 namespace rainref::spirv {
 namespace {
 
-// Calls f(x, y, z) for all places below a size.
+// Calls f(x, y, z) for all positions in a grid of this size.
 template <class F>
 void for_each_place(const Three& size, const F& f) {
   for (std::uint32_t z = 0; z < size[2]; ++z)
@@ -15,7 +15,7 @@ void for_each_place(const Three& size, const F& f) {
       for (std::uint32_t x = 0; x < size[0]; ++x) f(Three{x, y, z});
 }
 
-// Until all of them have finished.
+// Runs until all invocations have finished.
 void run_together(const Machine<Float>& machine, std::vector<Invocation<Float>>& invocations) {
   std::vector<Stop> stopped(invocations.size(), Stop::turn);
   for (;;) {

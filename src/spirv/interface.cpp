@@ -36,7 +36,7 @@ std::optional<Format> format_of(std::uint32_t image_format) {
   }
 }
 
-/// The members of a type in a buffer, one by one.
+/// Lists the members of a type in a buffer.
 class Layout {
  public:
   Layout(const Module& module, const Descriptor& of) : module_(module), of_(of) {}
@@ -71,7 +71,7 @@ class Layout {
   }
   void add(TypeIndex type, std::uint64_t offset, const std::string& name) {
     const Type& t = module_.types[type];
-    const bool is_together = t.kind != Kind::vector || t.stride == 4;  // a column of a matrix by rows is spread
+    const bool is_together = t.kind != Kind::vector || t.stride == 4;  // a column of a row-major matrix is not contiguous
     if (t.kind == Kind::integer || t.kind == Kind::floating ||
         (t.kind == Kind::vector && is_together && module_.types.component_kind(type) != Kind::boolean))
       return add_member(type, offset, name);
@@ -95,7 +95,7 @@ class Layout {
   std::set<std::string> names_;
 };
 
-/// The elements of a storage buffer's array.
+/// The element layout of a storage buffer's array.
 scene::UniformBlock record_of(const Module& module, const Descriptor& d) {
   const Type& block = module.types[d.type];
   const bool is_list = block.members.size() == 1 && module.types[block.members[0].type].kind == Kind::runtime_array;

@@ -102,7 +102,7 @@ void Parser::declare(const Raw& raw) {
     case Op::Undef:
       return add_constant(raw);
     default:
-      return;  // capabilities, extensions, sources: what they bring is refused where it is used
+      return;  // capabilities, extensions, sources: unsupported features are rejected where they are used
   }
 }
 
@@ -125,7 +125,7 @@ void Parser::add_text(const Raw& raw) {
   made.number = static_cast<std::uint32_t>(module_.files.size());
   module_.files.push_back(text(raw, 1));
 }
-// The text of a file, in one piece or several.
+// Adds the text of a file, in one or several pieces.
 void Parser::add_source(const Raw& raw) {
   const bool goes_on = raw.op == Op::SourceContinued;
   if (!goes_on) source_ = raw.words.size() > 3 && id(raw, 2).what == What::text ? id(raw, 2).number : 0;
@@ -169,14 +169,14 @@ void Parser::add_decoration(const Raw& raw) {
   } else {
     member_decorations_[{target, raw.words[1]}][decoration] = value;
   }
-  // A constant decorated so is the size, whatever the execution mode says.
+  // A constant with this decoration overrides the execution mode's size.
   if (at == 1 && decoration == Decoration::built_in && value == static_cast<std::uint32_t>(BuiltIn::workgroup_size)) {
     is_group_decorated_ = true;
     group_ids_ = {target};
   }
 }
 
-// A line counts until another one comes, over the ends of blocks: compilers write it only where it changes.
+// A line applies until the next one, also across blocks: compilers write it only if it changes.
 void Parser::take_line(const Raw& raw) {
   constexpr std::uint32_t debug_source = 35, debug_line = 103, debug_no_line = 104;
   if (raw.op == Op::Line) {
@@ -192,7 +192,7 @@ void Parser::take_line(const Raw& raw) {
         if (id(raw, 4).what == What::text) {
           Id& source = define(raw, 1, What::text);
           source.number = number;
-          // The text is a string as names of files are, which the module has among them.
+          // The text is a string like file names, so the module lists it among these.
           module_.sources.resize(module_.files.size());
           if (raw.words.size() > 5 && id(raw, 5).what == What::text) module_.sources[number] = module_.files[id(raw, 5).number];
         }

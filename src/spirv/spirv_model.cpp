@@ -27,7 +27,7 @@ class OwnTexel final : public StorageImage<N> {
   N texel_[4] = {N(0.0f), N(0.0f), N(0.0f), N(0.0f)};
 };
 
-/// Whether the judge asks a model for an output's texels.
+/// True if the judge needs a model's values for an output.
 bool is_asked(const CaseOutput& o) { return !o.array.is_records && o.judge == capture::Judge::envelope; }
 int values_of(const capture::PassCase& c) {
   int values = 0;

@@ -1,4 +1,4 @@
-// Functions and blocks of a module, and what leads from one to another.
+// Functions and blocks of a module, and branches between them.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -6,7 +6,7 @@
 #include "spirv/parser.h"
 
 namespace rainref::spirv {
-// What describes the source alone.
+// True for an instruction that describes only the source.
 bool Parser::is_debug(const Raw& raw) const {
   if (raw.op != Op::ExtInst) return false;
   const What set = id(raw, 2).what;
@@ -43,7 +43,7 @@ void Parser::translate(std::uint32_t function, int depth) {
   bodies_[function].state = State::done;
 }
 
-// A place in the frame for each result, and a number for each block: both may be used before they stand in the text.
+// Assigns a place in the frame to each result, and a number to each block: both may be used before their definition.
 void Parser::place_results(std::uint32_t function) {
   labels_.clear();
   block_ = static_cast<std::uint32_t>(module_.blocks.size());
@@ -92,7 +92,7 @@ void Parser::translate_plain(const Raw& raw) {
   emit(raw, raw.op);
   module_.is_cooperative |= raw.op == Op::ControlBarrier;
 }
-// Or the end of the function.
+// A block's label, or the end of the function.
 void Parser::translate_label(const Raw& raw) {
   if (is_in_block_) refuse(raw, "a block has no end");
   if (raw.op == Op::FunctionEnd) return;

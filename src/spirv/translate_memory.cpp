@@ -7,7 +7,7 @@
 
 namespace rainref::spirv {
 
-// A separate sampler counts for nothing: how an image is sampled, its binding says.
+// A separate sampler is ignored: the image's binding defines the sampling.
 void Parser::translate_image(const Raw& raw) {
   const Kind kind = type_of(value(raw, 2)).kind;
   if ((kind != Kind::image && kind != Kind::sampled_image) || type_of(value(raw, 1)).slots != 1) refuse_shape(raw);
@@ -20,7 +20,7 @@ const Parser::Id& Parser::pointer(const Raw& raw, std::size_t i) const {
   return found;
 }
 
-// in: initial value; sub: whether there is one; m: the first slot of its memory in the frame; n: slots of that.
+// in: initial value; sub: true if there is one; m: first slot of its memory in the frame; n: number of slots.
 void Parser::translate_variable(const Raw& raw) {
   const Id& result = pointer(raw, 1);
   if (type_of(result).storage != Storage::function) refuse_shape(raw);
@@ -34,7 +34,7 @@ void Parser::translate_variable(const Raw& raw) {
   code.sub = 1;
 }
 
-// in: the pointer; m: what is added in any case; pool: places of indices, what each is multiplied by, and how many there may be.
+// in: the pointer; m: constant offset; pool: places of indices, the stride of each, and its bound.
 void Parser::translate_chain(const Raw& raw) {
   const Id& base = pointer(raw, 2);
   const Storage storage = type_of(base).storage;
@@ -65,7 +65,7 @@ void Parser::translate_chain(const Raw& raw) {
   ids_[raw.words[1]].pointee = at;
 }
 
-// sub: the memory. In a buffer m: bytes from the pointer to the value's end; pool: twice the place of each slot, and one more of a float.
+// sub: the memory. For a buffer m: bytes from the pointer to the value's end; pool: twice the offset of each slot, plus one for a float.
 void Parser::access(const Raw& raw, Code& code, const Id& to, TypeIndex given) {
   const Storage storage = type_of(to).storage;
   const std::uint32_t slots = module_.types[given].slots;
@@ -103,7 +103,7 @@ void Parser::translate_store(const Raw& raw) {
   code.in = {to.place, object.place, 0, 0};
   access(raw, code, to, object.type);
 }
-// in: the pointer to the block; m: where the array begins; pool: bytes of an element.
+// in: the pointer to the block; m: offset of the array; pool: bytes of an element.
 void Parser::translate_array_length(const Raw& raw) {
   const Id& block = pointer(raw, 2);
   const TypeIndex array = module_.types.part(block.pointee, word(raw, 3));
@@ -117,7 +117,7 @@ void Parser::translate_array_length(const Raw& raw) {
   add_to_pool(code, stride);
 }
 
-// in: pointer, value, and what is compared with; sub: the memory.
+// in: pointer, value, comparator; sub: the memory.
 void Parser::translate_atomic(const Raw& raw) {
   const bool stores = raw.op == Op::AtomicStore;
   const std::size_t at = stores ? 0 : 2;
@@ -144,12 +144,12 @@ void Parser::translate_atomic(const Raw& raw) {
 
 namespace {
 
-// Image operands that are known; the others would change what is read.
+// The supported image operands; others would change the result.
 constexpr std::uint32_t lod_operand = 2, constant_offset_operand = 8, offset_operand = 16;
 
 }  // namespace
 
-// in: image, place, mip level, offset; sub: 1 with an offset.
+// in: image, coordinates, mip level, offset; sub: 1 with an offset.
 void Parser::translate_sample(const Raw& raw) {
   if (raw.op == Op::ImageSampleImplicitLod)
     refuse(raw, "OpImageSampleImplicitLod takes its mip level from neighbouring pixels, which a compute shader has not");
@@ -165,7 +165,7 @@ void Parser::translate_sample(const Raw& raw) {
   if (offset != 0) code.in[3] = components(raw, 6, Kind::integer, 2);
 }
 
-// in: image, place, texel or mip level, offset; sub: 1 with a mip level, 2 with an offset; m: components of the texel that is written.
+// in: image, coordinates, texel or mip level, offset; sub: 1 with a mip level, 2 with an offset; m: components of the written texel.
 void Parser::translate_texel(const Raw& raw) {
   const bool writes = raw.op == Op::ImageWrite, fetches = raw.op == Op::ImageFetch;
   const std::size_t at = writes ? 0 : 2;

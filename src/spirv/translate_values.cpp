@@ -18,7 +18,7 @@ void Parser::translate_copy(const Raw& raw) {
   if (type_of(value(raw, 2)).slots != n) refuse_shape(raw);
   copy(raw, value(raw, 1).place, value(raw, 2).place, n);
 }
-// sub: whether it becomes a float.
+// sub: true if the result is a float.
 void Parser::translate_bitcast(const Raw& raw) {
   const Kind from = module_.types.component_kind(value(raw, 2).type), to = module_.types.component_kind(value(raw, 1).type);
   const auto is_number = [](Kind k) { return k == Kind::integer || k == Kind::floating; };
@@ -45,7 +45,7 @@ void Parser::translate_select(const Raw& raw) {
   code.in = {components(raw, 2, Kind::boolean, conditions), value(raw, 3).place, value(raw, 4).place, 0};
   code.sub = conditions == 1;
 }
-// in: base, inserted bits (of an extraction base again), offset, count.
+// in: base, inserted bits (for an extraction the base again), offset, count.
 void Parser::translate_bits(const Raw& raw) {
   const std::uint32_t n = type_of(value(raw, 1)).slots;
   const std::size_t last = raw.op == Op::BitFieldInsert ? 3 : 2;
@@ -54,7 +54,7 @@ void Parser::translate_bits(const Raw& raw) {
   code.in = {components(raw, 2, Kind::integer, n), components(raw, last, Kind::integer, n), components(raw, last + 1, Kind::integer, 1),
              components(raw, last + 2, Kind::integer, 1)};
 }
-// A structure of two halves of m components each.
+// The result is a structure of two halves with m components each.
 void Parser::translate_wide(const Raw& raw) {
   const Id& result = value(raw, 1);
   const std::uint32_t m = type_of(result).slots / 2;
@@ -65,7 +65,7 @@ void Parser::translate_wide(const Raw& raw) {
   code.m = m;
 }
 
-// m: slots over which is summed, or rows of what is transposed or of an outer product; sub: columns of the result.
+// m: slots of the sum, or rows of the operand of a transposition or of an outer product; sub: columns of the result.
 void Parser::translate_product(const Raw& raw) {
   const auto shape = [&](std::size_t i) {
     const Type& t = type_of(value(raw, i));
@@ -128,7 +128,7 @@ void Parser::translate_product(const Raw& raw) {
   code.sub = static_cast<std::uint16_t>(columns);
 }
 
-// pool: places and slots of the parts.
+// pool: places and slot counts of the parts.
 void Parser::translate_construct(const Raw& raw) {
   const Id& result = value(raw, 1);
   const Kind kind = module_.types.component_kind(result.type);
@@ -172,7 +172,7 @@ void Parser::translate_part(const Raw& raw) {
   copy(raw, result.place, whole.place, type_of(result).slots);
   copy(raw, shifted(result.place, slot), object.place, slots);
 }
-// in: vector, index, and what is inserted; m: components of the vector.
+// in: vector, index, inserted value; m: components of the vector.
 void Parser::translate_dynamic_part(const Raw& raw) {
   const bool inserts = raw.op == Op::VectorInsertDynamic;
   const Id& vector = value(raw, 2);
@@ -184,7 +184,7 @@ void Parser::translate_dynamic_part(const Raw& raw) {
   if (inserts) code.in[2] = components(raw, 3, module_.types.component_kind(vector.type), 1);
   code.m = t.slots;
 }
-// pool: the place of each component; one that is undefined is the first.
+// pool: the place of each component; an undefined one becomes the first.
 void Parser::translate_shuffle(const Raw& raw) {
   const Id &result = value(raw, 1), &a = value(raw, 2), &b = value(raw, 3);
   if (type_of(result).kind != Kind::vector || type_of(a).kind != Kind::vector || type_of(b).kind != Kind::vector ||

@@ -14,7 +14,7 @@ TypeIndex Types::with_matrix_layout(TypeIndex index, std::uint32_t stride, bool 
   if (kind != Kind::matrix) {
     type.element = with_matrix_layout(type.element, stride, is_row_major);
   } else {
-    // In a matrix by rows the components of a column lie a stride apart, and the columns side by side.
+    // In a row-major matrix, the components of a column are one stride apart, and columns are adjacent.
     Type column = all_[type.element];
     column.stride = is_row_major ? stride : 4;
     type.element = add(column);
