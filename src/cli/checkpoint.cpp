@@ -16,7 +16,7 @@ namespace rainref::cli {
 Checkpoint::Checkpoint(const std::filesystem::path& folder, const RunOptions& options)
     : path_(folder / "checkpoint.state"), options_(options) {}
 
-/// The options that say which files there are: a run that goes on must ask for the same.
+/// The options that determine which files exist: a resumed run must have the same.
 nlohmann::ordered_json Checkpoint::asked() const {
   return {{"--first", options_.first},
           {"--every", options_.every},
@@ -28,7 +28,7 @@ std::optional<std::uintmax_t> Checkpoint::bytes() const {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path_, error);
   if (error == std::errc::no_such_file_or_directory) return std::nullopt;
-  return error ? 0 : size;  // reading it says why
+  return error ? 0 : size;  // reading it will report the error
 }
 
 RunSoFar Checkpoint::resume(simulation::Opened& opened, nlohmann::ordered_json& truth) const {

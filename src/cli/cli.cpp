@@ -24,10 +24,9 @@
 namespace rainref::cli {
 namespace {
 
-// The parser knows no nearest name, and speaks of what is missing before what is misspelt: so misspelt verbs and
-// options are looked for first.
+// The parser suggests no nearest name, and reports missing arguments before misspelt ones. So misspelt verbs and options are found first.
 void refuse_unknown(const CLI::App& app, int argc, const char* const* argv) {
-  const CLI::App* scope = &app;  // a verb, or an action of one, once it was named
+  const CLI::App* scope = &app;  // a verb, or its action, once it was named
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--") return;
@@ -61,7 +60,7 @@ void refuse_unknown(const CLI::App& app, int argc, const char* const* argv) {
   }
 }
 
-/// `help` and `help VERB` as what they stand for.
+/// Replaces `help` and `help VERB` by the equivalent options.
 std::vector<const char*> without_help_verb(int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2 || std::string_view(argv[1]) != "help") return words;
@@ -102,15 +101,15 @@ std::vector<Verb> add_verbs(CLI::App& app, const std::string& command) {
 }
 
 int main(int argc, const char* const* argv) {
-  undo_when_interrupted();  // first: threads that come later must leave signals to it
-  // A reader of standard output who goes away shows as an error, so that files are cleaned up on the way.
+  undo_when_interrupted();  // first, because later threads must leave signals to it
+  // If standard output is closed, report an error instead of ending, so that files are cleaned up.
   const bool dies_of_pipes = ::signal(SIGPIPE, SIG_IGN) == SIG_DFL;
-  const FloatingPointGuard guard;  // libraries that are loaded at the start may have set another state
+  const FloatingPointGuard guard;  // libraries loaded at the start may have changed the state
   ExitCode code = ExitCode::internal;
   std::string message;
   try {
     const int result = parse_and_run(argc, argv);
-    // A full disk shows when standard output is flushed.
+    // A full disk may be reported only when standard output is flushed.
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return result;
     code = ExitCode::io;
     message = "standard output cannot be written";
@@ -121,7 +120,7 @@ int main(int argc, const char* const* argv) {
     code = ExitCode::usage;
     message = "this scene needs more memory than can be had";
   } catch (const std::exception& e) {
-    // Printing throws when a full disk shows before the end.
+    // Printing throws if a full disk is reported earlier.
     if (std::ferror(stdout)) code = ExitCode::io;
     message =
         std::ferror(stdout) ? fmt::format("standard output cannot be written: {}", e.what()) : fmt::format("internal error: {}", e.what());

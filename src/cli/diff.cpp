@@ -23,7 +23,7 @@ using capture::PackCase;
 
 constexpr std::size_t most_listed = 10;
 
-// What differs between the two besides the values of buffers they both have.
+// Differences besides the values of common buffers.
 struct Findings {
   std::vector<std::string> lines;
   void add(std::string line) { lines.push_back(std::move(line)); }
@@ -66,14 +66,14 @@ std::string difference(const std::string& where, const scene::UniformBlock& bloc
   return "";
 }
 
-/// Compares the runs that both have, in the order of A, until a value differs.
+/// Compares the common runs, in the order of A, up to the first different value.
 class Comparison {
  public:
   Comparison(const Pack& a, const Pack& b) : a_(a), b_(b), both_inputs_(a.with_inputs && b.with_inputs) {
     for (const PackCase& c : b.cases) in_b_[c.id] = &c;
   }
 
-  /// What to print about it, or "".
+  /// The text about it, or "".
   std::string first_difference() {
     std::map<std::string, bool> in_a;
     Progress progress("diff", static_cast<int>(a_.cases.size()));
@@ -108,7 +108,7 @@ class Comparison {
     return found;
   }
 
-  // A buffer that one side lacks is a finding; the first value that differs is worth more.
+  // A missing buffer is a finding, but the first different value is more useful.
   template <class All>
   std::string difference_of_all(const All& a, const All& b, const std::string& where, const char* kind) {
     const auto find = [](const All& all, const std::string& name) {
@@ -135,7 +135,7 @@ class Comparison {
   std::map<std::string, const PackCase*> in_b_;
 };
 
-// Keys of the configurations that differ; they explain a difference, and are none by themselves.
+// Different keys of the configurations: they explain a difference, but are not one.
 void print_configurations(const Pack& a, const Pack& b) {
   const std::map<std::string, std::string> in_a(a.config.begin(), a.config.end()), in_b(b.config.begin(), b.config.end());
   const auto value = [](const auto& all, const std::string& key) {

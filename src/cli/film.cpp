@@ -43,7 +43,7 @@ fs::path found_ffmpeg(const fs::path& film) {
   return program;
 }
 
-/// While it lives, a pipe that nobody reads is an error of write() and not the end of this process.
+/// While it exists, writing to a closed pipe is an error of write() and does not end this process.
 class NoBrokenPipe {
  public:
   NoBrokenPipe() {
@@ -69,7 +69,7 @@ void require_film(const fs::path& path, FilmRate rate) {
   found_ffmpeg(path);
 }
 
-/// ffmpeg, what it writes, and what it says.
+/// The ffmpeg process, its input and its messages.
 class Film::Process {
  public:
   Process(const fs::path& film, int width, int height, FilmRate rate) : film_(film), messages_(std::tmpfile(), &std::fclose) {
@@ -118,7 +118,7 @@ class Film::Process {
   }
 
  private:
-  // All that the child needs is made before it is: beside other threads it may not allocate.
+  // Everything that the child needs is made before the fork: with other threads, the child may not allocate.
   void start(std::string program, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), program);
     std::vector<char*> argv;
@@ -133,11 +133,11 @@ class Film::Process {
     id_ = ::fork();
     const int why = errno;
     if (id_ == 0) {
-      ::setpgid(0, 0);  // an interruption is for this program, which then ends ffmpeg and all that it started
+      ::setpgid(0, 0);  // signals are for this program, which then ends ffmpeg and its children
       ::signal(SIGPIPE, SIG_DFL);
       take_signals_again();
       ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
-      if (::getppid() != parent) ::_exit(127);  // it died before
+      if (::getppid() != parent) ::_exit(127);  // the parent ended before
       ::dup2(ends[0], STDIN_FILENO);
       ::dup2(messages, STDOUT_FILENO);
       ::dup2(messages, STDERR_FILENO);
@@ -147,7 +147,7 @@ class Film::Process {
     ::close(ends[0]);
     pipe_ = ends[1];
     if (id_ < 0) refuse_film(film_, fmt::format("no process can be made: {}", reason_of(why)));
-    ::setpgid(id_, id_);  // both set it: neither knows who runs first
+    ::setpgid(id_, id_);  // both processes set it, because either may run first
     undo_.emplace([id = id_] {
       ::kill(-id, SIGKILL);
       ::waitpid(id, nullptr, 0);
@@ -169,7 +169,7 @@ class Film::Process {
     ::kill(-id_, SIGKILL);
     wait();
   }
-  /// Of the input too. `is_early`: it took not all of it.
+  /// Also ends the input. `is_early`: ffmpeg did not read all of it.
   void end(bool is_early) {
     close_pipe();
     std::string failure = failure_of("ffmpeg", wait());
@@ -188,7 +188,7 @@ class Film::Process {
   std::optional<Hidden> written_;
   pid_t id_ = -1;
   int pipe_ = -1;
-  std::optional<Undo> undo_;  // newer than the hidden file's: ffmpeg ends before that goes
+  std::optional<Undo> undo_;  // newer than the hidden file's, so ffmpeg ends before the file is deleted
 };
 
 Film::Film(const fs::path& path, int width, int height, FilmRate rate)

@@ -17,11 +17,11 @@ struct FilmFormat {
   const char* muxer;
   const char* filter;
   std::vector<std::string> encoder;
-  double most_per_second;  ///< 0: any
+  double most_per_second;  ///< 0: no limit
 };
 
-// YUV with half the colour needs even sides: an odd picture gets a black line. The pictures are sRGB; the matrix is BT.709's, as players
-// expect of films of this size, and the file says so.
+// YUV with half the colour resolution needs even sides: an odd picture gets a black line. The pictures are sRGB; the matrix is BT.709's,
+// which players assume for films of this size, and the file says so.
 constexpr const char* to_yuv =
     "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
     "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int+bitexact,format=yuv420p";
@@ -33,12 +33,12 @@ std::vector<std::string> with_colours(std::vector<std::string> encoder) {
 
 const std::array<FilmFormat, 3>& formats() {
   static const std::array<FilmFormat, 3> all{{
-      // Rain at night is small bright things on dark: 18 keeps them, where the default of 23 smears.
+      // Rain at night is small bright details on dark: 18 keeps them; the default of 23 blurs them.
       {".mp4", "mp4", to_yuv, with_colours({"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart"}), 0},
       {".webm", "webm", to_yuv, with_colours({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used", "4"}), 0},
-      // One palette for the whole film, so that what rests does not flicker; ffmpeg holds all pictures until it knows it. Not of
-      // what moves alone (stats_mode=diff): that leaves out the last picture's colours. Times are
-      // hundredths of a second, and browsers take 1 for 10.
+      // One palette for the whole film, so that static parts do not flicker; ffmpeg holds all pictures until the palette is known. Not from
+      // moving parts only (stats_mode=diff): that omits the last picture's colours. Times are in hundredths of a second, and browsers show
+      // 1 as 10.
       {".gif",
        "gif",
        "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
@@ -72,7 +72,7 @@ std::vector<std::string> film_arguments(const fs::path& film, int width, int hei
   add({fmt::format("{}x{}", width, height), "-framerate", fmt::format("{}/{}", rate.fps, rate.every), "-i", "pipe:0"});
   add({"-vf", f.filter, "-an", "-threads", "1", "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
   add(f.encoder);
-  // "file:", for a name may begin with a dash or have a colon.
+  // "file:", because a name may begin with a dash or contain a colon.
   add({"-f", f.muxer, "file:" + output.string()});
   return all;
 }

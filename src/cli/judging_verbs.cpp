@@ -28,7 +28,7 @@ void add_profile(CLI::App& verb, std::string& profile) {
 void add_threads(CLI::App& verb, std::optional<std::string>& threads) {
   verb.add_option("--threads", threads, "Threads; the result does not depend on them")->type_name("N");
 }
-/// Passes, "a,b" or the option again and again.
+/// Adds the option for passes, "a,b" or repeated.
 void add_only(CLI::App& verb, std::vector<std::string>& only, const char* sentence) {
   verb.add_option_function<std::vector<std::string>>(
           "--only",
@@ -47,7 +47,7 @@ int threads_of(const std::optional<std::string>& text) {
 struct ValidateFlags {
   ValidateRequest request;
   std::string pack, port;
-  SceneFlags scene;  // of --shadow
+  SceneFlags scene;  // for --shadow
   std::optional<std::string> shadow, exec, timeout, repeat, threads, causes_within, spirv;
 };
 
@@ -111,7 +111,7 @@ void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
   request.scene = resolve(scene);
 }
 
-/// The outputs for a pack need the pack and what wrote them.
+/// Judging a pack requires the pack and the port's outputs.
 void require_pack_and_port(const ValidateFlags& f) {
   if (f.pack.empty()) throw Error(ExitCode::usage, "validate: expected the folder of a PACK, or --shadow DIR");
   if (changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: go with --shadow and a scene only");
@@ -119,7 +119,7 @@ void require_pack_and_port(const ValidateFlags& f) {
   if (!f.exec && f.port.empty()) throw Error(ExitCode::usage, "validate: expected --port DIR, or --exec COMMAND, which runs the port");
 }
 
-/// The port's own command, how long each run of it may take, and how many there are.
+/// The port's own command, its time limit and number of runs.
 void ask_for_command(const ValidateFlags& f, ValidateRequest& request) {
   if (!f.exec && (f.timeout || f.repeat))
     throw Error(ExitCode::usage, fmt::format("{}: goes with --exec only", f.timeout ? "--timeout" : "--repeat"));

@@ -13,11 +13,11 @@ namespace {
 
 using scene::Language;
 
-/// What a pass binds in a variant, in the order of the bindings.
+/// The bindings of a pass in a variant, in order.
 struct Bound {
-  std::string name, record;  ///< record: "" of an image
+  std::string name, record;  ///< record: "" for an image
   bool is_written;
-  int slot;  ///< HLSL: of t or of u
+  int slot;  ///< HLSL: t or u register
   bool operator==(const Bound&) const = default;
 };
 struct Interface {
@@ -42,7 +42,7 @@ Interface interface_of(const capture::EffectInfo& effect, const capture::PassInf
   return out;
 }
 
-// Where each thing is bound: "0 WaveStepUniforms, 1 wave (image), 2 drops, 3 wave_out (image)".
+// "0 WaveStepUniforms, 1 wave (image), 2 drops, 3 wave_out (image)".
 std::string places(const Interface& of, Language language) {
   if (language == Language::c || language == Language::cuda) {
     std::vector<std::string> read, written;
@@ -94,7 +94,7 @@ std::string layout_text(const capture::EffectInfo& effect, Language language, co
     std::vector<Interface> interfaces;
     for (const capture::PassVariant& v : p->variants)
       if (!variant || v.name == *variant) interfaces.push_back(interface_of(effect, *p, v));
-    // Variants that bind the same are one.
+    // Variants with equal bindings are listed once.
     const bool are_alike = std::all_of(interfaces.begin(), interfaces.end(), [&](const Interface& i) {
       return i.block == interfaces[0].block && i.bound == interfaces[0].bound;
     });

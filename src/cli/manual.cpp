@@ -14,13 +14,13 @@
 namespace rainref::cli {
 namespace {
 
-/// An option as the command line has it, or what stands without one.
+/// An option, or a positional argument.
 struct Described {
-  std::vector<std::string> names;  ///< "-o", "--output"; "SCENE" of what has no dash
-  std::string value, sentence;     ///< "DIR"; "" where it takes none
+  std::vector<std::string> names;  ///< "-o", "--output"; "SCENE" if it has no dash
+  std::string value, sentence;     ///< "DIR"; "" if it has no value
   bool is_positional = false, may_repeat = false;
 
-  /// "exr|png|both|none" as words; none for a value of another kind.
+  /// "exr|png|both|none" as words; empty for other values.
   std::vector<std::string> words() const { return value.find('|') == std::string::npos ? std::vector<std::string>() : split(value); }
   bool is_scene() const { return names[0] == "SCENE"; }
 
@@ -30,7 +30,7 @@ struct Described {
   }
 };
 
-/// What a verb such as `sweep` does: verbs of its own.
+/// The actions of a verb such as `sweep`, which are verbs themselves.
 std::vector<const CLI::App*> actions_of(const CLI::App& verb) {
   return verb.get_subcommands([](const CLI::App*) { return true; });
 }
@@ -52,7 +52,7 @@ std::vector<Described> options_of(const CLI::App& verb) {
   return all;
 }
 
-/// With those of its actions, each name once, and the actions as words.
+/// Options with those of the verb's actions, each name once, and the actions as words.
 std::vector<Described> options_and_actions_of(const CLI::App& verb) {
   std::vector<Described> all = options_of(verb);
   std::vector<std::string> names;
@@ -70,7 +70,7 @@ std::vector<Described> options_and_actions_of(const CLI::App& verb) {
   return all;
 }
 
-/// The program's own options and its verbs, each with its own.
+/// The program's own options, and its verbs with theirs.
 struct Program {
   CLI::App app;
   std::vector<Verb> verbs = add_verbs(app, "");
@@ -80,7 +80,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
   return text;
 }
-/// Text of a manual page: no character of it commands troff.
+/// Escapes text for a manual page, so that troff interprets none of it.
 std::string roff(const std::string& text) {
   std::string out = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
   out = replaced(out, "\n.", "\n\\&.");
@@ -98,7 +98,7 @@ std::string man_options(const std::vector<Described>& options) {
   }
   return out;
 }
-/// The lines under a verb's help: what follows "Example:" as it stands.
+/// The examples in a verb's help: the text after "Example:", unchanged.
 std::string man_examples(const std::string& footer) {
   std::string text = replaced(footer, "Examples: ", "");
   text = replaced(replaced(text, "Example: ", ""), "\n          rainref", "\nrainref");
@@ -106,10 +106,10 @@ std::string man_examples(const std::string& footer) {
 }
 
 std::string shell_words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
-/// In single quotes, for a shell.
+/// Puts text in single quotes for a shell.
 std::string quoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
-/// Lines of standard output that are the scenes: the second part of `rainref list`.
+/// Prints the scenes: the second part of `rainref list`.
 constexpr const char* scenes_command = "rainref list 2>/dev/null | sed -n '/^Scenes$/,/^$/s/^  //p'";
 
 }  // namespace
@@ -194,7 +194,7 @@ std::string bash_completion() {
 
 std::string zsh_completion() {
   const Program program;
-  // In a specification of _arguments: nothing of the text ends its part.
+  // Escapes text inside a specification of _arguments.
   const auto inside = [](const std::string& text) {
     return replaced(replaced(replaced(replaced(text, "\\", "\\\\"), "[", "\\["), "]", "\\]"), ":", "\\:");
   };

@@ -35,7 +35,7 @@ std::optional<RunPicture> run_picture_of(const std::string& name) {
   return RunPicture{is_truth ? Kind::truth : ending == ".png" ? Kind::png : Kind::exr, name.substr(0, first), *frame};
 }
 
-/// Pictures say who made them, in their first bytes; what is compared with truth has no more than its name.
+/// Pictures name their producer in their first bytes; comparisons with truth have only their name.
 bool is_of_rainref(const fs::path& path, RunPicture::Kind kind) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;
@@ -68,7 +68,7 @@ OutputFolder::OutputFolder(const fs::path& folder) : folder_(folder), summary_(f
 
 void OutputFolder::require_one_run(const RunOptions& options, const Checkpoint& checkpoint, bool goes_on, const Writes& writes) {
   std::error_code error;
-  std::set<std::int64_t> frames;  // of the others
+  std::set<std::int64_t> frames;  // of the other pictures
   for (fs::directory_iterator i(folder_, error), end; !error && i != end; i.increment(error)) {
     const std::optional<RunPicture> picture = run_picture_of(i->path().filename().string());
     if (!picture || !is_of_rainref(i->path(), picture->kind)) continue;
@@ -113,7 +113,7 @@ void OutputFolder::forget_older_run(const Checkpoint& checkpoint, bool goes_on) 
     throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", summary_.string(), e.code().message()));
   }
   for (const fs::path& path : others_) remove(path);
-  // One that is killed must not leave an earlier one's pictures behind its own.
+  // If this run is killed, an earlier run's pictures must not remain beside its own.
   if (!goes_on)
     for (const fs::path& path : replaced_) remove(path);
   if (removes_capture_) remove(folder_ / "capture");

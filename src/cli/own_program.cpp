@@ -22,11 +22,11 @@ namespace {
 
 constexpr const char* program_link = "/proc/self/exe";
 
-// After fork(): nothing but what a signal handler may call.
+// Runs after fork(): may only call what a signal handler may call.
 [[noreturn]] void become(const char* program, char** arguments, char** variables, int output, int error, pid_t parent) {
   take_signals_again();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM, 0, 0, 0);
-  if (::getppid() != parent) ::_exit(127);  // it died before
+  if (::getppid() != parent) ::_exit(127);  // the parent ended before
   if (output >= 0) ::dup2(output, STDOUT_FILENO);
   if (error >= 0) ::dup2(error, STDERR_FILENO);
   ::execve(program, arguments, variables);
@@ -65,7 +65,7 @@ int run_own_program(const std::vector<std::string>& arguments, const std::string
   std::vector<char*> argv, variables;
   for (std::string& word : words) argv.push_back(word.data());
   std::string added = variable;
-  if (!added.empty()) variables.push_back(added.data());  // before one of the same name
+  if (!added.empty()) variables.push_back(added.data());  // first, so that it overrides a variable of the same name
   for (char** v = environ; *v; ++v) variables.push_back(*v);
   argv.push_back(nullptr);
   variables.push_back(nullptr);

@@ -34,7 +34,7 @@
 namespace rainref::cli {
 namespace {
 
-// The passes asked for, in the order of execution; all of the variant's where none is.
+// The passes asked for, in the order of execution; all of the variant if none is named.
 std::vector<std::string> chosen_passes(const capture::EffectInfo& info, const std::string& variant, const std::vector<std::string>& asked) {
   const std::vector<std::string> all = info.pass_names(variant);
   for (const std::string& name : asked) {
@@ -59,16 +59,16 @@ void require_lossless(const effect::Inputs& inputs) {
                       input.key, input.path));
 }
 
-/// How far beyond its end a run is followed for passes that run and have done nothing till then: a scene of one picture has drops that
-/// arrive every second or so.
+/// Number of frames after a run's end in which to look for passes that have done nothing so far: a scene of one picture has drops that
+/// arrive about every second.
 constexpr int frames_beyond = 120;
 
-/// Binds a case, and whether a port that does nothing passes it too.
+/// Binds a case, and tests whether a null port passes it too.
 void try_null_ports(const std::string& effect, const capture::PassCase& c, const parallel::Executor& executor, judge::NullPorts& ports) {
   const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, judge::binder(effect, c.pass), c);
   ports.judge(c, model.get(), judge::profile("vulkan"), &judge::profile("typical"), judge::HalfMode::either, executor);
 }
-/// The passes of a pack that a port passes which does nothing, and which.
+/// Passes of a pack that a null port passes, with that port.
 std::map<std::string, judge::NullPorts> idle_passes(const std::filesystem::path& folder, const parallel::Executor& executor) {
   const capture::Pack pack(folder);
   std::map<std::string, judge::NullPorts> idle;
@@ -77,10 +77,10 @@ std::map<std::string, judge::NullPorts> idle_passes(const std::filesystem::path&
   return idle;
 }
 
-/// A pack of the frames, and what it holds.
+/// A pack of the selected frames, and its coverage.
 class Packing {
  public:
-  /// `fresh`: the scene, of which no frame was made.
+  /// `fresh`: the scene before its first frame.
   Packing(const scene::Config& config, const PackOptions& options, const parallel::Executor& executor, std::vector<std::string> passes,
           Frames& frames, simulation::Opened fresh)
       : fresh_(std::move(fresh)),
@@ -117,7 +117,7 @@ class Packing {
       progress.advance();
     }
     if (std::any_of(passes_.begin(), passes_.end(), [&](const std::string& pass) { return !exercised.contains(pass); })) {
-      // The small pictures were to tell the frames, but at this size passes run in others, or not at all.
+      // The small pictures should give the frames, but at this size passes run in other frames, or not at all.
       frames_.follow(simulation::Opened(config_, executor_), passes_);
       std::erase_if(passes_, [&](const std::string& pass) { return !frames_.has(pass); });
       return write();
@@ -136,16 +136,16 @@ class Packing {
     }
     return writer.finish();
   }
-  /// Of the pack written last: reasons for what is exercised; where asked for, which alternatives of its passes no case takes, a line for
-  /// each pass.
+  /// For the last pack written: reasons for alternatives that are not taken; if asked for, a line for each pass with the alternatives that
+  /// no case takes.
   const std::string& not_exercised() const { return not_exercised_; }
-  /// The next write() is without this pass.
+  /// The next write() omits this pass.
   void leave_out(const std::string& pass) { std::erase(passes_, pass); }
-  /// Looks on for frames in which these passes do more than nothing; takes those out that have one. False where there is none.
+  /// Looks for later frames in which these passes do something, and removes the passes that have one. Returns false if there is none.
   bool add_frames(std::map<std::string, judge::NullPorts>& idle) const {
     const int end = static_cast<int>(config_.integer("run.frames")) + frames_beyond;
     std::map<std::string, int> found, tried;
-    // A pass that runs many times a frame is tried as often as one that runs once.
+    // A pass that runs many times in a frame is tried as often as one that runs once.
     const auto wanted = [&](int frame, std::string_view pass) {
       const std::string name(pass);
       return !frames_.are_wanted(frame, pass) && idle.contains(name) && !found.contains(name) && tried[name] < end;
@@ -171,7 +171,7 @@ class Packing {
   }
 
  private:
-  std::optional<simulation::Opened> fresh_;  // till the first write()
+  std::optional<simulation::Opened> fresh_;  // until the first write()
   const scene::Config& config_;
   const PackOptions& options_;
   const parallel::Executor& executor_;
@@ -207,7 +207,7 @@ int pack(const PackOptions& options) {
   try {
     frames.follow(simulation::Opened(at_small_size(config), executor), passes);
   } catch (const Error&) {
-    // Pictures of the scene may be of one size alone.
+    // The scene's pictures may have only one size.
     frames.follow(simulation::Opened(config, executor), passes);
   }
   frames.tell(passes);
@@ -218,7 +218,7 @@ int pack(const PackOptions& options) {
   std::map<std::string, judge::NullPorts> idle = idle_passes(options.output, executor);
   if (!idle.empty() && options.may_add_frames) {
     bool has_changed = packing.add_frames(idle);
-    // Wipers that a scene has none of move no drop in any frame: every port of that pass would be UNTESTED, the right one too.
+    // Without wipers, wiper passes move no drop in any frame: every port's pass would be UNTESTED, also a correct one.
     if (options.passes.empty() && idle.size() < passes.size()) {
       for (const auto& [pass, ports] : idle) {
         say("left out: {}: a port that does nothing passes ({}), and no frame was found in which it does more\n", pass, ports.passing());

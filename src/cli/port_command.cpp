@@ -39,7 +39,7 @@ constexpr std::size_t kept_bytes = 65536;
   throw Error(ExitCode::io, fmt::format("--exec: {}: {}", what, std::generic_category().message(errno)));
 }
 
-// The processes whose parent is this one. Empty where there is no /proc.
+// The child processes of this one. Empty if there is no /proc.
 std::set<pid_t> children() {
   std::set<pid_t> found;
   std::error_code error;
@@ -48,10 +48,10 @@ std::set<pid_t> children() {
     const std::optional<pid_t> id = whole_from<pid_t>(name);
     if (!id) continue;
     std::ifstream in(i->path() / "stat");
-    // Of a process that has just ended the file opens and cannot be read: an iterator over its bytes throws, getline does not.
+    // If a process has just ended, its file opens but cannot be read: an iterator over its bytes throws, getline does not.
     std::string text;
     std::getline(in, text, '\0');
-    // "17 (a name) S 1 ...": the name may hold anything.
+    // "17 (a name) S 1 ...": the name may contain anything.
     const std::size_t after = text.rfind(") ");
     if (after == std::string::npos || after + 4 > text.size()) continue;
     const std::string_view rest = std::string_view(text).substr(after + 4);
@@ -60,8 +60,8 @@ std::set<pid_t> children() {
   return found;
 }
 
-/// A command's shell and all that came of it. Processes whose parent ends become children of this one while it lives, so
-/// that none is lost: not one that called setsid, nor a daemon's.
+/// A command's shell and all its descendants. While this exists, a process whose parent ends becomes a child of this one, so that none is
+/// lost, also after setsid or as a daemon.
 class ProcessTree {
  public:
   ProcessTree() : others_(children()) {
@@ -83,7 +83,7 @@ class ProcessTree {
     siginfo_t info{};
     return ::waitid(P_PID, static_cast<id_t>(shell_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == shell_;
   }
-  /// Kills what is left of it. Gives the status that the shell ended with.
+  /// Kills the remaining processes. Returns the shell's status.
   int end() {
     const Uninterrupted scope;
     const int status = kill_all();
@@ -97,12 +97,12 @@ class ProcessTree {
     for (const pid_t id : others_) left.erase(id);
     return left;
   }
-  // Until the group is killed the shell is not reaped, so that no other group can have its number.
+  // The shell is not reaped until the group is killed, so that no other group can get its number.
   int kill_all() {
     ::kill(-shell_, SIGKILL);
     int status = 0;
     ::waitpid(shell_, &status, 0);
-    // Who is killed leaves its children to this process. One that is another user's, or hangs in a driver, stays.
+    // A killed process leaves its children to this one. A process of another user, or one that hangs in a driver, remains.
     const Clock::time_point end = Clock::now() + std::chrono::seconds(5);
     for (std::set<pid_t> left = rest(); !left.empty() && Clock::now() < end; left = rest()) {
       for (const pid_t id : left) ::kill(id, SIGKILL);
@@ -174,7 +174,7 @@ void PortFolders::check() const {
 }
 
 CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment) {
-  // All that the child needs is made before it is: after a fork beside other threads it may not allocate.
+  // Everything that the child needs is made before the fork: with other threads, the child may not allocate.
   std::vector<std::string> variables = environment;
   for (char** v = environ; *v; ++v) {
     const std::string_view name = std::string_view(*v).substr(0, std::string_view(*v).find('='));
@@ -207,7 +207,7 @@ CommandEnd run_command(const std::string& command, std::chrono::duration<double>
       ::execle("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr), pointers.data());
       ::_exit(127);
     }
-    ::setpgid(child, child);  // both set it: neither knows who runs first
+    ::setpgid(child, child);  // both processes set it, because either may run first
     tree.began(child);
   }
   ::close(out[1]);
@@ -220,7 +220,7 @@ CommandEnd run_command(const std::string& command, std::chrono::duration<double>
     char buffer[4096];
     const ssize_t count = ::read(out[0], buffer, sizeof buffer);
     if (count <= 0) {
-      // Nobody prints any more, but the command may go on.
+      // The output is closed, but the command may still run.
       if (wait_ms > 0) ::poll(nullptr, 0, wait_ms);
       return false;
     }
@@ -228,7 +228,7 @@ CommandEnd run_command(const std::string& command, std::chrono::duration<double>
     if (text.size() > 2 * kept_bytes) text.erase(0, text.size() - kept_bytes);
     return true;
   };
-  // The shell's end counts, not the pipe's: a process left behind may hold it.
+  // The shell's end counts, not the pipe's, because another process may keep the pipe open.
   bool timed_out = false;
   while (!tree.shell_has_ended()) {
     timed_out = Clock::now() >= end;

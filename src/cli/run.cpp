@@ -35,7 +35,7 @@
 namespace rainref::cli {
 namespace {
 
-/// The passes' buffers of the frames that are written, in a folder of their own.
+/// Captures the passes' buffers in the frames that are written, in a folder of its own.
 struct Capture {
   capture::PackWriter writer;
   capture::CaptureRecorder recorder;
@@ -50,7 +50,7 @@ struct Capture {
             [this](const capture::PassCase& c) { writer.add(c); }) {}
 };
 
-/// Most bytes of this process that have lain in memory.
+/// Peak resident memory of this process, in bytes.
 std::size_t most_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string key; status >> key; status.ignore(1 << 10, '\n')) {
@@ -60,7 +60,7 @@ std::size_t most_memory() {
   return 0;
 }
 
-/// Combinations of options that cannot be.
+/// Rejects invalid combinations of options.
 void check(const RunOptions& options, int frames) {
   if (options.first >= frames)
     throw Error(ExitCode::usage, fmt::format("--first {}: expected a frame before run.frames {}", options.first, frames));
@@ -69,7 +69,7 @@ void check(const RunOptions& options, int frames) {
   if (options.capture != RunOptions::none && (options.checkpoint_every > 0 || options.resume))
     throw Error(ExitCode::usage,
                 "--capture: expected neither --checkpoint-every nor --resume beside it: its folder appears whole, at the end");
-  // Without --every there is the last frame.
+  // Without --every the last frame is written.
   const auto has_frame = [&](int every) { return (frames - 1) / every * every >= options.first; };
   const auto refuse = [&](const char* option, int every) {
     throw Error(ExitCode::usage, fmt::format("{}: expected a frame to show, found none from {} to {} that {} divides", option,
@@ -146,10 +146,10 @@ int run(const RunOptions& options) {
   if (options.capture != RunOptions::none) add_captures(memory);
   if (left) memory.peak.pass(*left);
   require_memory(memory);
-  // Pages of the program and of stacks that every run touches from here on, at the least.
+  // The least memory of the program and its stacks that every run will still touch.
   constexpr std::size_t own_pages = 1u << 20;
   const std::size_t stated = memory.peak.peak() + resident_memory() + own_pages + (options.exr ? image_io::codec_bytes() : 0);
-  // A broken installation should not cost a run either. Beside the scene, for the codec's libraries take a quarter of a second to load.
+  // A broken installation should not waste a run either. In parallel with the scene, because loading the codec's libraries takes 0.25 s.
   const std::function<void()> codec = options.exr ? image_io::codec_ahead() : [] {};
   if (options.keep_images) cache::keep_in(cache::folder_of_user());
   simulation::Opened opened = open_scene(config, executor);
@@ -191,7 +191,7 @@ int run(const RunOptions& options) {
     Progress progress(config.effect(), frames - begin);
     for (int frame = begin; frame < frames; ++frame) {
       last_began = seconds_so_far();
-      recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
+      recorder.set_hashing(frame == frames - 1);  // `rainref hash` needs all frames
       opened.show(written(frame) || filmed(frame) || frame == frames - 1);
       opened.simulate(&recorders);
       if (frame < options.first)
@@ -222,7 +222,7 @@ int run(const RunOptions& options) {
     }
   }
   const double seconds = seconds_so_far();
-  // The first one also touches its memory for the first time, the last one is hashed and developed.
+  // The first frame also touches its memory for the first time; the last one is also hashed and developed.
   std::optional<double> between;
   if (const int count = frames - begin - 2; count > 0) between = 1e3 * (last_began - first_ended) / count;
   nlohmann::ordered_json report = summary(config, opened.inputs().files, executor, recorder, last, seconds, between, frames);

@@ -1,4 +1,4 @@
-// `rainref selftest`: determinism proven where it runs.
+// `rainref selftest`: checks determinism on the user's machine.
 #include <bit>
 #include <memory>
 #include <string>
@@ -41,7 +41,7 @@ bool half_conversion() {
   std::vector<float> floats;
   for (std::uint32_t code = 0; code < 65536; ++code) {
     const Half h{static_cast<std::uint16_t>(code)};
-    if ((code & 0x7c00u) == 0x7c00u) continue;  // infinities and NaN never enter a field
+    if ((code & 0x7c00u) == 0x7c00u) continue;  // infinities and NaN never occur in a field
     halves.push_back(h);
     floats.push_back(to_float(h));
   }

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int most_sentences = 10;
 
-/// What the plan's finished cells took, by the logs of those who made them.
+/// Time and size of the plan's finished cells, from the logs of their makers.
 struct Taken {
   std::int64_t cells = 0;
   double seconds = 0, bytes = 0;
@@ -36,7 +36,7 @@ Taken taken_by(const OpenPlan& open) {
   std::error_code error;
   for (fs::directory_iterator i(open.store.root() / "log", error), end; !error && i != end; i.increment(error)) {
     std::ifstream in(i->path());
-    for (std::string line; std::getline(in, line);) {  // id,host,seconds,bytes,begun at
+    for (std::string line; std::getline(in, line);) {  // columns: id,host,seconds,bytes,begun at
       std::array<std::string, 4> field;
       std::size_t at = 0;
       for (std::string& f : field) {
@@ -80,7 +80,7 @@ std::string counts_text(const Standing& s) {
 }  // namespace
 
 sweep::Planned planning_progress() {
-  // Fewer take no time that anybody waits for.
+  // Fewer cells take too little time for a progress bar.
   constexpr std::int64_t worth_showing = 5000;
   return [progress = std::shared_ptr<Progress>()](std::int64_t done, std::int64_t all) mutable {
     if (all < worth_showing) return;
@@ -101,7 +101,7 @@ int sweep_plan(const SweepOptions& options) {
     const parallel::Executor executor(options.threads);
     const sweep::Maker make = cell_maker(open, executor);
     open.store.make();
-    // A shard of as many as there are cells holds the first one.
+    // If there are as many shards as cells, the first shard has the first cell.
     sweep::work(open.cells, open.store, {{0, static_cast<std::int64_t>(open.cells.all().size())}, false}, make,
                 [](const sweep::Cell&, sweep::Outcome, const std::string&) {});
   }
@@ -169,7 +169,7 @@ int sweep_gc(const SweepOptions& options) {
 }
 
 int sweep_script(const SweepOptions& options) {
-  const OpenPlan open(options.plan, options.out);  // what cannot run is not submitted
+  const OpenPlan open(options.plan, options.out);  // reports an invalid plan before it is submitted
   print_text(sweep::script({options.engine, own_program(), fs::absolute(options.plan).lexically_normal(), open.store.root(), options.shards,
                             options.threads > 0 ? options.threads : 1, options.image}));
   return 0;

@@ -1,4 +1,4 @@
-// How the cells of each verb are made: what simulates in this process, the other verbs as this program started anew.
+// Makes the cells of each verb: simulations in this process, other verbs in a new process of this program.
 #include <filesystem>
 #include <set>
 
@@ -28,7 +28,7 @@ std::string without(std::string text, const std::string& part) {
   return text;
 }
 
-/// A verb that ran into a cell's folder.
+/// A verb that was run in a cell's folder.
 class Ran {
  public:
   Ran(sweep::CellWriter& writer, std::vector<std::string> arguments) : writer_(writer) {
@@ -42,7 +42,7 @@ class Ran {
   }
   int code() const { return code_; }
   const std::string& output() const { return output_; }
-  /// The run failed, and says why.
+  /// Throws the run's own error.
   [[noreturn]] void fail() const {
     if (code_ < 0) throw Error(ExitCode::internal, fmt::format("died of signal {}", -code_));
     std::string sentence = error_.substr(0, error_.find('\n'));
@@ -67,7 +67,7 @@ sweep::Made finish(sweep::CellWriter& writer, const sweep::Cell& cell, const Ran
   return made;
 }
 
-/// All files below a folder of the cell that a child wrote.
+/// Takes all files that a child wrote below a folder of the cell.
 void take_files(sweep::CellWriter& writer, const std::string& folder) {
   std::set<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(writer.folder() / folder))

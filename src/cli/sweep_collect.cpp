@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// id,host,seconds,bytes,begun at: of this plan's cells, sorted; nothing that is the same twice.
+/// Columns id,host,seconds,bytes,begun at, for this plan's cells, sorted, without duplicates.
 std::string timings_csv(const OpenPlan& open) {
   std::map<std::string, std::size_t> ours;
   for (std::size_t i = 0; i < open.cells.all().size(); ++i) ours[open.cells.all()[i].id] = i;
@@ -44,7 +44,7 @@ std::string timings_csv(const OpenPlan& open) {
   return text;
 }
 
-/// The scene's speed: every K-th frame is kept.
+/// The scene's speed, if every K-th frame is kept.
 FilmRate film_rate_of(const OpenPlan& open) {
   std::int64_t every = 0;
   for (const sweep::Keep& keep : open.cells.plan().keep)
@@ -52,7 +52,7 @@ FilmRate film_rate_of(const OpenPlan& open) {
   return {open.cells.config(open.cells.all()[0]).real("run.fps"), static_cast<int>(std::max<std::int64_t>(every, 1))};
 }
 
-/// The pictures of the first run in order, as a film. Says why there is none.
+/// Writes the pictures of the first run in order as a film. Returns a message if that is impossible.
 std::string write_film(const OpenPlan& open, const sweep::Table& table, const fs::path& folder) {
   const std::vector<sweep::Cell>& cells = open.cells.all();
   std::vector<fs::path> pictures;

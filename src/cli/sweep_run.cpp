@@ -22,9 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A process that makes cells has this variable; the one that waits for it has not.
+/// Set in a process that makes cells, but not in the one that waits for it.
 constexpr const char* worker = "RAINREF_SWEEP_WORKER";
-/// What a process remembers of what it makes and reads.
+/// Cache size of a process that makes cells.
 constexpr std::size_t remembered_bytes = std::size_t{1} << 30;
 
 int work(const SweepOptions& options) {
@@ -33,7 +33,7 @@ int work(const SweepOptions& options) {
   const parallel::Executor executor(options.threads);
   cache::keep_in(cache::folder_of_user());
   cache::remember(remembered_bytes);
-  image_io::codec();  // once, and before the first cell
+  image_io::codec();  // once, before the first cell
   std::int64_t cells = 0;
   const auto all = static_cast<std::int64_t>(open.cells.all().size());
   for (std::int64_t i = 0; i < all; ++i) cells += shard.takes(i, all);
@@ -56,7 +56,7 @@ int work(const SweepOptions& options) {
   return counts.is_whole() ? 0 : 1;
 }
 
-/// Processes that died over a cell, of this plan or another.
+/// Number of processes that died while making a cell, of this plan or another.
 std::size_t all_deaths(const fs::path& out) {
   std::size_t count = 0;
   std::error_code error;
@@ -78,7 +78,7 @@ int sweep_run(const SweepOptions& options) {
     if (code == -SIGINT || code == -SIGTERM || code == -SIGHUP) return 128 - code;
     const std::size_t now = all_deaths(options.out);
     complain(fmt::format("a process of this sweep died of signal {}{}", -code, now > deaths ? "; another one goes on" : ""));
-    // Each death that counts brings a cell nearer to its last try, so this ends.
+    // Each death that counts uses up a try of a cell, so this ends.
     if (now <= deaths) return static_cast<int>(ExitCode::internal);
     deaths = now;
   }

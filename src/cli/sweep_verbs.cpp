@@ -1,4 +1,4 @@
-// `rainref sweep` as the command line has it.
+// Command line of `rainref sweep`.
 #include <functional>
 #include <memory>
 #include <optional>

@@ -24,7 +24,7 @@ void print_report(std::string_view report) {
 
 void complain(std::string_view message) {
   std::string line(message);
-  std::replace(line.begin(), line.end(), '\n', ' ');  // whatever a file is called
+  std::replace(line.begin(), line.end(), '\n', ' ');  // a file name may contain newlines
   line = printable("rainref: " + line + "\n");
   std::fwrite(line.data(), 1, line.size(), stderr);
 }

@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder for a port's command to write to: `wanted`, which must be new or empty.
+/// Creates the output folder of a port's command: `wanted`, which must be new or empty.
 void make_empty(const fs::path& wanted) {
   std::error_code error;
   fs::create_directories(wanted, error);
@@ -61,18 +61,18 @@ judging::FolderOptions folder_options(const ValidateRequest& request, const para
   options.spirv = request.spirv;
   return options;
 }
-/// A diagnosis may take minutes; the terminal says so.
+/// Shows on the terminal that a diagnosis, which may take minutes, is running.
 void show(Progress& progress, judging::FolderOptions& options) {
   options.progress = [&progress](int, int) { progress.advance(); };
   options.at_cause = [&progress](const std::string& pass) { progress.meanwhile("seeking the cause in " + pass); };
 }
 
-/// What came of the port's command.
+/// Results of the port's command.
 struct PortRuns {
-  std::vector<fs::path> folders;  ///< of its runs; none where one failed
+  std::vector<fs::path> folders;  ///< one for each run; none if a run failed
   std::string failure = "";
-  std::vector<std::string> printed{};  ///< by the run that failed
-  std::string last_line = "";          ///< that the last run printed
+  std::vector<std::string> printed{};  ///< output of the run that failed
+  std::string last_line = "";          ///< of the last run's output
 };
 PortRuns run_port(const ValidateRequest& request, const fs::path& folder) {
   PortRuns runs;
@@ -92,12 +92,12 @@ PortRuns run_port(const ValidateRequest& request, const fs::path& folder) {
   return runs;
 }
 
-/// `temporary` is where the port runs if the request names no folder; it must live until the page is written.
+/// `temporary`: the output folder if the request names none; it must exist until the page is written.
 judging::Judged judge_pack(const ValidateRequest& request, const Reports& reports, std::optional<TemporaryRun>& temporary,
                            const parallel::Executor& executor) {
   const auto pack = std::make_shared<const capture::Pack>(request.pack);
   judging::FolderOptions options = folder_options(request, executor);
-  // What is wrong with the request shows before the port is run.
+  // Errors in the request are reported before the port is run.
   judging::check_request(*pack, options);
   std::vector<std::string> ids;
   for (const capture::PackCase& c : pack->cases) ids.push_back(c.id);
@@ -122,7 +122,7 @@ judging::Judged judge_pack(const ValidateRequest& request, const Reports& report
       show(progress, options);
       judged = judging::judge_folder(pack, runs.folders, options);
     } catch (const Error& e) {
-      // A port that exits with 0 and has written nothing may have said why.
+      // A port that exits with 0 and writes nothing may have printed the reason.
       if (e.code() != ExitCode::port_files || runs.last_line.empty()) throw;
       throw Error(e.code(), fmt::format("{}; the port's command ended with exit code 0 and printed last: {}", e.what(), runs.last_line));
     }
@@ -133,7 +133,7 @@ judging::Judged judge_pack(const ValidateRequest& request, const Reports& report
   return judged;
 }
 
-/// The plan of a dump: what the scene does in the frames that are there, or what the manifest beside them says.
+/// The plan of a dump: from the scene for the dumped frames, or from the manifest beside them.
 judge::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Executor& executor) {
   const bool has_manifest = fs::exists(request.shadow / capture::manifest_name);
   const auto manifest = [&] {
@@ -141,7 +141,7 @@ judge::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Ex
     if (!pack.with_inputs)
       throw Error(ExitCode::usage, fmt::format("{}: its manifest is of a capture without inputs, which nothing can be recomputed from",
                                                request.shadow.string()));
-    // A capture of rainref shares equal files. A port that dumped files of its own has dumped all of them.
+    // A capture of rainref shares equal files. A port that writes its own dumps writes all of them.
     return judge::ShadowPlan::of_manifest(pack, pack.file_beside("port.json").empty());
   };
   if (request.scene.scene.empty()) {
@@ -161,7 +161,7 @@ judge::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Ex
       info, config.variant(), true, [&](int frame, std::string_view) { return frames.contains(frame); },
       [&](const capture::PassCase& c) { plan.add(c, info); });
   const int last = frames.empty() ? -1 : *frames.rbegin();
-  // A folder's name must not have a simulation run for days.
+  // A large frame number in a folder's name must not start a simulation of days.
   constexpr std::int64_t unasked = 3600;
   if (const std::int64_t most = std::max(config.integer("run.frames"), unasked); last >= most) {
     throw Error(ExitCode::port_files,
@@ -205,7 +205,7 @@ judging::Judged judge_shadow(const ValidateRequest& request, const Reports& repo
   return judging::judge_dumps(planned, request.shadow, dumped, options);
 }
 
-/// Judges, prints and writes the reports; the judgement, whose files may still be an error.
+/// Judges, prints and writes the reports. Returns the judgement, whose files may still be an error.
 judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) {
   const parallel::Executor executor(request.threads);
   std::optional<TemporaryRun> temporary;

@@ -45,7 +45,7 @@ std::string command_text(int argc, const char* const* argv) {
   return out;
 }
 
-/// Opens a report's file now; nothing when it is not asked for.
+/// Opens a report's file now; does nothing if it is not requested.
 Reports::File Reports::opened(const char* option, const std::optional<std::string>& path) {
   if (!path) return {};
   if (path->empty()) throw Error(ExitCode::usage, fmt::format("{}: expected a file, found ''", option));
@@ -70,7 +70,7 @@ Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(
   json_ = opened("--json", o.json);
   junit_ = opened("--junit", o.junit);
   html_ = opened("--html", o.html);
-  // By where they lead: "r" and "./r" are one file, and so are a link and its target.
+  // Compares resolved paths: "r" and "./r" are one file, and so are a link and its target.
   std::map<std::filesystem::path, std::string> named;
   const auto claim = [&](const std::string& name, const std::filesystem::path& target) {
     std::error_code ignored;

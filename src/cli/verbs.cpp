@@ -15,18 +15,18 @@
 #include "rainref/executor.h"
 #include "registry/registry.h"
 
-// What the parser writes to lives as long as what runs the verb.
+// The parser's targets must live as long as the functions that run the verbs.
 namespace rainref::cli {
 namespace {
 
-/// "puddle|windshield|...": a shell completes what stands between bars.
+/// "puddle|windshield|...": shells complete words between bars.
 std::string effect_words() {
   std::vector<std::string> names;
   for (const effect::Effect* e : registry::effects()) names.push_back(e->name);
   return fmt::format("{}", fmt::join(names, "|"));
 }
 
-/// One of the two is there: what a verb is about, or shaders.
+/// Exactly one must be given: the subject of the verb, or shaders.
 void require_either(const std::string& subject, const char* name, const std::string& spirv) {
   if (subject.empty() == spirv.empty())
     throw Error(ExitCode::usage, fmt::format("expected either {} or --spirv, found {}", name, subject.empty() ? "neither" : "both"));
