@@ -14,7 +14,7 @@ enclosed::StoreRules rules_of(const enclosed::Profile& profile, HalfMode mode, R
   rules.half = mode == HalfMode::rne   ? enclosed::StoreRounding::rne
                : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz
                                        : enclosed::StoreRounding::either;
-  // What a profile says of overflow goes with the rounding that it asks for.
+  // The profile's rule for overflow belongs to the rounding that it requires.
   if (profile.half_store != enclosed::StoreRounding::either && profile.half_store != rules.half && !profile.reference)
     rules.half_overflow = enclosed::StoreOverflow::either;
   return rules;
@@ -77,7 +77,7 @@ void code_ranges(const std::vector<Slot>& slots, const std::vector<Enclosure>& v
 
 Bound bound_of(const Slot& slot, const Enclosure& value, const CodeRange& codes) {
   const double width = static_cast<double>(value.hi) - value.lo;
-  // Of a value beyond the declared range (a lamp in a radiance) its own size counts.
+  // A value beyond the declared range (a lamp in a radiance) is measured relative to its own size.
   const double scale = std::max(slot.range, value.magnitude());
   const bool vacuous = codes.is_vacuous() || width > scale / 16;
   return {vacuous, vacuous || width > scale / 256};

@@ -12,7 +12,7 @@
 namespace rainref::judge {
 namespace {
 
-/// The first channel of a texel whose bits differ.
+/// Finds the first channel of a texel whose bits differ.
 void set_first_difference(const FormatInfo& format, const std::byte* want, const std::byte* have, Failure& f) {
   const auto bytes = static_cast<std::size_t>(format.channel_bytes);
   while (std::memcmp(want + static_cast<std::size_t>(f.channel) * bytes, have + static_cast<std::size_t>(f.channel) * bytes, bytes) == 0)
@@ -21,7 +21,7 @@ void set_first_difference(const FormatInfo& format, const std::byte* want, const
   set_unequal(format.kind, want + at, have + at, f);
 }
 
-/// The first word of a record whose bits differ. Padding has no name, but counts.
+/// Finds the first word of a record whose bits differ. Padding has no name, but counts.
 void set_first_difference(const scene::UniformBlock& record, const std::byte* want, const std::byte* have, Failure& f) {
   std::size_t at = 0;
   while (std::memcmp(want + at, have + at, 4) == 0) at += 4;
@@ -34,7 +34,7 @@ void set_first_difference(const scene::UniformBlock& record, const std::byte* wa
   set_unequal(f.field_kind, want + at, have + at, f);
 }
 
-/// Counts the numbers of a texel or a record whose bits differ.
+/// Counts the numbers of a texel or record whose bits differ.
 void count_differing(const std::vector<Quantity>& quantities, const std::byte* want, const std::byte* have,
                      std::vector<QuantityJudgement>& counts) {
   for (std::size_t k = 0; k < quantities.size(); ++k) {
@@ -62,7 +62,7 @@ void set_unequal(FormatInfo::Kind kind, const std::byte* want, const std::byte* 
   f.got_is_negative_zero = is_negative_zero(kind, have);
   f.expected_is_negative_zero = is_negative_zero(kind, want);
   f.not_a_number = is_nan(kind, have);
-  // The two zeros have one code.
+  // +0 and -0 have one code.
   const std::uint64_t codes = f.got < f.low ? static_cast<std::uint64_t>(f.low) - static_cast<std::uint64_t>(f.got)
                                             : static_cast<std::uint64_t>(f.got) - static_cast<std::uint64_t>(f.low);
   f.distance = f.not_a_number ? ~std::uint64_t{0} : std::max<std::uint64_t>(1, codes);

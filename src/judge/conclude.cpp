@@ -12,10 +12,10 @@
 namespace rainref::judge {
 namespace {
 
-/// What a case or several have.
+/// Counts of one or several cases.
 struct Counts {
   std::int64_t elements = 0, free = 0, atypical = 0, beyond = 0;
-  double unbounded = 0, margin = 0;  ///< over all elements, by the sample; how far that may be off
+  double unbounded = 0, margin = 0;  ///< of all elements, estimated from the sample; and its margin of error
   std::int64_t failing = 0, expanded = 0, rearranged = 0;
   std::uint64_t rearranged_distance = 0;
 
@@ -35,24 +35,24 @@ struct Counts {
   }
 };
 
-/// Whether less than half of the elements have a bound, if so many more than the sample says have none.
+/// True if less than half of the elements have a bound, when `more` than estimated have none.
 bool lacks_bounds(const Counts& n, double more) {
   const auto judged = static_cast<double>(n.elements - n.free);
   return (n.unbounded + more) * 2 > judged && judged > 0;
 }
 
-/// Why what fails does, where its counts say it; "".
+/// Explains failures from the counts, or returns "".
 std::string failure_text(const Counts& n, const enclosed::Profile& profile) {
   if (n.beyond > 0)
     return fmt::format("{} elements that {} leaves without a bound are farther off than the coarsest device that is known or conforms",
                        n.beyond, profile.name);
-  // Some are explained by much that is wide, stale values too: it is the reason of all or of none.
+  // Wide bounds accept some by chance, stale values too: it is the reason of all failures or of none.
   if (n.expanded == 0 || n.expanded < n.failing) return "";
   return fmt::format(
       "only multiplying out a product of two sums would explain the {} invocations outside; no compiler is seen to do that{}", n.failing,
       profile.rearrangement_remedy.empty() ? "" : ", and " + profile.rearrangement_remedy);
 }
-/// What is warned of; empty: nothing.
+/// Warnings; empty: none.
 std::vector<std::string> warnings(const Counts& n, const enclosed::Profile& profile) {
   std::vector<std::string> out;
   if (n.rearranged > 0)
@@ -94,7 +94,7 @@ void conclude(CaseJudgement& j, const enclosed::Profile& profile) {
 }
 
 void conclude(PassJudgement& pass, const enclosed::Profile& profile) {
-  const std::string doubt = std::move(pass.reason);  // of the rounding that was found
+  const std::string doubt = std::move(pass.reason);  // about the rounding that was found
   pass.status = doubt.empty() ? Status::pass : Status::warn;
   for (const CaseJudgement& c : pass.cases) pass.status = worse(pass.status, c.status);
   Counts n;
@@ -106,7 +106,7 @@ void conclude(PassJudgement& pass, const enclosed::Profile& profile) {
     if (!doubt.empty()) all.insert(all.begin(), doubt);
     pass.reason = joined(all);
   } else {
-    // The first that has a reason of its own; what is counted is the reason of all.
+    // The first case with a reason of its own; reasons from counts apply to all.
     const auto own = [&](const CaseJudgement& c) {
       Counts one;
       one.add(c);
@@ -140,7 +140,7 @@ void conclude(PortJudgement& j) {
     j.status = Status::untested;
     j.reason = j.passes.empty() ? "nothing was judged" : "nothing was judged: all is taken as data";
   }
-  if (j.status == Status::not_judged) j.status = Status::untested;  // of the whole, something may well have been judged
+  if (j.status == Status::not_judged) j.status = Status::untested;  // for the port, other passes may have been judged
 }
 
 void fail_warnings(PortJudgement& j) {

@@ -17,11 +17,11 @@ using perturbed::Coverage;
 
 namespace {
 
-/// Declared to be 0 or 1, so that these are all of its values.
+/// True if declared to be 0 or 1, so that it has no other values.
 bool is_flag(const scene::Member& m) {
   return m.range && m.range->low == 0 && m.range->high == 1 && (m.scalar != scene::Scalar::float32 || m.range->is_whole);
 }
-/// Of each uniform and each image, whether it has a value that hides no mistake in what it takes part in; of a flag, which value.
+/// For each uniform and image, records whether its value would reveal a mistake; for a flag, which value it has.
 void add_values(const capture::PassCase& c, const scene::UniformBlock& said, Exercise& to) {
   std::map<std::string, bool>& out = to.values;
   const effect::Effect* own = registry::find(c.effect);
@@ -66,7 +66,7 @@ Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model
   add_values(c, said, out);
   Coverage& all = out.decisions;
   if (!model) return out;
-  std::mutex mutex;  // sums of counts: in any order the same
+  std::mutex mutex;  // sums of counts are the same in any order
   const auto counted = [&](const auto& evaluate) {
     Coverage own;
     perturbed::Behaviour counting;
@@ -106,7 +106,7 @@ std::string name_of(const perturbed::Decision& d, int number, bool is_guard, int
 
 std::vector<Alternative> Exercise::alternatives() const {
   std::vector<Alternative> out;
-  std::map<std::tuple<std::string, std::string, perturbed::DecisionKind, bool>, int> numbers;  // of the last one of a kind in a function
+  std::map<std::tuple<std::string, std::string, perturbed::DecisionKind, bool>, int> numbers;  // last number of a kind in a function
   for (const auto& [decision, sides] : decisions.decisions()) {
     const bool is_guard = std::any_of(sides.reasons.begin(), sides.reasons.end(), [](std::string_view reason) { return !reason.empty(); });
     const int number = ++numbers[{decision.file, decision.function, decision.kind, is_guard}];

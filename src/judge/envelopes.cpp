@@ -39,7 +39,7 @@ class CaseJudge {
         options_(options),
         modes_(std::move(modes)),
         slots_(slots_of(c, model)),
-        // Exact rules compare bits, which is as quick.
+        // Under exact rules bits are compared, which is as fast.
         sample_(c, model, options.profile->reference ? 0 : options.sample),
         short_cuts_(c, model, port, options, slots_, modes_) {
     if (static_cast<int>(slots_.size()) != model.values())
@@ -77,7 +77,7 @@ class CaseJudge {
     }
     return whole;
   }
-  /// Whether what was asked leaves open if what is beyond every device is much: that is a share of all that the profile leaves open.
+  /// True if the sample leaves open whether a large share of the elements that the profile leaves open is beyond every device.
   bool needs_all() const { return needs_all_; }
 
  private:
@@ -87,10 +87,10 @@ class CaseJudge {
     std::vector<CodeRange> ranges, nearest, other_ranges;
     std::vector<char> vacuous;        ///< of each value
     bool is_open = false;             ///< some alternative leaves a value without a bound
-    bool is_sampled = true;           ///< it counts in widths and shares
-    SecondTier second, other_second;  ///< by the profile, and by what known devices do
+    bool is_sampled = true;           ///< counts in widths and shares
+    SecondTier second, other_second;  ///< under the profile, and under what known devices do
 
-    std::optional<Beyond> coarse;  ///< where devices are known
+    std::optional<Beyond> coarse;  ///< if there is a profile of known devices
     ShortCuts::Work short_cut;
 
     explicit Scratch(const CaseJudge& of)
@@ -101,7 +101,7 @@ class CaseJudge {
     }
   };
 
-  /// Judges the invocations of the sample, so many at a time.
+  /// Judges the sampled invocations in blocks.
   void judge_sample(std::vector<std::vector<Part>>& parts, std::vector<CaseJudgement>& whole) const {
     constexpr std::int64_t strata = 64;
     parts.assign(static_cast<std::size_t>((sample_.size() + strata - 1) / strata), std::vector<Part>(modes_.size(), Part(case_)));
@@ -112,7 +112,7 @@ class CaseJudge {
                         [&](int x, int y) { invocation(x, y, true, s, parts[static_cast<std::size_t>(k)], whole); });
     });
   }
-  /// Judges what is not in the sample; where that is whole, everything.
+  /// Judges the invocations outside the sample; all, if the sample is complete.
   void judge_rest(std::vector<std::vector<Part>>& parts, std::vector<CaseJudgement>& whole) const {
     constexpr int rows = 4;
     const std::size_t before = parts.size();
@@ -125,7 +125,7 @@ class CaseJudge {
           if (sample_.is_whole() || !sample_.has(x, y)) invocation(x, y, sample_.is_whole(), s, part, whole);
     });
   }
-  /// Whether the sample fails so much, by each rounding that is tried, that nothing hangs on the rest.
+  /// True if the sample has so many failures under each rounding that the rest cannot change the verdict.
   bool fails_enough(const std::vector<std::vector<Part>>& sampled) const {
     for (std::size_t m = 0; m < modes_.size(); ++m) {
       std::int64_t failing = 0;
@@ -134,7 +134,7 @@ class CaseJudge {
     }
     return true;
   }
-  /// Marks what is not in the sample.
+  /// Marks the invocations outside the sample.
   void leave_rest(std::vector<CaseJudgement>& whole) const {
     std::set<int> outputs;
     for (const Slot& slot : slots_) outputs.insert(slot.output);
@@ -162,7 +162,7 @@ class CaseJudge {
     }
   }
 
-  /// Counts one that no envelope is asked of.
+  /// Counts an invocation whose envelope is not computed.
   void without_envelope(int x, int y, Part& part, CaseJudgement& whole, bool is_decided) const {
     CaseJudgement& counts = part.counts;
     ++counts.invocations;
@@ -192,10 +192,10 @@ class CaseJudge {
     texel = std::max(texel, what);
   }
 
-  /// Numbers of alternatives, or -1. Sets s.nearest to the codes of the nearest.
+  /// Indices of alternatives, or -1. Sets s.nearest to the codes of the nearest.
   struct Choice {
-    int accepted = -1;   ///< that accepts what was stored: the reference's if it does, else the first
-    int reference = -1;  ///< that holds what the reference stores
+    int accepted = -1;   ///< accepts the stored values: the reference's alternative if it does, else the first
+    int reference = -1;  ///< contains the reference's values
     int nearest = -1;
   };
   Choice choose(Scratch& s, HalfMode mode) const {
@@ -281,7 +281,7 @@ class CaseJudge {
       sample_rearranged(x, y, s, mode, part);
   }
 
-  /// What a value is bounded by in the alternative that is shown; of a sampled one it is counted.
+  /// Returns the bound of a value in alternative `shown`; counts it if the invocation is sampled.
   Bound count_bound(std::size_t v, int shown, const Scratch& s, Part& part) const {
     const Slot& slot = slots_[v];
     const auto o = static_cast<std::size_t>(slot.output);
@@ -307,12 +307,12 @@ class CaseJudge {
     return bound;
   }
 
-  /// The profile that an evaluation of one invocation takes.
+  /// The profile for evaluating one invocation.
   enclosed::Profile as_stored(const enclosed::Profile& profile, HalfMode mode) const {
     return model_.rounds_inside() ? narrowed(profile, mode) : profile;
   }
 
-  /// Asked about an invocation that the formula as written does not hold.
+  /// Called for an invocation that the formula as written does not accept.
   bool only_rearranged(int x, int y, Scratch& s, HalfMode mode, CaseJudgement& counts) const {
     const enclosed::Rearrangement own = options_.profile->rearrangement, most = enclosed::Rearrangement::expanded;
     if (s.second.accepts(own, x, y, s.stored, s.nearest, mode)) return true;
@@ -343,7 +343,7 @@ class CaseJudge {
     if (out.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(out.worst);
   }
 
-  /// `accepted`: the codes that come nearest; null where there are none.
+  /// `accepted`: the nearest codes; null if there are none.
   Failure failure(int x, int y, std::size_t v, const CodeRange* accepted) const {
     const Slot& slot = slots_[v];
     const std::size_t o = static_cast<std::size_t>(slot.output);
@@ -354,7 +354,7 @@ class CaseJudge {
     return f;
   }
 
-  /// The codes of alternative a, into s.ranges.
+  /// Writes the codes of alternative a to s.ranges.
   void ranges_of(Scratch& s, int a, HalfMode mode) const {
     if (!options_.profile->reference)
       return code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(a)], *options_.profile, mode, s.ranges);
@@ -362,8 +362,8 @@ class CaseJudge {
     for (const std::int64_t code : s.stored.expected) s.ranges.push_back({code, code});
   }
 
-  /// What the profile leaves without a useful bound is held to what known devices do with the formula as written; what it bounds only warns
-  /// by it, where they do not come to it by a rearrangement that the profile allows either.
+  /// Compares with what known devices do. Values without a useful bound in the profile must lie inside that, with the formula as written.
+  /// Other values outside it only give a warning, unless an allowed rearrangement reaches them.
   void check_typical(int x, int y, Scratch& s, HalfMode mode, Part& part, CaseJudgement& whole) const {
     CaseJudgement& counts = part.counts;
     int best = -1;
@@ -421,7 +421,7 @@ class CaseJudge {
   const JudgeOptions& options_;
   std::vector<HalfMode> modes_;
   std::vector<Slot> slots_;
-  std::vector<char> free_;  // of each slot, as Stored::free
+  std::vector<char> free_;  // for each slot, as Stored::free
   Sample sample_;
   ShortCuts short_cuts_;
   bool needs_all_ = false;

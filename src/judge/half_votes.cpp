@@ -12,13 +12,12 @@ namespace {
 
 const char* words(HalfMode mode) { return mode == HalfMode::rne ? "to nearest" : "toward zero"; }
 
-/// The place of a rounding among the two that were tried.
+/// Index of a rounding in the two that were tried.
 std::size_t place(const HalfVotes& pass, HalfMode mode) { return pass.modes[0] == mode ? 0 : 1; }
 
 bool has_vote(const HalfVotes& pass) { return pass.modes.size() >= 2 && !pass.rounds_inside; }
 
-/// The place of the rounding by which clearly more of what was asked has the reference's bits: by far more than a wrong formula meets by
-/// chance. Nothing: neither.
+/// Index of the rounding with clearly more of the reference's bits: by far more than a wrong formula has by chance. Nothing: neither.
 std::optional<std::size_t> place_by_bits(const std::vector<HalfVotes>& passes) {
   constexpr std::int64_t least = 16, share = 8;
   std::array<std::int64_t, 2> bits{};
@@ -29,7 +28,7 @@ std::optional<std::size_t> place_by_bits(const std::vector<HalfVotes>& passes) {
   return bits[1] > bits[0] ? 1 : 0;
 }
 
-/// Passes that can be stored by this rounding alone.
+/// Passes that fit only this rounding.
 std::vector<std::string> only_under(HalfMode mode, const std::vector<HalfVotes>& passes) {
   std::vector<std::string> out;
   for (const HalfVotes& p : passes) {
@@ -40,17 +39,17 @@ std::vector<std::string> only_under(HalfMode mode, const std::vector<HalfVotes>&
   return out;
 }
 
-/// Whether it is known which of the two roundings a pass fails by.
+/// True if it is known under which of the two roundings a pass fails.
 bool is_settled(const HalfVotes& pass) { return pass.is_known(0) && pass.is_known(1); }
 
-/// The rounding of the port where as much as may fails under one of the two, and as little under the other.
+/// The port's rounding if all undecided invocations fail under one of the two, and none under the other.
 HalfMode extreme_rounding(std::vector<HalfVotes> passes, std::size_t most) {
   for (HalfVotes& p : passes)
     if (has_vote(p)) p.failing[most] = p.most(most);
   return port_rounding(passes);
 }
 
-/// Whether a pass may be other than pass_rounding gives, by what is undecided of itself.
+/// True if the undecided invocations of a pass could change its pass_rounding.
 bool is_pass_open(const HalfVotes& pass, HalfMode port, HalfMode asked) {
   const std::size_t own = port == HalfMode::either ? 0 : place(pass, port), other = 1 - own;
   if (pass.most(own) == 0) return asked != HalfMode::either && pass.modes[own] != asked && !pass.is_known(place(pass, asked));
@@ -95,13 +94,13 @@ bool is_rounding_open(const std::vector<HalfVotes>& passes) {
 
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile) {
   if (pass.modes.size() < 2) return {};
-  // A pass without a vote may be all that there is.
+  // There may be only passes without a vote.
   const HalfMode votes = port_rounding(passes), port = votes == HalfMode::either ? pass.modes[0] : votes;
   const std::size_t own = place(pass, port), other = 1 - own;
-  // What fails either way says nothing of stores.
+  // A pass that fails under both roundings tells nothing about stores.
   const bool fits_better = pass.failing[other] < pass.failing[own] && (pass.failing[other] == 0 || pass.rounds_inside);
   const std::size_t found = fits_better ? other : own;
-  // Stores of one device round one way. Only when both ways fail and a mixture does not is it a mixture.
+  // All stores of a device round one way. A mixture is assumed only if both ways fail and the mixture does not.
   if (pass.modes.size() == 3 && pass.failing[found] > 0 && pass.failing[2] == 0)
     return {2, "some stores to binary16 round to nearest and some toward zero"};
   const HalfMode mode = pass.modes[found];
@@ -122,7 +121,7 @@ std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes,
     return std::nullopt;
   };
   const auto unsettled = [&] { return first([](const HalfVotes& p) { return !is_settled(p); }); };
-  // More failures under a rounding never speak for it, so the extremes tell.
+  // More failures under a rounding never favour it, so the extreme cases suffice.
   const HalfMode port = extreme_rounding(passes, 0);
   if (port != extreme_rounding(passes, 1)) return first(has_vote);
   const bool may_fail =
@@ -132,7 +131,7 @@ std::optional<std::size_t> first_undecided(const std::vector<HalfVotes>& passes,
                      });
   if (may_fail && !tells && unsettled()) return unsettled();
   if (const auto open = first([&](const HalfVotes& p) { return is_pass_open(p, port, asked); })) return open;
-  // A pass that fits the other rounding alone is doubted beside the passes that fit the port's alone.
+  // A pass that fits only the other rounding is doubtful if other passes fit only the port's.
   const bool names_others = std::any_of(passes.begin(), passes.end(), [&](const HalfVotes& p) {
     return has_vote(p) && p.failing[place(p, port)] > 0 && p.most(1 - place(p, port)) == 0;
   });

@@ -13,13 +13,13 @@ namespace {
 
 using capture::Array;
 
-/// Of the components of one vector.
+/// Compares the components of one vector.
 Likeness compare_vector(const double (&expected)[4], const double (&given)[4], int count, double floor) {
   double scale = 0;
   for (int k = 0; k < count; ++k) scale = std::max(scale, std::abs(expected[k]));
   const double most = std::max(host_share * scale, floor);
   for (int k = 0; k < count; ++k)
-    if (!(std::abs(given[k] - expected[k]) <= most)) return Likeness::other;  // nor of what is no number
+    if (!(std::abs(given[k] - expected[k]) <= most)) return Likeness::other;  // false for NaN too
   return Likeness::rounded;
 }
 
@@ -27,7 +27,7 @@ Likeness compare_texel(FormatInfo::Kind kind, int channels, int bytes, const std
   if (std::memcmp(expected, given, static_cast<std::size_t>(channels * bytes)) == 0) return Likeness::same;
   if (kind == FormatInfo::uint32) return Likeness::other;
   double want[4] = {}, have[4] = {};
-  bool is_next = kind != FormatInfo::float32;  // the neighbouring code, of what has few
+  bool is_next = kind != FormatInfo::float32;  // the neighbouring code, for formats of few bits
   for (int k = 0; k < channels; ++k) {
     const std::int64_t a = enclosed::ordered_code(kind, expected + k * bytes), b = enclosed::ordered_code(kind, given + k * bytes);
     is_next &= std::abs(a - b) <= 1;

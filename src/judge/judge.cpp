@@ -38,7 +38,7 @@ std::vector<HalfMode> modes_of(const PassCase& c, const JudgeOptions& options) {
 
 namespace {
 
-/// Adds what is judged by bits and by ids to what was judged by envelope, and concludes.
+/// Adds the outputs judged by bits and by ids to those judged by envelope, and concludes.
 void settle(const PassCase& c, const PassModel* model, const std::vector<Array>& port, const JudgeOptions& options, bool enveloped,
             CaseJudgement& j) {
   j.id = c.folder();

@@ -21,7 +21,7 @@ namespace {
 
 using capture::PassModel;
 
-/// A run that was not judged counts under every rounding.
+/// A run that was not judged has this judgement under every rounding.
 ModeJudgements not_judged(const PortRun& run) {
   ModeJudgements out;
   out.judgements.resize(1);
@@ -33,7 +33,7 @@ ModeJudgements not_judged(const PortRun& run) {
   return out;
 }
 
-/// A pass's failures under each rounding, over all of its cases.
+/// Failures of a pass under each rounding, over all of its cases.
 HalfVotes votes_of(const std::string& pass, const std::vector<ModeJudgements>& cases) {
   HalfVotes votes{pass, {}, {}};
   const auto judged = std::find_if(cases.begin(), cases.end(), [](const ModeJudgements& c) { return !c.modes.empty(); });
@@ -53,7 +53,7 @@ HalfVotes votes_of(const std::string& pass, const std::vector<ModeJudgements>& c
   return votes;
 }
 
-/// Keeps of each case the judgement under the rounding that was found.
+/// Keeps the judgement of each case under the found rounding.
 void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const HalfVotes& own, const std::vector<HalfVotes>& all,
                  const JudgeOptions& options) {
   FoundRounding found;
@@ -70,7 +70,7 @@ void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const 
   for (ModeJudgements& c : cases) pass.cases.push_back(std::move(c.judgements[c.modes.empty() ? 0 : found.mode]));
 }
 
-/// A run and the one before it, as they are asked about.
+/// A run and the previous one, for the diagnosis.
 struct Asked {
   PortRun run;
   std::unique_ptr<PassModel> model;
@@ -86,7 +86,7 @@ Asked asked(const PassTask& task, std::size_t k) {
   return a;
 }
 
-/// Asks about the run with the most failures, which says most, and the next.
+/// Diagnoses the run with the most failures, which is most informative, together with the next.
 Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options, double share = 1,
                       bool is_warned = false) {
   std::vector<std::size_t> failing;
@@ -116,7 +116,7 @@ Explanation explained(const PassTask& task, const PassJudgement& judged, const J
   return task.runs.explain(failed(worst, failing[0], &other));
 }
 
-/// The same judgement with what is warned of as failing.
+/// The same judgement with warned elements counted as failing.
 PassJudgement as_failing(PassJudgement judged) {
   for (CaseJudgement& c : judged.cases) {
     if (c.status != Status::warn) continue;
@@ -130,10 +130,10 @@ PassJudgement as_failing(PassJudgement judged) {
   }
   return judged;
 }
-/// What would explain elements that are warned of: a likely cause, or nothing. A device may be the reason, so no other is told.
+/// The likely cause of elements that are warned of, or nothing. A device may be the reason, so less certain causes are omitted.
 std::vector<Cause> causes_of_warning(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
   JudgeOptions how = options;
-  // What a known device would do tells what is near; but for rearrangements, which the profile alone allows.
+  // What a known device would do defines what is near, except for rearrangements, which only the profile allows.
   const bool is_rearranged = std::any_of(judged.cases.begin(), judged.cases.end(), [](const CaseJudgement& c) { return c.rearranged > 0; });
   if (options.typical && !is_rearranged) how.profile = options.typical;
   std::vector<Cause> causes = explained(task, as_failing(judged), how, 1, true).causes;
@@ -141,14 +141,14 @@ std::vector<Cause> causes_of_warning(const PassTask& task, const PassJudgement& 
   return causes;
 }
 
-/// How much of what fails the first cause explains, bits and nearness alike; and whether it is likely.
+/// The share of the failures that the first cause explains, with equal weight for bits and nearness; and whether it is likely.
 std::pair<double, bool> worth(const Explanation& why) {
   if (why.causes.empty()) return {-1, false};
   const Cause& first = why.causes.front();
   return {static_cast<double>(first.explained + first.inside) / static_cast<double>(std::max<std::int64_t>(first.of, 1)), first.is_likely};
 }
-/// Asks under either rounding of halves, where nothing else tells which is the port's, and leaves `judged` by that of the better answer.
-/// `cases`: every run under each rounding.
+/// If nothing else tells the port's rounding of halves, diagnoses under each, and sets `judged` to the one with the better result. `cases`:
+/// every run under each rounding.
 Explanation explained_by_each(const PassTask& task, std::vector<ModeJudgements> cases, PassJudgement& judged, const JudgeOptions& options) {
   PassJudgement other = judged;
   other.cases.clear();
@@ -165,7 +165,7 @@ Explanation explained_by_each(const PassTask& task, std::vector<ModeJudgements> 
   return second;
 }
 
-/// A port that does nothing and passes all of these runs, which were settled before; "": none.
+/// A null port that passes all of these runs, which must be settled; "": none.
 std::string null_port_of(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
   NullPorts ports;
   for (std::size_t k = 0; k < task.runs.count; ++k) {
@@ -177,14 +177,14 @@ std::string null_port_of(const PassTask& task, const PassJudgement& judged, cons
   return ports.passing();
 }
 
-/// What is asked of a run: its share of what its pass is.
+/// The options of a run: its share of its pass's sample.
 JudgeOptions options_of_run(const PassModel* model, const PassRuns& runs, JudgeOptions options) {
   const std::int64_t own = model ? static_cast<std::int64_t>(model->width()) * model->height() : 0;
   options.sample = sample_of_run(options.sample, own, std::max(own, runs.invocations));
   return options;
 }
 
-/// Every run of a pass, under each rounding that may be its port's; what they exercise is added to `coverage`, where that is wanted.
+/// Judges every run of a pass under each possible rounding of the port; adds what they exercise to `coverage`, if it is not null.
 std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options, Exercise* coverage) {
   const PassRuns& runs = task.runs;
   std::vector<ModeJudgements> cases;
@@ -236,7 +236,7 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     cases.push_back(judge_runs(task, options, &coverage[cases.size()]));
     votes.push_back(votes_of(task.pass->name, cases.back()));
   }
-  // What one rounding settles is asked under the others where how the port rounds may hang on it.
+  // Invocations accepted under one rounding are tested under the others only if the port's rounding may depend on it.
   JudgeOptions every = options;
   every.every_rounding = true;
   if (std::any_of(votes.begin(), votes.end(), [](const HalfVotes& v) { return v.modes.size() >= 2; }))

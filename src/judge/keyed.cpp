@@ -21,13 +21,13 @@ using capture::Array;
 using capture::KeyedRecord;
 using enclosed::CodeRange;
 
-/// The expected records as they are.
+/// The expected records as exact values.
 class Exactly : public capture::KeyedModel {
  public:
   Exactly(const RecordTable& table, const RecordLayout& layout) : layout_(layout), records_(table.begin(), table.end()) {}
   int groups() const override { return static_cast<int>(records_.size()); }
   const std::vector<capture::FieldRange>& ranges() const override {
-    static const std::vector<capture::FieldRange> none;  // points have no width to compare
+    static const std::vector<capture::FieldRange> none;  // exact values have no width
     return none;
   }
   void enclose(int group, std::vector<KeyedRecord>& out) const override {
@@ -48,21 +48,21 @@ class Exactly : public capture::KeyedModel {
   std::vector<std::pair<std::uint32_t, const std::byte*>> records_;
 };
 
-/// What a list is compared by.
+/// Rules for comparing a list.
 struct Rules {
   const RecordLayout& layout;
   const enclosed::Profile& profile;
   bool by_bits;
 };
 
-/// How far one list is from one alternative of a group.
+/// Distance of a list from one alternative of a group.
 struct Difference {
   std::vector<std::uint32_t> missing, extra, outside;
   std::vector<Failure> failures;
   std::size_t count() const { return missing.size() + extra.size() + failures.size(); }
 };
 
-/// A float that its envelope does not hold, or not to the bit; nothing where it does.
+/// Failure of a float outside its envelope, or with other bits; nothing if it is inside.
 std::optional<Failure> float_failure(const enclosed::Enclosure& e, const std::byte* at, const Rules& rules) {
   Failure f;
   f.field_kind = FormatInfo::float32;
@@ -117,7 +117,7 @@ Difference compare(const std::vector<KeyedRecord>& alternative, const RecordTabl
   return d;
 }
 
-/// Whether a rearrangement gives what the port has of a group, and bounds each field that the formula as written does not hold.
+/// True if a rearrangement gives the port's values of a group, and bounds each field that the formula as written does not accept.
 bool is_rearranged(const capture::KeyedModel& model, int group, const RecordTable& have, const Difference& as_written,
                    const std::vector<double>& extents, const Rules& rules) {
   if (rules.by_bits || rules.profile.rearrangement == enclosed::Rearrangement::none) return false;
@@ -221,14 +221,14 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
       }
     if (!whole) {
       counts.add(alternatives.front(), true);
-      // Anything else passes where nothing is bounded.
+      // Without a bound, everything but NaN passes.
       const std::vector<Failure> failures = not_numbers(alternatives.front(), have, layout);
       j.failing += !failures.empty();
       for (const Failure& f : failures) j.events.outside.push_back(static_cast<std::uint32_t>(f.x));
       counts.add_failures(failures);
       continue;
     }
-    // The alternative that accepts what was stored, the reference's if it does; else the nearest.
+    // The alternative that accepts the stored values, the reference's if it does; else the nearest.
     std::size_t best = 0;
     Difference least;
     int reference = -1;

@@ -28,7 +28,7 @@ void KnownDevice::prepare(const Sample& sample, const std::vector<perturbed::Beh
   sample.each(16, [&](int x, int y) {
     if (is_wanted(x, y)) wanted.push_back({x, y});
   });
-  // An envelope takes some ten times as long as an evaluation.
+  // An envelope takes about ten times as long as an evaluation.
   std::int64_t most = static_cast<std::int64_t>(wanted.size()) / 8;
   std::vector<char> is_held;
   for (const perturbed::Behaviour& device : devices) {
@@ -38,7 +38,7 @@ void KnownDevice::prepare(const Sample& sample, const std::vector<perturbed::Beh
       return std::find(is_held.begin(), is_held.end(), 1) != is_held.end();
     });
     if (count <= most) continue;
-    most = count + static_cast<std::int64_t>(wanted.size()) / 16;  // arithmetic that is not the reference's takes longer
+    most = count + static_cast<std::int64_t>(wanted.size()) / 16;  // arithmetic that differs from the reference's takes longer
     device_ = device;
   }
 }

@@ -31,7 +31,7 @@ bool is_interchangeable(const Array& in, const Array& out) {
   if (in.is_records) return in.record.name == out.record.name && in.record.size == out.record.size;
   return in.format == out.format && in.width == out.width && in.height == out.height && !in.levels.empty();
 }
-/// The first levels of an input, as many as the output has.
+/// Copies as many levels of an input as the output has.
 Array copied(const Array& in, const Array& out) {
   Array copy = out;
   if (in.is_records) copy.width = in.width;
@@ -39,7 +39,7 @@ Array copied(const Array& in, const Array& out) {
   return copy.levels.size() == out.levels.size() ? copy : zeros(out);
 }
 
-/// What the reference itself stores passes, without a look at any envelope: a pass without wipers gives back what it took, texel by texel.
+/// What the reference itself stores passes without computing envelopes: a pass without wipers returns its input, texel by texel.
 bool is_expected(const PassCase& c, const std::vector<Array>& port) {
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     const Array& expected = c.outputs[o].array;
@@ -47,7 +47,7 @@ bool is_expected(const PassCase& c, const std::vector<Array>& port) {
   }
   return true;
 }
-/// Whether every invocation lies inside. A few all over the picture are asked first: most such ports fail there.
+/// True if every invocation is inside. Tests a few over the whole picture first, because most null ports fail there.
 bool is_inside(const PassCase& c, const capture::PassModel& model, const std::vector<Array>& port, const enclosed::Profile& profile,
                const enclosed::Profile* typical, HalfMode mode, const parallel::Executor& executor) {
   const std::vector<Slot> slots = slots_of(c, model);
@@ -71,7 +71,7 @@ bool is_inside(const PassCase& c, const capture::PassModel& model, const std::ve
   });
   return is_every;
 }
-/// What the profile leaves without a useful bound must lie inside what known devices do, as in any judgement.
+/// Values without a useful bound in the profile must lie inside what known devices do, as in any judgement.
 bool passes(const PassCase& c, const capture::PassModel* model, const std::vector<Array>& port, const enclosed::Profile& profile,
             const enclosed::Profile* typical, HalfMode mode, const parallel::Executor& executor) {
   if (is_expected(c, port)) return true;

@@ -55,12 +55,12 @@ PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::stri
 }
 
 capture::Array PortFiles::read(const fs::path& run, const std::string& stem, const capture::Array& expected) {
-  // A level may be read by itself: the file alone does not say which buffer it is.
+  // A level may be read alone, so the file name does not identify the buffer.
   const std::string key = fmt::format("{} {} {}x{} {}", (folder_ / run / stem).string(), rainref::info(expected.format).name,
                                       expected.width, expected.height, expected.levels.size());
   if (buffers_ && buffers_->arrays.contains(key)) return buffers_->arrays[key];
   port_dump::ReadNotes notes;
-  const bool is_opaque = alpha_1_.contains(stem.substr(stem.find('.') + 1));  // behind "in." or "out."
+  const bool is_opaque = alpha_1_.contains(stem.substr(stem.find('.') + 1));  // after "in." or "out."
   capture::Array array = port_dump::read_port_buffer(folder_ / run, stem, expected, info_, notes,
                                                      is_opaque ? port_dump::Alpha::one : port_dump::Alpha::stored);
   for (const std::string& note : notes.lines)

@@ -51,7 +51,7 @@ T choice(const RawEntry& e, const std::vector<std::pair<std::string, T>>& choice
 
 using Set = std::function<void(Profile&, const RawEntry&)>;
 
-/// Members with one value each.
+/// Members that have one value each.
 const std::map<std::string, Set>& values() {
   using enclosed::BasicRounding, enclosed::Flush, enclosed::Rearrangement, enclosed::StoreOverflow, enclosed::StoreRounding;
   static const std::map<std::string, Set> all{
@@ -136,9 +136,9 @@ void set_part(Profile& p, const std::string& member, const std::string& part, co
   v->second(p, e);
 }
 
-/// Words about a profile, which typical_words() reads.
+/// Texts about a profile, for typical_words().
 bool is_of_typical(const std::string& key) { return key == "about" || key == "known_outside"; }
-/// Those that nobody is judged under.
+/// Profiles that no port is judged under.
 bool is_no_rule(std::string_view name) { return name == "typical" || name == "coarsest"; }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 using capture::Array;
 
-/// Marks each element of b that is not a's.
+/// Marks each element of b that differs from a's.
 void mark_differences(const Array& a, const Array& b, std::size_t size, std::vector<bool>& differs) {
   const std::vector<std::byte>&first = a.levels[0], &second = b.levels[0];
   for (std::size_t i = 0; i < differs.size(); ++i) {

@@ -12,7 +12,7 @@ using capture::Array;
 
 namespace {
 
-/// Gives texel (x, y) of a level the bytes of the texel that from(x, y) names.
+/// Copies to texel (x, y) of a level the texel at from(x, y).
 template <class From>
 void rearrange(Array& a, From from, int level = 0) {
   const capture::Bytes old = a.levels[static_cast<std::size_t>(level)];

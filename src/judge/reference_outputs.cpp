@@ -27,7 +27,7 @@ std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, 
     array.levels = {*records};
   }
   if (slots.empty()) return out;
-  std::vector<std::byte*> texels;  // of each output
+  std::vector<std::byte*> texels;  // one for each output
   for (Array& array : out) texels.push_back(array.levels.empty() ? nullptr : array.levels[0].edit().data());
   executor.for_tiles(model.width(), model.height(), model.width(), 4, [&](const parallel::Tile& tile) {
     std::vector<scalar::Scalar<float>> values(slots.size());

@@ -11,7 +11,7 @@ namespace rainref::judge {
 
 std::int64_t sample_of_run(std::int64_t least, std::int64_t invocations, std::int64_t of) {
   if (least <= 0 || of <= least) return 0;
-  const std::int64_t fewest = std::min<std::int64_t>(1024, least);  // the margin of 1024 is an eighth
+  const std::int64_t fewest = std::min<std::int64_t>(1024, least);  // 1024 invocations have a margin of 1/8
   const double share = static_cast<double>(least) * static_cast<double>(invocations) / static_cast<double>(of);
   return std::max(fewest, static_cast<std::int64_t>(std::ceil(share)));
 }
@@ -38,7 +38,8 @@ std::int64_t Sample::drawn(std::int64_t stratum) const {
 
 double Sample::margin(double values) const {
   if (is_whole()) return 0;
-  // A stratum counts from 0 to stride x values, independently of the others: exp(-2 t^2 / (n (stride values)^2)) for the chance of t.
+  // Each stratum contributes 0 to stride x values, independently: the probability of an error t is at most exp(-2 t^2 / (n (stride
+  // values)^2)).
   const double strata = std::ceil(static_cast<double>(count_) / static_cast<double>(stride_)), chance = 40 * 0.693147180559945;
   return static_cast<double>(stride_) * values * std::sqrt(strata * chance / 2);
 }

@@ -15,12 +15,12 @@ namespace {
 constexpr std::size_t most_runs = 4;
 constexpr std::int64_t of_run = 128;
 
-/// Of one run: invocations that fail by each rounding, and that store what the reference does by it.
+/// For one run: invocations that fail under each rounding, and that have the reference's bits under it.
 struct Counts {
   std::array<std::int64_t, 2> failing{}, with_bits{};
 
   bool is_wrong() const { return failing[0] > 0 && failing[1] > 0; }
-  /// Whether so many fail by one rounding alone that the rest is not asked.
+  /// True if so many fail under only one rounding that the rest is not needed.
   bool tells() const {
     constexpr std::int64_t enough = 32;
     return (failing[0] == 0 && failing[1] >= enough) || (failing[1] == 0 && failing[0] >= enough);
@@ -62,7 +62,7 @@ HalfVotes sampled_votes(PassTask task, const JudgeOptions& options) {
     ask(run, *model, modes, options, counts);
   }
   if (votes.modes.empty()) return votes;
-  if (counts.is_wrong()) counts = {{1, 1}, {}};  // what fails either way says nothing of stores
+  if (counts.is_wrong()) counts = {{1, 1}, {}};  // a pass that fails under both tells nothing about stores
   votes.failing = {counts.failing[0], counts.failing[1]};
   votes.with_bits = {counts.with_bits[0], counts.with_bits[1]};
   votes.failing.resize(votes.modes.size(), 0);

@@ -27,14 +27,14 @@ namespace fs = std::filesystem;
 using capture::Array;
 using capture::PassCase;
 
-/// A run that should be there or is.
+/// A planned or dumped run.
 struct Run {
   std::string id, pass;
   int frame = 0, step = 0, level = -1;
-  const PlannedRun* plan = nullptr;  ///< null: the plan does not know it
-  const PlannedRun* like = nullptr;  ///< what says how its buffers are
+  const PlannedRun* plan = nullptr;  ///< null: not in the plan
+  const PlannedRun* like = nullptr;  ///< describes its buffers
   bool is_dumped = false;
-  std::string unusable = "";  ///< buffers whose files cannot be used
+  std::string unusable = "";  ///< buffers whose files are unusable
   auto order() const { return std::tie(frame, step, level); }
 };
 
@@ -95,7 +95,7 @@ class Shadow {
   const capture::PackPass& pass_of(const Run& run) const {
     return *std::find_if(plan_.passes.begin(), plan_.passes.end(), [&](const capture::PackPass& p) { return p.name == run.pass; });
   }
-  /// The name of an input's mip level in DumpedContents.
+  /// Name of an input's mip level in DumpedContents.
   static std::string input_level(const capture::CaseInput& input, std::size_t level) { return fmt::format("in.{}.L{}", input.name, level); }
   bool is_wanted(const std::string& pass) const { return options_.wants(pass); }
 
@@ -117,7 +117,7 @@ class Shadow {
     const std::string stem = "in." + input.name;
     const std::vector<std::string> shared = run.plan ? run.plan->input_stems[i] : std::vector<std::string>();
     if (!shared.empty() && shared.front() != run.id + "/" + stem) {
-      // A manifest names one file for equal arrays; a port that dumps its own comes first.
+      // A manifest names one file for equal arrays; the port's own dump has priority.
       try {
         static_cast<void>(port_dump::find_dump_file(files_.folder() / run.id, stem));
       } catch (const Error&) {
@@ -153,7 +153,7 @@ class Shadow {
     const capture::CaseOutput& output = run.like->c.outputs[o];
     return files_.read(run.id, "out." + output.name, output.array);
   }
-  /// A buffer by its name in DumpedContents.
+  /// Reads a buffer by its name in DumpedContents.
   Array read_buffer(const std::string& buffer) {
     const std::size_t slash = buffer.rfind('/');
     const std::string id = buffer.substr(0, slash), name = buffer.substr(slash + 1);
@@ -169,8 +169,7 @@ class Shadow {
     throw Error(ExitCode::internal, fmt::format("no buffer {}", buffer));
   }
 
-  /// Reads every file once, before anything is judged. Of passes that are not wanted only what can be had is read, for the
-  /// links.
+  /// Reads every file once, before anything is judged. For passes that are not judged, reads only the available files, for the links.
   void read_all() {
     for (Run& run : runs_) {
       if (!run.is_dumped) continue;
@@ -196,11 +195,11 @@ class Shadow {
   }
 
   // ---- a pass --------------------------------------------------------------------------------------------------------
-  /// What neither the scene (or the manifest) runs nor the port is left out: a scene without rain behind its glass has no such pass.
+  /// A pass that neither the scene (or manifest) nor the port runs is omitted: a scene without rain behind its glass has no such pass.
   bool may_run(const std::string& pass) const {
     return std::any_of(runs_.begin(), runs_.end(), [&](const Run& r) { return r.pass == pass; });
   }
-  /// What was dumped of a pass; without any run nothing that was not dumped is listed.
+  /// The dumped runs of a pass; if it has none, missing runs are not listed either.
   PassTask task_of(const capture::PackPass& pass) {
     std::vector<const Run*> own;
     bool any = false;
@@ -227,7 +226,7 @@ class Shadow {
     return {&pass, binder(plan_.effect, pass.name), std::move(runs)};
   }
 
-  /// What the passes before it mean for a pass; they come in the order of execution.
+  /// Sets the effect of earlier passes on a pass; call in the order of execution.
   void settle(PassJudgement& judged) {
     if (judged.cases.empty()) {
       judged.status = Status::not_judged;
@@ -260,15 +259,15 @@ class Shadow {
     for (std::size_t i = 0; i < out.c.inputs.size(); ++i) out.c.inputs[i].array = read_input(run, i);
     for (std::size_t o = 0; o < out.c.outputs.size(); ++o) {
       out.stored.push_back(read_output(run, o));
-      out.c.outputs[o].array = out.stored.back();  // until the reference's are there
+      out.c.outputs[o].array = out.stored.back();  // until the reference's are computed
     }
     std::string fault = capture::uniform_fault(*registry::effect_of_pack(plan_.effect).info, out.c);
     if (fault.empty()) fault = capture::record_fault(out.c);
     if (!fault.empty()) {
-      out.broken = out.untested = fault;  // nothing can be computed with it
+      out.broken = out.untested = fault;  // nothing can be computed from it
       return out;
     }
-    if (!is_wanted(run.pass)) return out;  // only asked how stores round
+    if (!is_wanted(run.pass)) return out;  // only used to find the rounding of stores
     const bool is_first = loaded_.insert(run.id).second;
     if (!run.plan) {
       if (is_first)
@@ -290,11 +289,11 @@ class Shadow {
     return out;
   }
 
-  /// Why an input is not the output that it should be, or "".
+  /// Explains why an input is not the output that it should be, or returns "".
   std::string check_link(const Run& run, std::size_t i, bool is_first) {
     const capture::CaseInput& input = run.plan->c.inputs[i];
     const PlannedRun* source = plan_.source(*run.plan, input.name);
-    // Of a pass that runs once for each mip level each level is compared with its own run.
+    // If the source pass runs once for each mip level, each level is compared with its own run.
     const std::size_t parts = source && source->c.level >= 0 ? input.array.levels.size() : 1;
     for (std::size_t level = 0; level < parts; ++level) {
       std::string broken = check_link(run, i, parts > 1 ? input_level(input, level) : "in." + input.name,
@@ -303,7 +302,7 @@ class Shadow {
     }
     return "";
   }
-  /// The same of an input or of one of its levels.
+  /// The same for an input or one of its levels.
   std::string check_link(const Run& run, std::size_t i, const std::string& part, const PlannedRun* source, bool is_first) {
     const std::string& name = run.plan->c.inputs[i].name;
     const std::string buffer = fmt::format("{}/{}", run.id, part);
@@ -320,7 +319,7 @@ class Shadow {
     return broken_link(buffer, output, contents_, [&](const std::string& b) { return read_buffer(b); });
   }
 
-  /// What the reference gives for the port's inputs.
+  /// Computes the reference's outputs for the port's inputs.
   void settle(const capture::PackPass& pass, PortRun& run, const capture::PassModel* model) const {
     const capture::PassEvaluations* evaluations = evaluations_of(plan_.effect, pass.name);
     if (run.broken.empty() && evaluations && evaluations->doubt) run.broken = evaluations->doubt(run.c);
@@ -344,10 +343,10 @@ class Shadow {
     }
   }
 
-  // ---- the whole -----------------------------------------------------------------------------------------------------
-  /// The first bad run in the order of execution names the first bad pass.
+  // ---- all passes ----------------------------------------------------------------------------------------------------
+  /// The pass of the first bad run, in the order of execution, is the first bad pass.
   void set_first_bad(PortJudgement& j) const {
-    std::map<std::string, std::pair<int, std::size_t>> place;  // frame, then the order of the plan
+    std::map<std::string, std::pair<int, std::size_t>> place;  // frame, then position in the plan
     for (std::size_t k = 0; k < runs_.size(); ++k) place[runs_[k].id] = {runs_[k].frame, k};
     const CaseJudgement* first = nullptr;
     for (const PassJudgement& pass : j.passes) {

@@ -28,14 +28,14 @@ std::vector<std::string> DumpedContents::with(const std::string& hash) const {
 
 namespace {
 
-/// A buffer's run and its name with "in." or "out.".
+/// Splits a buffer's name into its run and its name with "in." or "out.".
 std::pair<std::string, std::string> parts_of(const std::string& buffer) {
   const std::size_t slash = buffer.rfind('/');
   return {buffer.substr(0, slash), buffer.substr(slash + 1)};
 }
 std::string pass_of(const std::string& buffer) { return buffer.substr(0, buffer.find('/')); }
 
-/// What a wrong input is, in words, from the buffers that equal it.
+/// Describes a wrong input by the buffers that equal it.
 std::string origin_text(const std::string& input, const std::string& output, const std::vector<std::string>& equal) {
   const auto [output_run, output_name] = parts_of(output);
   const std::string before = output_run + "/" + parts_of(input).second;
@@ -46,7 +46,7 @@ std::string origin_text(const std::string& input, const std::string& output, con
     if (pass_of(b) != pass_of(output) || parts_of(b).second != output_name)
       other = b;
     else if (b < output)
-      earlier = b;  // the last of them: names sort by frame and step
+      earlier = b;  // the latest of them: names sort by frame and step
     else if (later.empty())
       later = b;
   }
@@ -118,7 +118,7 @@ bool same(const Member& m, const std::vector<std::byte>& a, const std::vector<st
   return std::memcmp(a.data() + m.offset, b.data() + m.offset, m.size()) == 0;
 }
 
-/// Whether the member is the frame's time in every run of the pass.
+/// True if the member is the frame's time in every run of the pass.
 bool is_time(const ShadowPlan& plan, const std::string& pass, const Member& m) {
   if (m.scalar != scene::Scalar::float32 || m.components != 1) return false;
   bool some = false;
@@ -129,14 +129,14 @@ bool is_time(const ShadowPlan& plan, const std::string& pass, const Member& m) {
   }
   return some;
 }
-/// The run of the pass whose value of the member this is, or null.
+/// The run of the pass in which the member has this value, or null.
 const PlannedRun* run_with(const ShadowPlan& plan, const std::string& pass, const Member& m, const std::vector<std::byte>& uniforms) {
   for (const PlannedRun& r : plan.runs)
     if (r.c.pass == pass && same(m, r.c.uniforms, uniforms)) return &r;
   return nullptr;
 }
 
-/// Whether a count is that of a list which the run took: "drop_count" of the records of drops.
+/// True if a count is the length of an input list of the run: "drop_count" and the records of drops.
 bool counts_own_list(const capture::PassCase& taken, const Member& m) {
   constexpr std::string_view ending = "_count";
   if (m.scalar == scene::Scalar::float32 || m.components != 1 || !m.name.ends_with(ending)) return false;

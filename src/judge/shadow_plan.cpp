@@ -20,7 +20,7 @@ using capture::PassCase;
 
 namespace {
 
-/// The array without its values.
+/// Copies the array without its values.
 Array shape_of(Array array) {
   for (capture::Bytes& level : array.levels) level = {};
   return array;
@@ -32,7 +32,7 @@ bool is_unorm(const Array& a) {
   return !a.is_records && (info(a.format).kind == FormatInfo::unorm8 || info(a.format).kind == FormatInfo::srgb8);
 }
 
-/// "0012.3" or "0012.3.L1"; false for anything else.
+/// Parses "0012.3" or "0012.3.L1"; returns false for anything else.
 bool parse_run(const std::string& name, DumpedRun& run) {
   std::size_t at = 0;
   const auto number = [&](std::size_t least, int& out) {
@@ -180,7 +180,7 @@ const PlannedRun* ShadowPlan::source(const PlannedRun& run, std::string_view inp
   const auto place = [&](std::string_view pass) {
     return std::find_if(passes.begin(), passes.end(), [&](const capture::PackPass& p) { return p.name == pass; }) - passes.begin();
   };
-  // Of a pass that has already run in this step, "previous" means the run before that one.
+  // If a pass has already run in this step, "previous" means the run before that one.
   int to_skip = e->previous && place(e->from) < place(run.c.pass) ? 1 : 0;
   int frame = run.c.frame;
   for (const PlannedRun* r = &run; r != runs.data();) {
@@ -189,7 +189,7 @@ const PlannedRun* ShadowPlan::source(const PlannedRun& run, std::string_view inp
       if (!frames.contains(frame)) return nullptr;
     if (!frames.contains(frame)) return nullptr;
     if (r->c.pass != e->from || to_skip-- > 0) continue;
-    // The last run of a pass by levels gave the smallest of them: the others are the runs before it.
+    // The last run of a pass by mip levels wrote the smallest; the runs before it wrote the others.
     const capture::CaseInput* taken = run.c.input(input);
     for (const int wanted = taken && taken->array.levels.size() > 1 && r->c.level >= 0 ? level : r->c.level; r->c.level != wanted;) {
       if (r == runs.data() || (r - 1)->c.pass != r->c.pass || (r - 1)->c.frame != r->c.frame || (r - 1)->c.level != r->c.level - 1)

@@ -31,8 +31,7 @@ bool stores_halves(const PackCase& c) {
                      [](const capture::PackOutput& o) { return !o.shape.is_records && info(o.shape.format).kind == FormatInfo::float16; });
 }
 
-/// Whether anything like an output lies in the folder of a pass, under whatever run: a name that is wrong is no reason to
-/// believe that nothing was meant.
+/// True if a pass's folder has anything like an output, in whatever run: a wrong name does not mean that nothing was intended.
 bool has_output(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::exists(folder, error)) return false;
@@ -40,10 +39,10 @@ bool has_output(const std::filesystem::path& folder) {
     if (i->path().filename().string().starts_with("out")) return true;
     if (i.depth() > 0) i.disable_recursion_pending();
   }
-  return static_cast<bool>(error);  // what cannot be looked into is refused later, by name
+  return static_cast<bool>(error);  // an unreadable folder is rejected later, by name
 }
 
-/// Passes whose outputs are judged and of which the port has no file.
+/// Passes whose outputs are judged and that have no file of the port.
 std::set<std::string> passes_without_files(const Pack& pack, const PortFiles& port) {
   std::set<std::string> judged, found;
   for (const PackCase& c : pack.cases) {
@@ -55,7 +54,7 @@ std::set<std::string> passes_without_files(const Pack& pack, const PortFiles& po
   return judged;
 }
 
-/// Of a folder where nothing is one sentence says more than one for each file. `absent`: passes that may lack files.
+/// For an empty folder, one error instead of one for each file. `absent`: passes that may lack files.
 void require_any_folder(const Pack& pack, const ValidateOptions& options, const std::set<std::string>& absent, const PortFiles& port) {
   const auto may_be_there = [&](const PackCase& c) { return is_judged(c) && (options.partial || options.wants(c.pass)); };
   const auto first = std::find_if(pack.cases.begin(), pack.cases.end(), may_be_there);
@@ -67,7 +66,7 @@ void require_any_folder(const Pack& pack, const ValidateOptions& options, const 
                 fmt::format("{}: expected folders such as {} with the port's outputs, found none", port.folder().string(), first->id));
 }
 
-/// A case with what the port gave for it, and what is wrong with its files.
+/// Reads a case with the port's outputs, and collects errors of its files.
 PortRun read_run(const Pack& pack, const PackCase& entry, PortFiles& port, FileFaults& faults) {
   PortRun run;
   run.c = read_case(pack, entry);
@@ -133,7 +132,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   require_apart(pack.folder(), folder, ExitCode::usage);
   const std::shared_ptr<ReadBuffers> buffers = options.buffers ? options.buffers : std::make_shared<ReadBuffers>();
   PortFiles port(folder, pack.effect, pack.variant, buffers);
-  PortFiles other_files(folder, pack.effect, pack.variant, buffers);  // what is said of a voter's files is said when it is judged
+  PortFiles other_files(folder, pack.effect, pack.variant, buffers);  // errors in a voter's files are reported when it is judged
   const std::set<std::string> absent = options.partial ? passes_without_files(pack, port) : std::set<std::string>();
   require_any_folder(pack, options, absent, port);
 
