@@ -1,4 +1,4 @@
-// Writes what an installation has beside the program: `rainref_manual man`, `bash` or `zsh`, to standard output. For the build.
+// Writes the files that are installed beside the program: `rainref_manual man`, `bash` or `zsh`, to standard output. For the build.
 #include <string_view>
 
 #include "cli/manual.h"

@@ -1,5 +1,5 @@
-// Large arrays of the whole program in large pages where the system has them: the first touch of a page is a fault, and a large page is
-// one for 512 small ones. The program alone; a library leaves this to its caller.
+// Allocates large arrays of the program in large pages if the system has them: the first access to a page is a fault, and one large page
+// replaces 512 small ones. For the program only; a library leaves this to its caller.
 #include <cstdlib>
 #include <new>
 
@@ -16,7 +16,7 @@ void* operator new(std::size_t bytes) {
     handler();
   }
 }
-// As the standard library's does. A sanitizer brings its own one, which does not call the one above.
+// As in the standard library. A sanitizer has its own, which does not call the one above.
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   try {
     return operator new(bytes);
