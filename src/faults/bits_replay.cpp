@@ -9,7 +9,7 @@
 namespace rainref::faults {
 namespace {
 
-/// Record k, or nothing where the list is shorter.
+/// Record k; nothing if the list is shorter.
 std::vector<std::byte> at(const Records& list, std::size_t k) { return k < list.size() ? list[k] : std::vector<std::byte>(); }
 
 }  // namespace
@@ -52,7 +52,7 @@ std::vector<Tried> BitsReplay::causes(const std::vector<Fault>& all) const {
     const Records guess = d.alter_list ? (static_cast<void>(d.alter_list(c_, edit)), std::move(edit.records))
                                        : records_of(evaluations_.recompute(altered)[output_]);
     for (const std::size_t k : failing_) cause.explained += at(guess, k) == at(port_, k);
-    // It must leave the others as they are.
+    // The other records must not change.
     std::int64_t broken = 0;
     for (std::size_t k = 0; k < std::max(guess.size(), right_.size()); ++k)
       broken += at(guess, k) != at(right_, k) && !std::binary_search(failing_.begin(), failing_.end(), k);

@@ -1,5 +1,5 @@
-// Mistakes that need no search: how the bytes of an image lie, what another format, an exporter or a blend makes of its values, and a hash
-// of fractions in half precision.
+// Mistakes that need no search: the byte layout of an image, the effect of another format, of an exporter or of blending on its values, and
+// a hash of fractions in half precision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ using perturbed::Trace;
 
 namespace {
 
-/// Bytes from row to row that devices and APIs choose for rows of so many bytes.
+/// Row pitches that devices and APIs use for rows of `row` bytes.
 std::set<std::size_t> usual_pitches(std::size_t row, std::size_t texel) {
   std::set<std::size_t> out;
   const auto add = [&](std::size_t multiple) {
@@ -39,7 +39,7 @@ std::set<std::size_t> usual_pitches(std::size_t row, std::size_t texel) {
   return out;
 }
 
-/// Memory whose rows lie `pitch` bytes apart, zeros between, copied as if they followed each other.
+/// Memory with rows `pitch` bytes apart and zeros between, copied as if it were contiguous.
 void take_as_tight(Array& a, std::size_t pitch) {
   const std::vector<std::byte> right = a.levels[0];
   std::vector<std::byte>& out = a.levels[0].edit();
@@ -48,7 +48,7 @@ void take_as_tight(Array& a, std::size_t pitch) {
   for (std::size_t y = 0; y * pitch < out.size(); ++y)
     std::memcpy(out.data() + y * pitch, right.data() + y * row, std::min(row, out.size() - y * pitch));
 }
-/// Memory without padding, copied as if its rows lay `pitch` bytes apart. Behind its end are zeros.
+/// Contiguous memory, copied as if its rows were `pitch` bytes apart. Zeros follow its end.
 void take_as_padded(Array& a, std::size_t pitch) {
   const std::vector<std::byte> right = a.levels[0];
   std::vector<std::byte>& out = a.levels[0].edit();
@@ -96,7 +96,7 @@ void add_layout_faults(std::vector<Fault>& out, const capture::PassCase& c, cons
 
 namespace {
 
-/// A number without a sign and with this many bits of mantissa behind its first, whose exponent is a half's.
+/// Rounds to an unsigned float with `mantissa_bits` explicit mantissa bits and a half's exponent.
 float unsigned_float(float v, int mantissa_bits, bool to_nearest) {
   if (!(v > 0)) return 0;
   if (std::isinf(v)) return v;
@@ -107,7 +107,7 @@ float unsigned_float(float v, int mantissa_bits, bool to_nearest) {
   return static_cast<float>((to_nearest ? std::nearbyint(steps) : std::floor(steps)) * step);
 }
 
-/// Every value on its way to the store, of images of three or four channels of halves or floats.
+/// Changes every value before the store, for images of three or four channels of half or float.
 void add_formats(std::vector<Fault>& out, const capture::PassCase& c) {
   const auto is_wide = [](const capture::PassCase& in, const Slot& s) {
     const Array& a = in.outputs[static_cast<std::size_t>(s.output)].array;
@@ -123,7 +123,7 @@ void add_formats(std::vector<Fault>& out, const capture::PassCase& c) {
     d.alter_value = [of, change](float v, const Slot& s) {
       return std::find(of.begin(), of.end(), s.output) != of.end() ? change(v, s.channel) : v;
     };
-    d.stores = judge::HalfMode::rne;  // whoever makes halves of them is no store of the device
+    d.stores = judge::HalfMode::rne;  // conversion to halves by another program is not the device's store
   };
   add(Kind::through_10_bits, [](float v, int channel) {
     const double most = channel == 3 ? 3 : 1023;
@@ -134,7 +134,7 @@ void add_formats(std::vector<Fault>& out, const capture::PassCase& c) {
         [to_nearest](float v, int channel) { return channel == 3 ? 1 : unsigned_float(v, channel == 2 ? 5 : 6, to_nearest); });
 }
 
-/// Codes of 10, 10, 10 and 2 bits, read as four of 8: where they are the reference's, the port's own bytes are explained.
+/// 10:10:10:2 codes read as four 8-bit codes: where they equal the reference's, the port's own bytes are explained.
 void add_packed_codes(std::vector<Fault>& out, const capture::PassCase& c, const std::vector<Array>& port) {
   for (const bool is_red_first : {true, false})
     add_to_images(out, c, port, is_red_first ? Kind::rgb10_read_as_rgba8 : Kind::bgr10_read_as_rgba8, [=](Array& a, const Array& stored) {
@@ -154,7 +154,7 @@ void add_packed_codes(std::vector<Fault>& out, const capture::PassCase& c, const
     });
 }
 
-/// Calls change(channel, alpha) for the three colours of each texel of an image of four halves or floats.
+/// Calls change(channel, alpha) for the three colours of each texel of an image with four channels of half or float.
 template <class Change>
 bool change_colours(Array& a, Change change) {
   const FormatInfo& f = info(a.format);
@@ -216,7 +216,7 @@ void add_format_faults(std::vector<Fault>& out, const Probed& p, const std::vect
 
 namespace {
 
-/// Nodes that a fraction went into, in the order of the trace.
+/// Marks the nodes that depend on a fraction, in the order of the trace.
 std::vector<bool> made_of_fractions(const Trace& trace) {
   std::vector<bool> out(trace.nodes.size(), false);
   for (std::size_t k = 0; k < trace.nodes.size(); ++k)
@@ -225,7 +225,7 @@ std::vector<bool> made_of_fractions(const Trace& trace) {
   return out;
 }
 
-/// Adds a fraction and what it is made of, down to the fractions that other ones were made of and their arguments.
+/// Adds a fraction and its operands, down to the fractions inside and their arguments.
 void gather(const Trace& trace, const std::vector<bool>& is_made_of, std::int32_t node, std::set<std::int32_t>& out) {
   if (node < 0 || !out.insert(node).second) return;
   const Trace::Node& n = trace.nodes[static_cast<std::size_t>(node)];
@@ -240,7 +240,7 @@ void gather(const Trace& trace, const std::vector<bool>& is_made_of, std::int32_
   }
 }
 
-/// Nodes of hashes: a fraction of a product that three fractions or more went into, and all that it is made of.
+/// Nodes of hashes: a fraction of a product that depends on three fractions or more, and all its operands.
 std::set<std::int32_t> hashes_of(const Trace& trace) {
   const std::vector<bool> is_made_of = made_of_fractions(trace);
   std::set<std::int32_t> out;

@@ -1,5 +1,5 @@
-// What is decided beside the search: how bytes lie, a list read beyond its end, what is not a number, another formula that real arithmetic
-// makes equal.
+// Causes that are found without a search: byte layout, a list read beyond its end, NaN, or another formula that is equal in real
+// arithmetic.
 #include <algorithm>
 #include <set>
 #include <vector>
@@ -26,20 +26,20 @@ using judge::FailedRun;
 namespace {
 
 std::int64_t points(const Cause& c) { return c.explained + c.inside; }
-/// Nearly all of it, and so near that it is no chance.
+/// It explains nearly all failures, so well that this is not chance.
 bool is_decisive(const Tried& c) {
   constexpr std::int64_t least = 8;
   return c.of >= least && c.is_likely && c.inside * 20 >= c.of * 19;
 }
 
-/// Failing elements of a list, were this what the port stored.
+/// Number of failing elements of a list if the port had stored `list`.
 std::int64_t failing_with(const FailedRun& f, std::size_t output, const Array& list) {
   const capture::CaseOutput& expected = f.run.c.outputs[output];
   if (expected.judge == capture::Judge::bits) return judge::judge_bits(expected, list).failing;
   return judge::judge_keyed(expected, list, f.model ? f.model->keyed(expected.name) : nullptr, *f.options.profile).failing;
 }
 
-/// Whether all that an output holds at a texel is a number.
+/// True if all values of an output at a texel are numbers.
 bool is_a_number(const FailedRun& f, const judge::OutputJudgement& o, Texel t) {
   for (const judge::Slot& s : judge::slots_of(f.run.c)) {
     const auto output = static_cast<std::size_t>(s.output);
@@ -59,7 +59,7 @@ std::optional<Cause> decided(const TexelReplay& run, const TexelReplay* other) {
   for (const Tried& c : run.causes(run.of_finished()))
     if (points(c) * 50 >= points(*best) * 49) return std::nullopt;
   if (other) {
-    // Of one name there may be several ways, of which one is the port's.
+    // One name may cover several variants, of which one is the port's.
     std::optional<Tried> there;
     for (const Tried& c : other->causes(other->decidable()))
       if (c.name == best->name && (!there || points(c) > points(*there))) there = c;
@@ -78,7 +78,7 @@ std::optional<Cause> read_beyond_end(const FailedRun& f, std::size_t output) {
   if (!expected.array.is_records || stored.width <= expected.array.width) return std::nullopt;
   const Records all = records_of(stored);
   const auto right = static_cast<std::size_t>(expected.array.width);
-  // How many are live: those before what is all zero, before copies of the last one, or as many as there should be.
+  // Number of live records: those before all-zero records, before copies of the last one, or the expected number.
   const auto last_unlike = [&](const std::vector<std::byte>& dead) {
     return static_cast<std::size_t>(std::find_if(all.rbegin(), all.rend(), [&](const auto& r) { return r != dead; }).base() - all.begin());
   };
@@ -101,7 +101,7 @@ std::optional<Cause> not_numbers(const FailedRun& f) {
   std::int64_t failing = 0;
   for (const judge::OutputJudgement& o : f.judgement.outputs) {
     failing += o.failing;
-    // The worst come first, and nothing is worse than what is no number.
+    // The worst come first, and NaN is the worst.
     if (o.failing > 0 && (o.worst.empty() || !o.worst.back().not_a_number)) return std::nullopt;
     for (std::size_t i = 0; i < o.map.size(); ++i)
       if (o.map[i] == 3 && is_a_number(f, o, {static_cast<int>(i) % o.width, static_cast<int>(i) / o.width})) return std::nullopt;
@@ -121,7 +121,7 @@ std::optional<Cause> not_numbers(const FailedRun& f) {
 
 namespace {
 
-/// Whether the formula may give what the port stored at a texel, and bounds it.
+/// True if the formula allows what the port stored at a texel, and bounds it.
 bool holds(const capture::PassModel& model, const std::vector<judge::Slot>& slots, const capture::PassCase& c,
            const std::vector<capture::Array>& port, const enclosed::Profile& profile, judge::HalfMode mode, Texel at) {
   judge::Stored stored;
@@ -163,7 +163,7 @@ std::optional<judge::Cause> alternative_formula(const capture::PassCase& c, cons
       const auto of = static_cast<std::int64_t>(failing.size());
       return Tried(What{Kind::another_formula, {formula.name, formula.sentence}}, {"", "", 0, of, inside, false, of >= 4});
     } catch (const Error&) {
-      continue;  // the case has not what the other formula takes
+      continue;  // the case lacks an input of the other formula
     }
   }
   return std::nullopt;

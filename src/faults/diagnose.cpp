@@ -25,7 +25,7 @@ TexelReplay texels_of(const FailedRun& f) {
   return {f.pass, f.run.c, f.before, f.bind, *f.model, f.run.stored, f.judgement, *f.options.profile, f.half_mode, *f.options.executor};
 }
 
-/// What explains the lists of a run, one by one.
+/// Causes for the lists of a run, one list at a time.
 std::vector<Cause> causes_of_lists(const FailedRun& f, const SearchLimit& limit) {
   std::vector<Cause> found;
   for (const std::size_t o : judge::keyed_outputs(f.run.c)) {
@@ -47,7 +47,7 @@ std::vector<Cause> causes_of_lists(const FailedRun& f, const SearchLimit& limit)
   return found;
 }
 
-/// What explains lists that are whole numbers' work, judged by bits in their order.
+/// Causes for lists of integer passes, which are judged by bits in order.
 std::vector<Cause> causes_of_bits(const FailedRun& f, const SearchLimit& limit) {
   std::vector<Cause> found;
   const capture::PassEvaluations* evaluations = judge::evaluations_of(f.run.c.effect, f.run.c.pass);
@@ -83,7 +83,7 @@ std::vector<Cause> causes_of_texels(const FailedRun& f, const SearchLimit& limit
   if (std::optional<Cause> sure = decided(run, other ? &*other : nullptr)) return {std::move(*sure)};
   std::vector<Cause> best = diagnosed(run, other ? &*other : nullptr, f.is_warned);
   if (f.is_warned) return best;
-  // What gives the very bits is a better word than a formula that could have given them.
+  // A cause that reproduces the bits is better than a formula that only allows them.
   const bool is_exact = !best.empty() && best.front().is_likely && best.front().explained * 10 >= best.front().of * 9;
   if (is_exact || limit.is_over()) return best;
   if (std::optional<Cause> formula = run.alternative_formula(*f.options.profile)) {
@@ -129,32 +129,32 @@ int far_fetched(const Tried& c) {
   const What& what = c.what;
   if (c.of_records && what.is(trait::lost | trait::empty)) return 8;
   if (c.of_records && what.is(trait::late)) return 4;
-  // Where few records fail 0 is rather another number.
+  // If few records fail, 0 is more likely a wrong number.
   constexpr std::int64_t few = 8;
   if (what.is(trait::unset) && c.of_records && c.of < few) return 1;
   const int weight = weight_of(what), much_left_out = gaps_in_name(what) > 3;
   if (what.is(trait::bare)) return weight;
-  // A pass has few places for these and many terms and factors: of what explains as much they are meant more often.
+  // A pass has few places for these kinds and many terms and factors, so they are more often meant if causes explain as much.
   if (weight < -1) return -1 + much_left_out;
-  // Of a number as it is, a condition is plain; of what is computed there is rather another reason.
+  // For a plain number, a condition is plausible; for a computed value, another reason is more likely.
   return weight < 0 && !names_plain_numbers(what) ? 1 : weight + much_left_out;
 }
 
 std::vector<Tried> best_causes(std::vector<Tried> causes) {
-  // A fault that explains some texels of many explains nothing; a wrong cause would be worse than none.
+  // A fault that explains some of many texels explains nothing; a wrong cause is worse than none.
   std::erase_if(causes, [](const Cause& c) { return c.inside * 2 < c.of && c.explained * 4 < c.of; });
   if (causes.empty()) return {};
-  // Bits count twice: what gives them is also near. Within 2 % of the best, causes explain as much as each other.
+  // Bits count twice, because they are also near. Causes within 2 % of the best explain equally much.
   const auto score = [](const Cause& c) {
     return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1));
   };
-  // A number can be fitted to much: it is believed only where no mistake that has a name comes near all of what fails.
+  // A number can be fitted to many failures: it is accepted only if no named mistake comes near all of them.
   const auto is_full = [](const Tried& c) { return c.inside * 50 >= c.of * 49 && c.misfit <= 0.1; };
   if (std::any_of(causes.begin(), causes.end(), [&](const Tried& c) { return !is_fitted(c) && is_full(c); }))
     for (Tried& c : causes)
       if (is_fitted(c) && c.explained * 10 < c.of * 9) c.explained = c.inside = 0;
-  // Of thousands that are tried some meet many of the port's very bits by chance: what is more far-fetched, solved for or fitted counts
-  // no more of them than what is plainer and as near, unless they are nearly all.
+  // Among thousands of faults, some match many of the port's bits by chance. Bits of a less plausible, solved or fitted fault count only as
+  // much as those of a plainer one that is as near, unless it matches nearly all.
   std::vector<int> how_far;
   std::vector<bool> is_sought;
   for (const Tried& c : causes) how_far.push_back(far_fetched(c)), is_sought.push_back(is_fitted(c) || is_solved(c));
@@ -176,25 +176,25 @@ std::vector<Tried> best_causes(std::vector<Tried> causes) {
     best = std::max(best, score(c));
     most_bits = std::max(most_bits, static_cast<double>(c.explained) / static_cast<double>(std::max<std::int64_t>(c.of, 1)));
   }
-  // A device whose arithmetic hardly ever gives the reference's bits meets them by chance.
+  // A device whose arithmetic rarely gives the reference's bits matches them by chance.
   const double margin = most_bits < 0.5 ? 0.08 : 0.04;
-  // Records are few, and no device blurs which of them are there: of these the better explains more.
+  // Records are few, and rounding does not change which of them exist: here the better cause explains more.
   const auto explains_most = [&](const Cause& c) { return score(c) >= best - (c.of_records ? 0 : margin); };
   double least = 1;
   for (const Tried& c : causes)
     if (explains_most(c)) least = std::min(least, c.misfit);
-  // A device may be the reason of some that are left; of what was sought or fitted, which chooses among thousands, none is a measure.
+  // A device may cause some of the remaining failures. Solved or fitted faults are chosen from thousands, so they set no standard.
   const bool is_any_tested = std::any_of(causes.begin(), causes.end(), [&](const Tried& c) { return explains_most(c) && !c.is_untested; });
   double fewest = HUGE_VAL;
   for (const Tried& c : causes)
     if (explains_most(c) && !is_fitted(c) && !is_solved(c) && !c.is_untested) fewest = std::min(fewest, against(c));
-  // An envelope may be wide enough for several; the one that is meant leaves hardly anything.
+  // An envelope may be wide enough for several causes; the right one leaves hardly any failures.
   const auto is_best = [&](const Tried& c) {
     return explains_most(c) && c.misfit <= 2 * least + 0.02 && !(c.is_untested && is_any_tested) &&
            (c.of_records || against(c) <= 1.4 * fewest + 1.5);
   };
   const auto rank = [&](const Tried& c) { return is_best(c) ? 3.0 : score(c); };
-  // A number that is not set where it is a term and no more: rather the term is left out.
+  // If an unset number is only a term, then "term left out" is preferred.
   std::set<std::string> terms;
   for (const Tried& c : causes)
     if (is_best(c) && c.what.kind == Kind::term_left_out) terms.insert(first_name(c.what.of[1]));
@@ -210,17 +210,17 @@ std::vector<Tried> best_causes(std::vector<Tried> causes) {
   for (const Tried& c : causes)
     if (score(c) > 0 && out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Tried& o) { return o.name == c.name; }))
       out.push_back(c);
-  // Likely is one cause at most: the first, of those that say so of themselves, where enough fails that it is no chance. Of what
-  // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
+  // At most one cause is likely: the first of those marked so, if enough fails that it is not chance. If a whole part of a pass vanishes,
+  // dozens of mistakes explain it equally well: its failures cannot distinguish them.
   constexpr std::ptrdiff_t most_rivals = 20;
   const auto rivals = std::count_if(causes.begin(), causes.end(), [&](const Tried& c) {
-    // The other two are other words for the same places.
+    // These two are other descriptions of the same places.
     return is_best(c) && !is_solved(c) && !c.what.is_of_all_components() && !c.what.is_of_each_place();
   });
-  // Where a list is left as it was, whatever keeps a pass from doing anything is the cause as well.
+  // If a list is unchanged, anything that prevents the pass from working is an equally good cause.
   if (std::any_of(causes.begin(), causes.end(), [](const Tried& c) { return c.of_records && c.what.is(trait::late) && c.inside == c.of; }))
     for (Tried& c : out) c.is_likely = false;
-  // That a list stays empty is what is seen, and not why.
+  // An empty list is a symptom, not a cause.
   for (Tried& c : out) c.is_likely &= !(c.of_records && c.what.is(trait::empty));
   for (Tried& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;

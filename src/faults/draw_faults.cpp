@@ -13,7 +13,7 @@ using random::Draws;
 
 const char* const ordinals[] = {"first", "second", "third", "fourth"};
 
-/// Another word in the place of one, and two exchanged.
+/// One word replaced by another, and two exchanged.
 template <class Add>
 void add_words(const Add& add) {
   for (std::uint8_t to = 0; to < 4; ++to)
@@ -30,7 +30,7 @@ void add_words(const Add& add) {
     }
 }
 
-/// Another constant, operator or operand of the hash itself: in pcg4d, or where the key meets the counters.
+/// Another constant, operator or operand in the hash itself: in pcg4d, or where key and counters are combined.
 template <class Add>
 void add_mixings(const Add& add) {
   using random::Join;
@@ -228,7 +228,7 @@ void add_counter_faults(std::vector<Fault>& out, const capture::PackPass& pass, 
     if (m.scalar == scene::Scalar::float32 || m.components != 1 || m.name.starts_with("padding")) continue;
     std::int32_t number;
     std::memcpy(&number, c.uniforms.data() + m.offset, 4);
-    // One more and one less have plainer names.
+    // +1 and -1 have plainer names.
     if (number == 0 || number == 1 || number == -1) continue;
     for (const std::size_t k : {0u, 1u})
       for (const bool is_added : {false, true}) {

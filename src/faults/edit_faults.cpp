@@ -1,4 +1,4 @@
-// An operation of the pass text whose parts are put together otherwise: exchanged, grouped or mapped otherwise, another curve.
+// An operation of the pass text with differently combined parts: exchanged, regrouped or remapped, or another curve.
 #include "faults/generators.h"
 
 #include <algorithm>
@@ -23,9 +23,9 @@ using perturbed::RewriteKind;
 using perturbed::Rewrites;
 using Node = perturbed::Trace::Node;
 
-constexpr std::int32_t most_alike = 4;  // of one shape that are tried one by one
+constexpr std::int32_t most_alike = 4;  // places of one shape that are tried separately
 
-/// Whether an edit gives another number at one of the places of its shape.
+/// True if an edit changes the value at one of the places of its shape.
 bool shows(const Probe& p, std::int32_t node, const Formula& formula) {
   int asked = 0;
   for (std::int32_t at = node; at < static_cast<std::int32_t>(p.trace.nodes.size()) && asked < 6; ++at) {
@@ -62,7 +62,7 @@ class EditAdder {
         all[c].period = period_of(p, nodes);
         if (all[c].period > 0) all[c].occurrence = static_cast<std::int32_t>(c);
       }
-      // Components that look alike are told apart by their order.
+      // Components with equal shape are distinguished by their order.
       const auto is_same = [&](std::int32_t other) { return node_of(p, other).shape == all[c].shape; };
       if (occurrence < 0 && std::count_if(nodes.begin(), nodes.end(), is_same) > 1) all[c].occurrence = node_of(p, nodes[c]).occurrence;
       all[c].formula = &(*formulas)[c];
@@ -74,7 +74,7 @@ class EditAdder {
     d.is_one_of_many = true;
   }
 
-  /// The same at all places where the components look alike so few operations deep.
+  /// The same at all places whose components look equal to this depth.
   void shared(const Probe& p, const Nodes& v, std::int8_t depth, Edit edit) {
     edit.what.reach = Reach::each_vector;
     const std::size_t before = out_.size();
@@ -87,7 +87,7 @@ class EditAdder {
       r.depth = depth;
     }
   }
-  /// At all places that look alike so few operations deep.
+  /// At all places that look equal to this depth.
   void shared(const Probe& p, const SharedPlace& place, Edit edit) {
     if (is_full()) return;
     reach_all(edit.what, place);
@@ -107,7 +107,7 @@ class EditAdder {
   const std::size_t most_;
 };
 
-/// Adds what edits_at(node) gives of each place, from the results to what they are made of.
+/// Adds edits_at(node) for each place, from the results to their operands.
 template <class EditsAt>
 void each_place(EditAdder& add, const Probe& p, const EditsAt& edits_at) {
   for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
@@ -132,7 +132,7 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     for (const Nodes& v : vectors) {
       for (const Edit& e : vector_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
     }
-    // Of a function that is called several times, in each call.
+    // A function that is called several times is edited in each call.
     std::map<std::uint32_t, std::set<std::uint32_t>> calls;
     for (const Node& n : p.trace.nodes) calls[n.shallow[1]].insert(n.shape);
     std::set<std::vector<std::uint32_t>> asked;
@@ -152,7 +152,7 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
     for (const Nodes& v : lookups_of(p))
       for (const Edit& e : value_curve_edits_of(p, v)) add(p, v, -1, e);
     for (const JointEdit& e : blend_edits_of(p)) add(p, e.nodes, -1, e.edit);
-    // A filter that is taken along rows and then along columns has the same weights in both.
+    // A separable filter has the same weights along rows and columns.
     std::map<std::string, std::pair<Nodes, std::vector<Edit>>> filters;
     for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;) {
       if (node_of(p, at).occurrence != 0 || is_leaf(node_of(p, at).op)) continue;
@@ -179,18 +179,18 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
       for (const Edit& e : edits_of(p, v[0])) add(p, v, -1, e);
       for (const Edit& e : exchanges_of(p, v[0])) add(p, v, -1, e);
     }
-    // What is put together otherwise, then parts in each other's place, of which there are most.
+    // First other combinations, then exchanged parts, which are most numerous.
     each_place(add, p, [&](std::int32_t at) {
       std::vector<Edit> made = edits_of(p, at);
       for (Edit& e : value_curve_edits_of(p, {at})) made.push_back(std::move(e));
       return made;
     });
     each_place(add, p, [&](std::int32_t at) { return exchanges_of(p, at); });
-    // A function of the text that is called several times has an edit in each call.
+    // A function of the text that is called several times is edited in each call.
     for (const SharedPlace& place : shared_places_of(all)) {
       if (add.is_full()) break;
       const Probe& of = all[place.probe];
-      // In several places that only look alike anything but another curve is rather a chance; in the rounds of a loop it is none.
+      // At several places that only look equal, edits other than curves are probably chance; in the rounds of a loop they are not.
       const bool is_loop = place.depth == perturbed::by_sequence;
       std::vector<Edit> made = edits_of(of, place.node);
       if (is_loop)

@@ -1,4 +1,4 @@
-// What stands at one place of a pass text in place of what is meant: its parts put together otherwise, or as they are after a step.
+// Replacements at one place of a pass text: its parts combined differently, or with their values after a step.
 #include "faults/edits.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class Edits {
     updated();
   }
 
-  /// Two parts, one below each of two operands, exchanged.
+  /// Exchanges two parts, one below each of two operands.
   void exchange() {
     if (!all_.is_operation()) return;
     for (std::size_t i = 0; i < all_.of.size(); ++i)
@@ -56,7 +56,7 @@ class Edits {
 
  private:
   void keep(Expression made, Kind kind, std::vector<std::string> of) { out_.push_back({{std::move(made)}, {kind, std::move(of)}}); }
-  /// What stands there is said.
+  /// Adds an edit whose text shows the replacement.
   void keep(Expression made, Kind kind) {
     std::string text = text_of(p_, made);
     keep(std::move(made), kind, {text_, std::move(text)});
@@ -65,10 +65,10 @@ class Edits {
   static bool is_symmetric(Op op) { return op == Op::sum || op == Op::product || op == Op::minimum || op == Op::maximum; }
   static bool is_arithmetic(Op op) { return is_symmetric(op) || op == Op::difference || op == Op::quotient; }
 
-  /// A map x -> a x + b of a sum of products, taken of one factor of each.
+  /// Applies a map x -> a x + b of a sum of products to one factor of each product instead.
   void of_each_part() {
     const Expression deep = expression_of(p_, node_, 5);
-    std::vector<std::pair<Op, std::pair<bool, Expression>>> maps;  // from outside: operation, whether the constant is first, constant
+    std::vector<std::pair<Op, std::pair<bool, Expression>>> maps;  // from outside: operation, true if the constant is first, constant
     const Expression* at = &deep;
     while (at->is_operation() && at->of.size() == 2 && is_arithmetic(at->step.op) && maps.size() < 3) {
       const bool is_first = is_constant(p_, at->of[0]), is_second = is_constant(p_, at->of[1]);
@@ -92,7 +92,7 @@ class Edits {
     }
   }
 
-  /// A blend of two that are made in the other order, or in place of the larger or smaller of a value and a product.
+  /// Two blends in the other order, or a blend in place of the minimum or maximum of a value and a product.
   void blends() {
     const auto is = [](const Expression& e, Op op) { return e.is_operation() && e.step.op == op; };
     for (const std::size_t k : {0u, 1u})
@@ -108,7 +108,7 @@ class Edits {
       }
   }
 
-  /// A part as it is after a step, elsewhere in the pass: life - dt for life.
+  /// The value of a part after a step elsewhere in the pass: life - dt for life.
   void updated() {
     std::vector<Expression*> all;
     Expression made = all_;

@@ -34,7 +34,7 @@ Expression built(const Probe& p, std::int32_t node, std::array<std::int8_t, 6> p
   }
   return e;
 }
-/// The path from a node to another one that it is made of, so many operations deep; false: there is none.
+/// Finds the path from a node to one of its operands, at most `most` operations deep; false: there is none.
 bool find_path(const Probe& p, std::int32_t from, std::int32_t to, std::array<std::int8_t, 6>& path, std::size_t length, std::size_t most) {
   if (length >= most || from < 0) return false;
   const Node& n = node_of(p, from);
@@ -86,7 +86,7 @@ Expression expression_of(const Probe& p, std::int32_t node, int depth) { return 
 
 Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const std::vector<std::int32_t>& changed, int depth) {
   Expression e;
-  e.step.kind = Step::part;  // without a path: it cannot be had
+  e.step.kind = Step::part;  // without a path: not available
   e.node = node;
   if (node < 0) return e;
   const Node& n = node_of(p, node);
@@ -97,7 +97,7 @@ Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const s
     return e;
   }
   const bool is_changed = std::find(changed.begin(), changed.end(), node) != changed.end();
-  // What the place itself is made of is found there in each call of a function.
+  // The operands of the place itself are found there in each call of a function.
   constexpr std::size_t deep = 4;
   if (std::array<std::int8_t, 6> path{-1, -1, -1, -1, -1, -1}; node < at && !is_changed && find_path(p, at, node, path, 0, deep)) {
     e.step.path = path;

@@ -30,7 +30,7 @@ using judge::slots_of;
 using judge::store_value;
 using judge::swap_channels;
 
-/// What a GPU may do without being wrong: still the best explanation of a difference.
+/// True for differences that a conforming GPU may have; they may still be the best explanation.
 bool is_legal(perturbed::Fault s) {
   using perturbed::Fault;
   return s == Fault::fused || s == Fault::reciprocal_division || s == Fault::root_by_inverse || s == Fault::flushed ||
@@ -46,7 +46,7 @@ void add_faults(std::vector<Fault>& out) {
   }
 }
 
-/// A device that rounds its stores to halves the other way. Legal where a profile leaves it open.
+/// A device that rounds half stores the other way. Legal if a profile leaves it open.
 void add_stores(std::vector<Fault>& out, const PassCase& c) {
   const std::vector<Slot> slots = slots_of(c);
   if (std::none_of(slots.begin(), slots.end(), [](const Slot& s) { return s.kind == FormatInfo::float16; })) return;
@@ -57,8 +57,8 @@ void add_stores(std::vector<Fault>& out, const PassCase& c) {
   }
 }
 
-/// Every literal and uniform that the pass meets all over the picture, as another number. What only some rows meet comes
-/// from their own index.
+/// Replaces every literal and uniform that the pass uses all over the picture by another number. Numbers that only some rows use come from
+/// the row index.
 void add_constants(std::vector<Fault>& out, const PassCase& c, const capture::PassModel& model) {
   constexpr int all = 64;
   std::map<float, int> values = constants_met(model);
@@ -88,7 +88,7 @@ void add_uniforms(std::vector<Fault>& out, const capture::PackPass& pass, const 
     if (m.scalar == scene::Scalar::int32 && m.components == 1) {
       const auto inverted = [at = m.offset](PassCase& c) {
         const auto v = number_at<std::int32_t>(c.uniforms.data(), at);
-        if (v == 0 || v == 1) put_number(c.uniforms.data(), at, 1 - v);  // else it is no flag
+        if (v == 0 || v == 1) put_number(c.uniforms.data(), at, 1 - v);  // else it is not a flag
       };
       add(Kind::uniform_the_other_way, {m.name}, inverted, true);
     }
@@ -116,7 +116,7 @@ void add_uniforms(std::vector<Fault>& out, const capture::PackPass& pass, const 
           [m, old](PassCase& c) { std::copy(old.begin(), old.end(), c.uniforms.begin() + static_cast<std::ptrdiff_t>(m.offset)); });
     }
   }
-  // Members of one kind that are easily taken for each other: a missing aspect ratio, width for height.
+  // Members of one kind that are easily confused: a missing aspect ratio, width for height.
   for (const scene::Member& m : pass.block.members)
     for (const scene::Member& other : pass.block.members) {
       if (&m == &other || m.scalar != scene::Scalar::float32 || other.scalar != m.scalar || m.components != 1 || other.components != 1 ||

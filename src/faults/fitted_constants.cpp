@@ -1,4 +1,4 @@
-// Which other value of a literal or a uniform gives what a port stored.
+// Finds other values of a literal or uniform that give what a port stored.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -21,7 +21,7 @@ struct Replaced {
   float value(const Wanted& w, std::size_t slot, float replacement) const { return evaluate(w, slot, constant, replacement); }
 };
 
-/// The slot that the port changed most, against what the reference has there.
+/// The slot in which the port differs most from the reference.
 std::size_t farthest_slot(const Wanted& w) {
   std::size_t best = 0;
   double most = -1;
@@ -32,10 +32,10 @@ std::size_t farthest_slot(const Wanted& w) {
   return best;
 }
 
-/// With so many significant digits.
+/// Rounds to `digits` significant digits.
 float rounded(float x, int digits) { return number_from<float>(fmt::format("{:.{}g}", x, digits)).value_or(x); }
 
-/// The replacements of a constant that give a texel what it wants, the nearest to the constant first.
+/// The replacements of a constant that give a texel its wanted value, the nearest to the constant first.
 std::vector<float> replacements(const Replaced& pass, const Wanted& w) {
   const float v = pass.constant;
   const std::size_t slot = farthest_slot(w);
@@ -57,14 +57,14 @@ std::vector<float> replacements(const Replaced& pass, const Wanted& w) {
   return roots;
 }
 
-/// What a number becomes when it is typed wrong: a digit other, left out, twice, exchanged with the next, or the point moved.
+/// Typing errors of a number: one digit wrong, missing, doubled, or exchanged with the next, or the point moved.
 std::vector<float> typed_wrong(float x) {
   const std::string right = fmt::format("{}", x);
   std::vector<float> out;
   const auto add = [&](const std::string& text) {
     if (const std::optional<float> v = number_from<float>(text); v && *v != x && std::isfinite(*v)) out.push_back(*v);
   };
-  // More digits than that are no literal of the text but computed from some.
+  // Numbers with more digits are not literals of the text, but computed.
   if (std::count(right.begin(), right.end(), 'e') > 0 || right.size() > 9) return out;
   for (std::size_t at = 0; at < right.size(); ++at) {
     if (right[at] < '0' || right[at] > '9') continue;
@@ -86,9 +86,9 @@ std::vector<float> typed_wrong(float x) {
   return out;
 }
 
-/// The one that suits all texels best, as one of a few digits where that suits them about as well; nothing where none does.
+/// Returns the best value for all texels, rounded to few digits if that fits about as well; nothing if none fits.
 std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wanted, bool is_literal) {
-  // How far off all are, in steps of the store.
+  // Sum of the errors of all texels, in steps of the store.
   const auto misfit = [&](float r) {
     double sum = 0;
     for (const Wanted& w : wanted) {
@@ -108,14 +108,14 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
       roots.push_back(root);
     }
   if (!best) return best;
-  // Of coarse codes each texel leaves a range open: the number lies in all of them, and those of these that are near lie around it.
+  // 8-bit output bounds the number only to an interval per texel: average the nearby candidates, as the number lies in all intervals.
   float sum = 0, count = 0;
   for (const float root : roots)
     if (std::abs(root - *best) <= 0.05f * std::abs(*best)) sum += root, count += 1;
   if (const float mean = sum / count; mean != pass.constant)
     if (const double m = misfit(mean); m < least) least = m, best = mean;
   const auto suits = [&](float r) { return r != pass.constant && misfit(r) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size()); };
-  // Of the numbers that suit as well the one that is typed most easily for it.
+  // Of the numbers that fit equally well, prefer the most likely typing error.
   std::optional<float> typed;
   for (const float other : is_literal ? typed_wrong(pass.constant) : std::vector<float>())
     if (std::abs(other - *best) <= 0.1f * std::abs(*best) && misfit(other) <= 1.02 * least + 0.005 * static_cast<double>(wanted.size()) &&
@@ -129,7 +129,7 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
   return best;
 }
 
-/// Short numbers that the pass takes through their reciprocals alone, as a host or a compiler made them (perturbed::replacing).
+/// Short numbers that the pass uses only through their reciprocals, which a host or a compiler computed (perturbed::replacing).
 Constants behind(const Constants& all) {
   Constants out;
   for (const Constant& c : all) {

@@ -15,7 +15,7 @@ constexpr double tolerance = 1e-5;
 
 double margin_of(float v) { return tolerance * std::abs(static_cast<double>(v)) + 1e-9; }
 
-/// Numbers of rows in order of when they are first met, whatever invocation that is in.
+/// Numbers rows in the order of their first appearance in any invocation.
 template <class Key, class Row>
 class Rows {
  public:
@@ -135,7 +135,7 @@ bool ReferenceValues::has(const Values& v) const {
 
 PortValues::PortValues(const std::vector<Followed>& invocations) : by_value(invocations.size()) {
   const std::size_t count = invocations.size();
-  // A part of an instruction in a chain of calls.
+  // A part of an instruction in a call chain.
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::vector<std::uint32_t>>;
   Rows<Key, PortStep> rows;
   for (std::size_t k = 0; k < count; ++k) {

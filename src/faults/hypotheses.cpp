@@ -37,8 +37,8 @@ std::vector<Wanted> wanted_at(const capture::PassCase& c, const std::vector<Arra
   return out;
 }
 
-/// Texels whose stored values say most about a constant: where the port is farthest off, in steps of the store, and others all over the
-/// rest, since the farthest may be where a small change of a number gives quite another texel of a picture.
+/// The most informative texels for a constant: those where the port differs most, in steps of the store, and others all over the rest,
+/// because a small change of a number may move the former to quite another texel of a picture.
 std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
   const auto far = [](const Wanted& w) {
     double steps = 0;
@@ -57,7 +57,7 @@ std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
   return some;
 }
 
-/// Failing texels away from the edges, if there are some: what stands beyond an edge has no name.
+/// Failing texels away from the edges, if there are any, because texels beyond an edge have no name.
 std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassModel& model) {
   std::vector<Texel> out;
   for (const int margin : {8, 3, 1}) {
@@ -68,16 +68,17 @@ std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassM
   return failing;
 }
 
-/// Constants that are compared with, so far off that each failing texel has a number between: which side is taken jumps there.
+/// Constants in comparisons, changed so much that each failing texel has a value between the old and new threshold: there the outcome
+/// changes.
 void add_fitted_thresholds(std::vector<Fault>& out, const Probed& p, const Constants& constants, const std::vector<Texel>& failing) {
   struct Range {
-    float above = 0, below = 0;  ///< how far the constant must go at least so that every texel fails
+    float above = 0, below = 0;  ///< least change of the constant for every texel to fail
     std::size_t has_above = 0, has_below = 0;
   };
   std::map<float, Range> ranges;
   for (const Texel at : failing) {
     const perturbed::Trace trace = trace_of(p.model, at);
-    std::map<float, std::array<float, 2>> nearest;  // of what is compared with it: above, below
+    std::map<float, std::array<float, 2>> nearest;  // values compared with it: nearest above and below
     for (const perturbed::Trace::Node& n : trace.nodes)
       for (const std::size_t k : {0u, 1u}) {
         if (n.op != perturbed::Op::comparison || n.of[k] < 0 ||
@@ -124,9 +125,9 @@ bool is_of_operation(const Fault& d) {
 
 Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Texel>& failing) {
   std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, operations, channels;
-  // Constants are tried by their names; uniforms and what an operation may be mistaken for everywhere, after each place by itself.
+  // Constants are tried under their names; uniforms, and operations replaced everywhere, come after the single places.
   std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
-  // What is wrong with a uniform itself: a mistake in the text that gives the same is believed first.
+  // Mistakes in a uniform itself: an equivalent mistake in the text is preferred.
   take(all, uniforms, [](const Fault& d) { return d.is(trait::uniform); });
   take(all, operations, is_of_operation);
   const std::vector<random::Purpose> drawn = purposes_drawn([&] {
@@ -138,20 +139,20 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   add_tap_faults(all, p);
   add_input_mixups(all, p);
   add_level_faults(all, p);
-  // A channel of an input that has another sign, is taken from 1, or counts as 0: in the text a term has.
+  // A channel of an input that is negated, subtracted from 1, or counts as 0: a text error would be a term.
   take(all, channels, [](const Fault& d) { return d.is(trait::channel); });
   const std::vector<float> known = constants_everywhere(p.model);
   const std::vector<Probe> probes = probes_of(p, spread(inner(failing, p.model), 4), known);
   const Constants constants = names_of_constants(probes, known);
   const std::vector<Probe> alike = probes_again(p.model, probes, {});
   add_place_faults(all, probes, known, PlaceKind::plain);
-  // A scalar that is missing from three components is rather not set: vectors come after the uniforms.
+  // A scalar that is missing in three components is more likely an unset uniform, so vectors come after the uniforms.
   std::vector<Fault> vectors;
   take(all, vectors, [](const Fault& d) { return d.is_of_all_components(); });
   add_named_constants(all, constants, false);
   take(uniforms, all, [](const Fault& d) { return d.is(trait::set_at_all); });
   add_uniform_mixups(all, p, uniforms_met(probes, p.pass));
-  // The same places, with all constants alike: the components of a vector are one place then, whatever they are multiplied by.
+  // The same places with all constants treated alike: the components of a vector are then one place, whatever their factors.
   std::move(vectors.begin(), vectors.end(), std::back_inserter(all));
   add_place_faults(all, alike, {}, PlaceKind::plain);
   std::move(uniforms.begin(), uniforms.end(), std::back_inserter(all));
@@ -169,7 +170,7 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   std::size_t nodes = 1;
   for (const Probe& probe : probes) nodes = std::max(nodes, probe.trace.nodes.size());
   constexpr std::size_t most_edited = 20000000, most_edits = 6000;  // nodes evaluated, about five times for each edit
-  // The members of records are no numbers that tell places apart: an edit is made in each round of a loop over them.
+  // Members of records do not distinguish places: an edit applies to each round of a loop over them.
   const std::vector<float> own = without_records(known, probes);
   const std::vector<Probe> again = own.size() == known.size() ? probes : probes_again(p.model, probes, own);
   add_edit_faults(orders, {again.begin(), again.begin() + std::min<std::ptrdiff_t>(1, std::ssize(again))}, own,
@@ -196,10 +197,10 @@ std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::
 
 namespace {
 
-/// That one is not set is plain, as what is wrong with all of a list.
+/// An unset uniform is plain, like mistakes in a whole list.
 bool is_mixed_up_uniform(const Fault& d) { return d.is(trait::uniform) && !d.is(trait::unset); }
 
-/// Some records, each by itself, that with the most operations first; of a list whose records are not alone all of it.
+/// Traces some records separately, the one with most operations first; if records are not separate, the whole list.
 std::vector<Probe> probes_of_records(const Probed& p, const std::string& list, const std::vector<float>& known,
                                      const std::vector<Probed>& alone) {
   if (alone.empty()) return probes_of_list(p, list, known);
@@ -215,7 +216,7 @@ std::vector<Probe> probes_of_records(const Probed& p, const std::string& list, c
 
 std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before) {
   std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before);
-  // As for texels, constants are tried by their names.
+  // As for texels, constants are tried under their names.
   std::erase_if(
       all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant || is_of_operation(d) || is_mixed_up_uniform(d); });
   const capture::PassEvaluations* evaluations = judge::evaluations_of(p.c.effect, p.c.pass);
@@ -236,7 +237,7 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list, const std::
   const Constants constants = names_of_constants(probes, known);
   add_named_constants(all, constants, false);
   add_place_faults(all, probes, known, PlaceKind::plain);
-  // The members of the records of other lists are no numbers that tell places apart: of wipers each is met in a round of a loop.
+  // Members of records of other lists do not distinguish places: each wiper is used in one round of a loop.
   const std::vector<float> own = without_records(known, probes);
   const std::vector<Probe> again = own.size() == known.size() || !is_followed ? probes : probes_of_records(p, list, own, alone);
   if (own.size() < known.size()) add_place_faults(all, again, own, PlaceKind::plain);
@@ -253,8 +254,8 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list, const std::
   add_named_constants(all, constants, true);
   add_place_faults(all, alike, {}, PlaceKind::multiple);
   add_odd_constants(all, p, constants);
-  // Where records stand alone most are none after a few of them; else all are evaluated for each, so that fewer are asked where they
-  // are many.
+  // For separate records, most faults are rejected after a few of them. Otherwise all records are evaluated for each fault, so fewer are
+  // tried for long lists.
   const std::size_t nodes = probes.empty() ? 1 : probes[0].trace.nodes.size();
   const std::size_t most = std::min<std::size_t>(1200, 1 + (alone.empty() ? 8000000 : 40000000) / nodes);
   add_shared_place_faults(all, again, own);

@@ -1,4 +1,4 @@
-// A buffer that a pass reads and writes: what it reads when there is no ping-pong, and when a texel's own two levels are exchanged.
+// A buffer that a pass reads and writes: effects of missing ping-pong, and of exchanging a texel's own two levels.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -17,13 +17,13 @@ namespace {
 using capture::Array;
 using judge::Slot;
 
-/// An input that the pass writes as well, of one size and format: what its loads give before and after.
+/// An input that the pass also writes, with one size and format: its values before and after.
 struct Updated {
   const capture::CaseInput& input;
   Taps taps;
-  std::vector<float> before, after;  ///< decoded; after: what the port stored
+  std::vector<float> before, after;  ///< decoded; after: the port's stored values
 
-  /// The texel of a load; false: beyond a border that holds a number.
+  /// Texel of a load; false: outside, where the border is a number.
   bool place(const Tap& t, Texel at, Texel& from) const {
     const Array& a = input.array;
     from = {placed(at.x + t.dx, a.width, input.address_u), placed(at.y + t.dy, a.height, input.address_v)};
@@ -32,7 +32,7 @@ struct Updated {
   float value(const std::vector<float>& texels, Texel at, int channel) const {
     return texels[static_cast<std::size_t>((at.y * input.array.width + at.x) * info(input.array.format).channels + channel)];
   }
-  /// All loads of an invocation at a texel: those whose texel is_new(texel) as they are after, the channel by channel_of(tap).
+  /// All loads of an invocation at a texel: if is_new(texel), from the values after the pass, in channel channel_of(tap).
   template <class IsNew, class ChannelOf>
   std::vector<float> loads(Texel at, const IsNew& is_new, const ChannelOf& channel_of) const {
     std::size_t count = 0;
@@ -60,7 +60,7 @@ Fault with_loads(What what, std::function<std::vector<float>(Texel)> loads_at) {
   return d;
 }
 
-/// One texel after the other: those before it in the order of rows, upward or downward, are new.
+/// Sequential evaluation: texels earlier in row order, upward or downward, are new.
 void add_scans(std::vector<Fault>& out, const Of& u) {
   for (const bool is_upward : {true, false})
     out.push_back(with_loads({is_upward ? Kind::in_place : Kind::in_place_from_last_row, {u->input.name}}, [u, is_upward](Texel at) {
@@ -69,9 +69,9 @@ void add_scans(std::vector<Fault>& out, const Of& u) {
     }));
 }
 
-/// Group by group: a neighbour in another group is new or old, whichever group ran first, which nobody knows. Of the ways in which a
-/// texel's neighbouring groups may have run, the one that comes nearest to what the port stored is taken. A texel inside a group has one
-/// way, at its edge two: few enough that none fits by chance.
+/// Evaluation in groups: a neighbour in another group is new or old, in an unknown order of groups. Of the possible orders of a texel's
+/// neighbouring groups, the one nearest to what the port stored is taken. A texel inside a group has one possibility, at its edge two: too
+/// few to fit by chance.
 void add_group_orders(std::vector<Fault>& out, const Probed& p, const std::vector<Array>& port, const Of& u) {
   const std::vector<Slot> slots = judge::slots_of(p.c);
   constexpr std::pair<int, int> sizes[] = {{8, 8}, {16, 16}, {16, 8}, {8, 4}, {32, 32}, {32, 1}, {64, 1}};
@@ -115,7 +115,7 @@ void add_group_orders(std::vector<Fault>& out, const Probed& p, const std::vecto
   }
 }
 
-/// The two levels of a texel itself exchanged, its neighbours right: in all of its loads, or in some of a few.
+/// Exchanges the two levels of a texel itself, with correct neighbours: in all of its loads, or in some of a few.
 void add_own_exchange(std::vector<Fault>& out, const Of& u) {
   std::vector<Tap> own;
   for (const Tap& t : u->taps.all)

@@ -1,4 +1,4 @@
-// Inputs of a pass mixed up, shifted, in another encoding, at coarser levels; records of an input with one thing of them changed.
+// Inputs of a pass exchanged, shifted, in another encoding, or at coarser levels; one change in the records of an input.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -23,7 +23,7 @@ using capture::PassCase;
 
 namespace {
 
-/// Passes the colours of every level through a function; codes become floats, which hold the result.
+/// Applies a function to the colours of every level; codes become floats, which can hold the result.
 template <class Change>
 void recode(Array& a, Change change, bool is_any = false) {
   const FormatInfo f = info(a.format);
@@ -48,7 +48,7 @@ void recode(Array& a, Change change, bool is_any = false) {
   if (to_floats) a.format = f.channels == 1 ? Format::r32f : Format::rgba32f;
 }
 
-/// Level k becomes level k + 1.
+/// Removes level 0; level k + 1 becomes level k.
 void drop_first_level(Array& a) {
   a.levels.erase(a.levels.begin());
   a.width = a.width > 1 ? a.width / 2 : 1;
@@ -62,7 +62,7 @@ class InputAdder {
   void add(Kind kind, std::vector<std::string> of, std::function<void(PassCase&)> alter) const {
     out_.emplace_back(What{kind, std::move(of)}).alter_case = std::move(alter);
   }
-  /// alter(array of input i); `more`: what its words speak of behind its name.
+  /// alter(array of input i); `more`: further names in its text.
   void array(std::size_t i, Kind kind, std::vector<std::string> more, std::function<void(Array&)> alter) const {
     more.insert(more.begin(), c_.inputs[i].name);
     add(kind, std::move(more), [i, alter](PassCase& altered) { alter(altered.inputs[i].array); });
@@ -111,7 +111,7 @@ class InputAdder {
     }
   }
 
-  /// Every record of a list with one thing of it changed.
+  /// Changes every record of a list in one way.
   void records(std::size_t i) const {
     const std::string& name = c_.inputs[i].name;
     const scene::UniformBlock& record = c_.inputs[i].array.record;
@@ -137,7 +137,7 @@ class InputAdder {
         each(Kind::vector_of_other_sign, {m.name, name}, [m](std::byte* r) {
           for (int k = 0; k < m.components; ++k) r[offset_of(m, k) + 3] ^= std::byte{0x80};
         });
-    // What has four components and no name for each is a matrix of 2 x 2.
+    // Four components without names are a 2 x 2 matrix.
     std::vector<std::size_t> matrices;
     for (const scene::Member& m : record.members)
       if (m.scalar == scene::Scalar::float32 && m.components == 4) matrices.push_back(m.offset);
@@ -217,7 +217,7 @@ bool has_floats(const Array& a) {
   const FormatInfo::Kind kind = info(a.format).kind;
   return kind == FormatInfo::float16 || kind == FormatInfo::float32;
 }
-/// A level, decoded.
+/// A decoded level.
 struct Level {
   std::vector<float> values;
   int width, height, channels;
@@ -225,7 +225,7 @@ struct Level {
 Level level_of(const Array& a, int level) {
   return {capture::decoded(a, level), a.level_width(level), a.level_height(level), info(a.format).channels};
 }
-/// Between four texels, at (u, v) of [0, 1].
+/// Bilinear lookup at (u, v) of [0, 1].
 double filtered(const Level& l, double u, double v, int channel) {
   const double x = u * l.width - 0.5, y = v * l.height - 0.5;
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
@@ -236,7 +236,7 @@ double filtered(const Level& l, double u, double v, int channel) {
   };
   return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
 }
-/// The first level becomes what a lookup at `lod` gives at its texels.
+/// Replaces level 0 by lookups at `lod` at its texels.
 void coarsen(Array& a, double lod) {
   const FormatInfo& f = info(a.format);
   const int last = static_cast<int>(a.levels.size()) - 1;

@@ -1,4 +1,4 @@
-// Mistakes in what happens to records: appends, deaths, captures, merges.
+// Mistakes in the events of records: appends, deaths, captures, merges.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -14,7 +14,7 @@ using capture::PassCase;
 using judge::evaluations_of;
 using scene::Member;
 
-/// Mistakes of a few records are those of at most so many.
+/// Largest number of records for a mistake of a few records.
 constexpr std::size_t most_of_few = 64;
 
 /// The member that holds a record's mass, or null.
@@ -24,7 +24,7 @@ const Member* mass_of(const List& list) {
   });
   return found == list.fields.end() ? nullptr : &*found;
 }
-/// Ids that the pass took and does not give.
+/// Ids that are in the input but not in the output.
 Ids ended_in(const List& list, const PassCase& c, const Records& records) {
   std::set<std::uint32_t> have;
   for (const auto& r : records) have.insert(list.id_of(r));
@@ -34,7 +34,7 @@ Ids ended_in(const List& list, const PassCase& c, const Records& records) {
   return out;
 }
 
-/// A record that ended, and the one that took up its mass: of those that grew the one whose growth fits best.
+/// A record that ended, and the one that absorbed its mass: of the records that grew, the one whose growth fits best.
 std::optional<std::array<std::uint32_t, 2>> captured_pair(const List& list, const PassCase& c, const Records& records) {
   const Member* mass = mass_of(list);
   if (!mass) return std::nullopt;
@@ -56,7 +56,7 @@ std::optional<std::array<std::uint32_t, 2>> captured_pair(const List& list, cons
   return best;
 }
 
-/// What the pass gives for a record that is alone in the list.
+/// The pass's output for a record that is alone in the list.
 std::optional<std::vector<std::byte>> as_if_alone(const List& list, const PassCase& c, std::uint32_t id) {
   const capture::PassEvaluations* evaluations = evaluations_of(c.effect, c.pass);
   const auto before = list.taken(c);
@@ -71,7 +71,7 @@ std::optional<std::vector<std::byte>> as_if_alone(const List& list, const PassCa
   return *bytes;
 }
 
-/// The ids that a mistake of one record happens to: those asked for that are in the list, or one in its middle.
+/// The ids that a mistake of one record affects: the requested ones that are in the list, or one in its middle.
 Ids present(const List& list, const ListEdit& e) {
   if (e.at.empty()) return e.records.empty() ? Ids() : Ids{list.id_of(e.records[e.records.size() / 2])};
   std::set<std::uint32_t> have;
@@ -126,7 +126,7 @@ void add_events(ListAdder& a) {
     }
     return some_ended && some_go_on;
   });
-  // change(to, alone): of an absorbing drop, by what it would be had it captured nothing.
+  // change(to, alone): for an absorbing drop; `alone` is its state without the capture.
   const auto of_absorbing = [&](const auto& change) {
     return [change](const List& list, const PassCase& c, ListEdit& e) {
       const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
@@ -144,7 +144,7 @@ void add_events(ListAdder& a) {
   a.add(Kind::list_with_mass_of_before,
         of_absorbing([](const List& list, const auto& alone, auto& absorbing) { copy_member(*mass_of(list), alone, absorbing); }));
   a.add(Kind::list_with_untreated, [](const List& list, const PassCase& c, ListEdit& e) {
-    constexpr std::size_t most = 16;  // of many it is no accident
+    constexpr std::size_t most = 16;  // with more records it is no coincidence
     if (e.at.size() > most) return false;
     const auto before = list.taken(c);
     const std::set<std::uint32_t> at(e.at.begin(), e.at.end());

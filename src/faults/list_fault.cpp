@@ -1,4 +1,4 @@
-// Lists of records taken apart and put together, and what a mistake makes of one.
+// Splits lists into records and joins them, and applies a mistake to a list.
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -16,7 +16,7 @@ using scene::Member;
 
 namespace {
 
-/// Beyond so many records a case with other inputs or uniforms is not tried: a radius that is too large makes one group of all.
+/// Longer lists are not tried with other inputs or uniforms: a radius that is too large makes one group of all.
 constexpr int most_for_altered_cases = 4096;
 
 }  // namespace

@@ -17,7 +17,7 @@ using judge::keyed_outputs;
 using scene::Member;
 
 // ---- ids and slots -------------------------------------------------------------------------------------------------
-/// Gives the failing ids the records that the port has for them, as far as these are among the right ones.
+/// Replaces the records of failing ids by the port's, if those are among the correct records.
 void permute_as_port(const List& list, ListEdit& e) {
   std::vector<std::size_t> places;
   for (const std::uint32_t id : e.at)
@@ -106,7 +106,7 @@ void add_orders(ListAdder& a) {
 
 // ---- fields --------------------------------------------------------------------------------------------------------
 void add_fields(ListAdder& a, bool has_input) {
-  // change(record, all right records, its number): of each record.
+  // change(record, all correct records, its index): for each record.
   const auto each = [&](Kind kind, std::vector<std::string> more, auto change) -> Fault& {
     const auto alter = [change](const List&, const PassCase&, ListEdit& e) {
       const Records right = e.records;
@@ -151,7 +151,7 @@ void add_fields(ListAdder& a, bool has_input) {
         each_float(m, r, [&](float f, int at) { return at < 2 ? float_at(right[i], offset_of(m, 1 - at)) : f; });
       });
   }
-  // What has four components and no name for each is a matrix of 2 x 2.
+  // Four components without names are a 2 x 2 matrix.
   std::vector<Member> matrices;
   for (const Member& m : a.list().fields)
     if (m.scalar == scene::Scalar::float32 && m.components == 4) matrices.push_back(m);
@@ -199,7 +199,7 @@ void add_list_faults(std::vector<Fault>& out, const PassCase& c, const PassCase*
     ListAdder a(out, List(c, o));
     const capture::CaseInput* in = c.input(c.outputs[o].name);
     const bool has_input = in && in->array.is_records && in->array.record.size == c.outputs[o].array.record.size;
-    // Of mistakes that give the same bits the first one is named: all of a list before some of it.
+    // Of mistakes with the same bits the first is named: those of a whole list come before those of some records.
     add_times(out, a, c, has_input, before);
     add_orders(a);
     add_fields(a, has_input);

@@ -27,8 +27,8 @@ using scene::UniformBlock;
 
 namespace {
 
-/// The reference's records in the order in which the port has their ids: a slot's neighbour is the one that the port saw.
-/// Those that it lost follow.
+/// The reference's records in the port's order of ids, so that a slot has the same neighbour as in the port. Records that the port lost
+/// follow.
 Array in_order_of(const Array& port, const Array& reference) {
   Records out;
   ById left = by_id(reference);
@@ -43,7 +43,7 @@ Array in_order_of(const Array& port, const Array& reference) {
   return array_of(out, reference);
 }
 
-/// Those that count: not the id, not padding.
+/// Words that count: without id and padding.
 std::vector<Word> words_of(const UniformBlock& layout) {
   std::vector<Word> out;
   for (const bool floats : {true, false})
@@ -53,7 +53,7 @@ std::vector<Word> words_of(const UniformBlock& layout) {
     }
   return out;
 }
-/// The widest envelope of each float, among those that are a bound, and those of each record by its id.
+/// Sets the widest useful envelope of each float, and those of each record by id.
 void set_leeway(std::vector<Word>& words, std::map<std::uint32_t, std::vector<double>>& own, const capture::KeyedModel* model,
                 const UniformBlock& record, const enclosed::Profile& profile) {
   if (!model) return;
@@ -77,18 +77,18 @@ void set_leeway(std::vector<Word>& words, std::map<std::uint32_t, std::vector<do
   }
 }
 
-/// How the records of an id under a mistake compare with the port's.
+/// Compares the records of an id under a mistake with the port's.
 struct Match {
-  bool exact = true;  ///< the same bits
-  bool near = true;   ///< within the leeway
-  double off = 0;     ///< how far off all is, in leeways
+  bool exact = true;  ///< equal bits
+  bool near = true;   ///< within the tolerance
+  double off = 0;     ///< total difference, in tolerances
 };
-/// Whether a mistake comes near where the reference does not, or much nearer: a port may be outside of what is accepted by less than
-/// the leeway is wide.
+/// True if a mistake comes near and the reference does not, or if it comes much nearer: a port may miss the envelope by less than the
+/// tolerance.
 bool is_nearer(const Match& with, const Match& without) {
   return with.near && !without.exact && (!without.near || 4 * with.off <= without.off);
 }
-/// `own`: leeways of this record, or null.
+/// `own`: tolerances of this record, or null.
 Match compare(const Records& guess, const Records& got, const std::vector<Word>& words, const std::vector<double>* own) {
   if (guess.size() != got.size()) return {false, false};
   Match m;
@@ -184,7 +184,7 @@ std::vector<Fault> ListReplay::fitted() {
       w.step.push_back(std::abs(w.port.back()) * 0x1p-22f + 0x1p-30f);
     }
   }
-  // All records are evaluated at once: what one number gives is kept until another is asked about.
+  // All records are evaluated at once: the results for one number are kept until another number is used.
   std::map<float, ById> lists;
   float of_constant = 0;
   const auto evaluate = [&](const Wanted& w, std::size_t slot, float constant, float replacement) {
@@ -243,7 +243,7 @@ Tried ListReplay::cause(const Fault& d) const {
       broken += !compare(of(guess, id), of(right_, id), words_, nullptr).near;
     }
   if (broken * 4 > cause.of) cause.explained = cause.inside = 0;
-  // That a list stays empty is no cause where one record is there.
+  // An empty list is not the cause if a record exists.
   cause.is_likely = are_same_ids && cause.inside * 10 >= cause.of * 9;
   return cause;
 }
@@ -273,12 +273,12 @@ std::unique_ptr<Replay> ListReplay::elsewhere() const {
     if (!model->keyed(c_.outputs[output_].name)) return nullptr;
     auto out = std::make_unique<OwnReplay<ListReplay>>(*this, std::move(c), std::move(model));
     ListReplay& there = *out;
-    // A mistake of the finished list is made in what the pass gives there.
+    // A mistake in the finished list is applied to the pass's output there.
     if (const std::optional<Array> own = faulty_list(Fault{}, there.c_, output_, *evaluations_, there.model_, reference_))
       there.reference_ = *own;
     return out;
   } catch (const Error&) {
-    return nullptr;  // the pass refuses such numbers
+    return nullptr;  // the pass rejects such numbers
   }
 }
 

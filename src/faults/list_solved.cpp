@@ -1,4 +1,4 @@
-// What is found in a list by solving for what a port stored: in the pass text, each record by itself, and the scale of a field.
+// Causes for a list from solving for what a port stored: in the pass text, each record separately, and the scale of a field.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -45,7 +45,7 @@ void ListReplay::find_alone() {
     try {
       one->model = evaluations_->bind(one->c);
     } catch (const Error&) {
-      continue;  // it cannot be alone
+      continue;  // it cannot be evaluated alone
     }
     const capture::KeyedModel* keyed = one->model->keyed(name);
     const auto bytes = keyed ? keyed->reference() : std::nullopt;
@@ -86,7 +86,7 @@ std::vector<Fault> ListReplay::solved() {
   return out;
 }
 
-/// A field that is so many times what it should be, of most records.
+/// A field that is scaled by one factor in most records.
 void ListReplay::add_scale(std::vector<Fault>& out, const scene::Member& m) const {
   if (m.scalar != scene::Scalar::float32 || is_padding(m)) return;
   std::vector<double> ratios;

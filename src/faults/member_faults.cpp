@@ -1,4 +1,4 @@
-// What a mistake makes of the numbers in a finished list: of passes whose numbers cannot be followed.
+// Mistakes in the numbers of a finished list, for passes that cannot be traced.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -15,7 +15,7 @@ namespace {
 using capture::PassCase;
 using scene::Member;
 
-/// A number of the uniform block, and what it is called.
+/// A number of the uniform block, and its name.
 struct Named {
   float value;
   std::string name;

@@ -1,4 +1,4 @@
-// What can go wrong at one place of a pass text.
+// Mistakes at one place of a pass text.
 #include "faults/place_faults.h"
 #include "faults/text.h"
 
@@ -9,7 +9,7 @@ using perturbed::Op;
 using perturbed::PlaceFault;
 using Node = perturbed::Trace::Node;
 
-/// The input that a lookup's coordinate leads to: the next texel fetched.
+/// The image of a lookup's coordinate: the next texel fetched.
 std::string image_of(const Probe& p, std::size_t node) {
   for (std::size_t n = node; n < p.trace.nodes.size(); ++n) {
     if (p.trace.nodes[n].op != Op::fetch && p.trace.nodes[n].op != Op::load) continue;
@@ -18,7 +18,7 @@ std::string image_of(const Probe& p, std::size_t node) {
   return "a texture";
 }
 
-/// Whether a square is a term of a sum of squares, of which hardly anybody forgets one.
+/// True if a square is a term of a sum of squares, which is hardly ever forgotten.
 bool is_of_length(const Probe& p, std::size_t square) {
   const auto op = [&](std::int32_t i) { return i < 0 ? Op::constant : p.trace.nodes[static_cast<std::size_t>(i)].op; };
   constexpr std::size_t near = 12;
@@ -32,7 +32,7 @@ bool is_of_length(const Probe& p, std::size_t square) {
   return false;
 }
 
-/// What one mistake makes of an operation. `of`: what its words speak of: '*' the operation, 'a' and 'b' its operands, 'i' the image.
+/// One mistake in an operation. `of`: the names in its text: '*' the operation, 'a' and 'b' its operands, 'i' the image.
 struct Row {
   Op op;
   PlaceFault fault;
@@ -136,7 +136,7 @@ std::vector<Mistake> mistakes_at(const Probe& p, std::size_t at) {
   const Node& n = p.trace.nodes[at];
   const std::string all = shortened(p, static_cast<std::int32_t>(at)), a = shortened(p, n.of[0]), b = shortened(p, n.of[1]);
   const bool is_of_itself = n.op == Op::product && a == b && a != "...";
-  // What is held rather stands alone than what holds it.
+  // If a minimum or maximum is left out, the clamped value remains rather than the limit.
   const auto is_limit = [&](PlaceFault kept) {
     const std::int32_t of = n.of[kept == PlaceFault::first ? 0 : 1];
     return of >= 0 && p.trace.nodes[static_cast<std::size_t>(of)].op == Op::constant;
@@ -149,7 +149,7 @@ std::vector<Mistake> mistakes_at(const Probe& p, std::size_t at) {
     if (n.op == Op::square && row.kind == Kind::not_squared && is_of_length(p, at)) return Kind::not_squared_in_length;
     return row.kind;
   };
-  // A product of two has factors; that of a number and itself is a square.
+  // A product of two values has factors; that of a number and itself is a square.
   const auto applies = [&](const Row& row) {
     if (row.op != n.op) return false;
     if (n.op != Op::product) return true;

@@ -48,7 +48,7 @@ std::vector<Texel> spread(const capture::PassModel& model, int most) {
   }
   return all;
 }
-/// Writes what is stored at a texel. False: it is there already.
+/// Writes the stored values of a texel. False: they were already equal.
 bool put(const std::vector<Slot>& slots, const StoredTexel& stored, Texel t, std::vector<Array>& out) {
   bool differs = false;
   for (std::size_t v = 0; v < slots.size(); ++v) {
@@ -62,7 +62,7 @@ bool put(const std::vector<Slot>& slots, const StoredTexel& stored, Texel t, std
   return differs;
 }
 
-/// A rounding of half stores that a profile allows, what the reference gives under it, and who judges by it.
+/// A rounding of half stores that a profile allows, with the reference's outputs and the judge for it.
 struct Stores {
   HalfMode mode;
   std::vector<Array> finished;
@@ -76,7 +76,7 @@ std::vector<std::unique_ptr<const Stores>> stores_under(const enclosed::Profile&
     out.emplace_back(new Stores{mode, reference_outputs(c, model, executor, mode), InvocationJudge(c, model, profile, mode, true)});
   };
   if (profile.reference) {
-    add(HalfMode::either);  // as the pack has them
+    add(HalfMode::either);  // as in the pack
     return out;
   }
   const std::vector<Slot> slots = slots_of(c);
@@ -87,8 +87,8 @@ std::vector<std::unique_ptr<const Stores>> stores_under(const enclosed::Profile&
   return out;
 }
 
-/// One fault on one case. A port would be judged by the rounding that suits it best, so an element counts as outside
-/// only where it is so under every rounding that the profile leaves open.
+/// Judges one fault on one case. A port is judged by the rounding that fits it best, so an element is outside only if it is outside under
+/// every rounding that the profile leaves open.
 void judge_mutant(const Fault& d, const PassCase& c, const Bind& bind, const capture::PassModel& model, const std::vector<Texel>& texels,
                   const std::vector<std::unique_ptr<const Stores>>& all_stores, MutantJudgement& out) {
   const std::vector<Slot> slots = slots_of(c);
@@ -103,11 +103,11 @@ void judge_mutant(const Fault& d, const PassCase& c, const Bind& bind, const cap
   std::vector<std::unique_ptr<const FaultyPass>> faulty;
   std::vector<Under> all;
   for (const std::unique_ptr<const Stores>& stores : all_stores) {
-    // What is evaluated is the same under each.
+    // Evaluated values are the same under each.
     if (faulty.empty() || d.alter_outputs)
       faulty.push_back(std::make_unique<const FaultyPass>(d, c, bind, model, stores->mode, stores->finished));
     if (!faulty.back()->applies()) return;
-    // A device that rounds the other way is judged as such, where a profile leaves it open.
+    // A device that rounds the other way is judged under that rounding, if a profile leaves it open.
     const auto judges = [&](const auto& other) { return other->mode == d.stores.value_or(stores->mode); };
     const auto judge = all_stores.size() > 1 ? std::find_if(all_stores.begin(), all_stores.end(), judges) : all_stores.begin();
     all.push_back({*stores, *faulty.back(), (*judge)->judge, stores->finished});
@@ -135,7 +135,7 @@ void judge_mutant(const Fault& d, const PassCase& c, const Bind& bind, const cap
   out.rearranged += best.rearranged;
 }
 
-/// The same on a case's keyed lists: ids that have other records than the reference's, and those that no alternative accepts.
+/// The same for a case's keyed lists: ids whose records differ from the reference's, and ids that no alternative accepts.
 void judge_mutant_lists(const Fault& d, const PassCase& c, const capture::PassEvaluations& evaluations, const capture::PassModel* model,
                         const enclosed::Profile& profile, MutantJudgement& out) {
   for (const std::size_t o : keyed_outputs(c)) {
@@ -173,7 +173,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
     if (!options.wants(pass.name)) continue;
     const capture::PassEvaluations* evaluations = evaluations_of(pack.effect, pass.name);
     const Bind bind = binder(pack, pass.name);
-    std::map<std::string, std::size_t> places;  // of a fault among the mutants
+    std::map<std::string, std::size_t> places;  // index of a fault in the mutants
     std::optional<PassCase> before;
     bool judged = false;
     for (const capture::PackCase& entry : pack.cases) {
@@ -198,7 +198,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
             if (evaluations) judge_mutant_lists(d, c, *evaluations, model.get(), chosen, mutant);
             judge_mutant(d, c, bind, *model, texels, stores, mutant);
           } catch (const Error&) {
-            // the altered case is none that the pass can run: nothing to compare
+            // the pass cannot run on the altered case: nothing to compare
           }
         }
       });

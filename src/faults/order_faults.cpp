@@ -1,4 +1,4 @@
-// Mistakes in the order of steps: a value of before in place of the new one, a factor that is applied too early or too late.
+// Mistakes in the order of steps: an old value in place of the new one, a factor applied too early or too late.
 #include "faults/generators.h"
 
 #include <memory>
@@ -18,12 +18,12 @@ using perturbed::RewriteKind;
 using perturbed::Rewrites;
 using Node = perturbed::Trace::Node;
 
-constexpr std::int32_t most_places = 6;  // of one shape that are tried one by one
+constexpr std::int32_t most_places = 6;  // places of one shape that are tried separately
 
-/// Where a mistake is made: at a node, at each of its shape, or in each component of a vector.
+/// Where a mistake is made: at a node, at every node of its shape, or in each component of a vector.
 struct Site {
-  std::vector<std::size_t> nodes;  ///< the first one gives the words
-  std::int32_t occurrence;         ///< -1: each of these shapes
+  std::vector<std::size_t> nodes;  ///< the first one gives the text
+  std::int32_t occurrence;         ///< -1: every node of these shapes
 };
 
 class OrderAdder {
@@ -54,7 +54,7 @@ class OrderAdder {
   std::size_t made_ = 0, most_;
 };
 
-/// A part of an operand where the whole is meant. Of one that has no other use a term that is left out says the same.
+/// Part of an operand in place of the whole. If the whole has no other use, "term left out" says the same.
 void add_parts(OrderAdder& add, const Probe& p, const Site& site, std::int8_t k, const std::vector<int>& uses) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const std::int32_t whole = node_of(p, at).of[static_cast<std::size_t>(k)];
@@ -66,7 +66,7 @@ void add_parts(OrderAdder& add, const Probe& p, const Site& site, std::int8_t k,
     if (part < 0 || node_of(p, part).op == Op::comparison) return;
     const std::string wrong = words_for(p, part), right = words_for(p, whole);
     if (wrong == right || wrong == "...") return;
-    // What both ends of a clamp hold.
+    // The value inside a clamp with two limits.
     const bool is_held = (op == Op::minimum || op == Op::maximum) && path == std::array<std::int8_t, 2>{0, 0} &&
                          node_of(p, node_of(p, whole).of[0]).op == (op == Op::minimum ? Op::maximum : Op::minimum);
     const Kind kind = is_held ? Kind::unclamped_before : op == Op::floor ? Kind::unrounded_before : Kind::value_of_before;
@@ -103,7 +103,7 @@ void add_factors(OrderAdder& add, const Probe& p, const Site& site) {
   }
 }
 
-/// Where what rounds or bends a number stands among sums matters.
+/// A rounding or nonlinear function at another position among sums.
 void add_functions(OrderAdder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const Node& n = node_of(p, at);
@@ -120,14 +120,14 @@ void add_functions(OrderAdder& add, const Probe& p, const Site& site) {
   if (!*bend_name(n.op) || (inner != Op::sum && inner != Op::difference)) return;
   for (const RewriteKind kind : {RewriteKind::function_of_first, RewriteKind::function_of_second}) {
     const std::int32_t term = node_of(p, n.of[0]).of[kind == RewriteKind::function_of_first ? 0 : 1];
-    if (n.op == Op::floor && op_of(term) == Op::fract) continue;  // nothing is left of it: the floor is left out with it
+    if (n.op == Op::floor && op_of(term) == Op::fract) continue;  // nothing is left of it: covered by leaving out the floor
     add(p, site, {kind, 0, -1, 0, {-1, -1}}, {Kind::function_of_one_term, {words_for(p, n.of[0]), bend_name(n.op), words_for(p, term)}});
   }
 }
 
 bool bends(Op op) { return *bend_name(op) || op == Op::minimum || op == Op::maximum || op == Op::sine || op == Op::cosine; }
 bool scales(Op op) { return op == Op::product || op == Op::quotient; }
-/// An operation and that of its operand in the other order, where that is another number: a factor before a function or after it.
+/// An operation and its operand's operation exchanged, if the result differs: a factor before or after a function.
 void add_commuted(OrderAdder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const Node& n = node_of(p, at);
@@ -182,7 +182,7 @@ void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
       if (n.occurrence == 0) sites.push_back({{at}, -1});
       if (count > 1 && count <= most_places) sites.push_back({{at}, n.occurrence});
     }
-    // Of values of before there are most: they come last, where not all can be asked.
+    // Old values are most numerous, so they come last, in case not all can be tried.
     for (const Site& site : sites) {
       add_factors(add, p, site);
       add_functions(add, p, site);

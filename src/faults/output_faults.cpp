@@ -1,4 +1,4 @@
-// Mistakes in what happens to a finished buffer: orientation, channel order, encoding, timing.
+// Mistakes in a finished buffer: orientation, channel order, encoding, timing.
 #include "faults/generators.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using judge::swap_channels;
 std::size_t texel_offset(const Array& a, int x, int y) {
   return (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * a.element_bytes();
 }
-/// Passes every value of an image through a function.
+/// Applies a function to every value of an image.
 template <class Change>
 void change_values(Array& a, const Slot& any, Change change) {
   Slot s = any;

@@ -17,7 +17,7 @@ using judge::Slot;
 
 double held(double v) { return v > 0 ? v < 1 ? v : 1 : 0; }
 
-/// Alpha keeps its value: the fourth channel of four. Of all channels, and of each alone.
+/// Alpha (the fourth of four channels) is unchanged. For all channels, and for each alone.
 void add_values(std::vector<Fault>& out, const PassCase& c) {
   const std::vector<Slot> slots = judge::slots_of(c);
   const auto add = [&](Kind kind, double (*change)(double)) {
@@ -51,7 +51,7 @@ void add_values(std::vector<Fault>& out, const PassCase& c) {
   add(Kind::result_as_root, [](double v) { return v > 0 ? std::sqrt(v) : v; });
 }
 
-/// A channel that holds one number everywhere.
+/// A channel with one value everywhere.
 void add_constant_channels(std::vector<Fault>& out, const PassCase& c) {
   for (const Slot& only : judge::slots_of(c))
     for (const float number : {0.0f, 1.0f})
@@ -62,7 +62,7 @@ void add_constant_channels(std::vector<Fault>& out, const PassCase& c) {
       };
 }
 
-/// Of several images each by itself; the other faults turn all of them.
+/// Each of several images alone; the other faults change all of them.
 void add_single_images(std::vector<Fault>& out, const PassCase& c, const PassCase* before) {
   const std::vector<std::size_t> images = enveloped_images(c);
   for (const std::size_t o : images) {
@@ -123,7 +123,7 @@ void add_single_images(std::vector<Fault>& out, const PassCase& c, const PassCas
   }
 }
 
-/// What a pass computes from the texel's own place, its column met as a number and its row as a constant.
+/// Values computed from the texel's position: the column is traced as a number, the row as a constant.
 void add_centres(std::vector<Fault>& out, const Probed& p) {
   const auto add = [&](Kind kind, float dx, float dy, bool mirrors_x, bool mirrors_y) {
     const float last_column = static_cast<float>(p.model.width() - 1), rows = static_cast<float>(p.model.height());

@@ -19,7 +19,7 @@ using perturbed::PlaceFault;
 using perturbed::Trace;
 using Node = Trace::Node;
 
-/// `op`: of the place. Which side of a decision is taken is less plain than what is left out.
+/// `op`: of the place. Taking the wrong side of a decision is less plain than leaving something out.
 bool is_multiple(PlaceFault fault, Op op) {
   if (fault == PlaceFault::swapped && (op == Op::choice || op == Op::comparison)) return true;
   switch (fault) {
@@ -39,10 +39,10 @@ bool is_multiple(PlaceFault fault, Op op) {
   }
 }
 
-/// What is done to a place before it is looked up: both sides of it are wrong together.
+/// True if a place is changed before its lookup: both sides of it are then wrong together.
 bool is_bent(Op op) { return op == Op::floor || op == Op::fract || op == Op::minimum || op == Op::maximum; }
 
-/// Whether an operand of a sum or product is a literal, other than those that stand everywhere.
+/// True if an operand of a sum or product is a literal that does not occur everywhere.
 bool is_literal(const Probe& p, const Node& n, std::size_t k) {
   if (n.op != Op::sum && n.op != Op::difference && n.op != Op::product && n.op != Op::quotient) return false;
   if (n.of[k] < 0 || p.trace.nodes[static_cast<std::size_t>(n.of[k])].op != Op::constant) return false;
@@ -50,7 +50,7 @@ bool is_literal(const Probe& p, const Node& n, std::size_t k) {
   return is_number(name) && (n.op == Op::sum || n.op == Op::difference || (name != "2" && name != "0.5" && name != "-1"));
 }
 
-/// Groups of two or three first places of different shapes and one text, each met as often, of the operations that `wanted` says.
+/// Groups two or three first places of different shapes and one text, met equally often, for operations that `wanted` selects.
 template <class Wanted>
 std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wanted) {
   std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_text;
@@ -61,17 +61,17 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
     const Node& n = p.trace.nodes[at];
     if (!wanted(n.op) || n.occurrence != 0) continue;
     const std::string text = p.text(static_cast<std::int32_t>(at), 3);
-    // A number of its own that stands in few places: seed + 1, of both components.
+    // A number that occurs in few places: seed + 1, of both components.
     for (const std::size_t k : {0u, 1u})
       if (is_literal(p, n, k))
         by_literal[{n.op, fmt::format("literal {} {}", k, p.names[static_cast<std::size_t>(n.of[k])])}][n.shape] = at;
     if (text == "...") continue;
-    // Where the first operand is a component by name, whatever the second is made of: in (-y, x), turned, of other operations.
+    // The first operand is a named component, and the second is anything: in a rotation (-y, x), the operations differ.
     if (const std::string near = p.text(static_cast<std::int32_t>(at), 1); names_component_before_gap(near))
       by_leaf[{n.op, "leaf " + of_any_component(near)}][n.shape] = at;
     by_text[{n.op, of_any_component(with_columns(text))}][n.shape] = at;
     by_axis[{n.op, "axis " + of_any_component(text, 'u', 'v')}][n.shape] = at;
-    // What lies on both sides of something: x - shift and x + shift.
+    // Offsets to both sides: x - shift and x + shift.
     if (is_bent(n.op)) by_side[{n.op, "side " + of_either_side(text)}][n.shape] = at;
   }
   by_text.merge(by_literal);
@@ -88,12 +88,12 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
     if (std::all_of(vector.begin(), vector.end(), [&](std::size_t at) { return count(at) == count(vector[0]); }))
       out.push_back(std::move(vector));
   }
-  // From the results to what they are made of.
+  // From the results to their operands.
   std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a[0] > b[0]; });
   return out;
 }
 
-/// The components that a refraction or reflection is given, and those that it gives, which stand side by side whatever they are made of.
+/// Components of the arguments and of the result of a refraction or reflection, which are adjacent whatever their operands.
 std::vector<std::vector<std::size_t>> arguments_of(const Probe& p) {
   std::vector<std::vector<std::size_t>> out;
   const std::vector<Node>& nodes = p.trace.nodes;
@@ -130,10 +130,10 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
     d.behaviour.places = places;
     tell_places_by(d, shared);
   };
-  constexpr std::int32_t most = 6;  // of one shape that are tried one by one: components, neighbours
+  constexpr std::int32_t most = 6;  // places of one shape that are tried separately: components, neighbours
   std::set<std::pair<std::uint32_t, std::int32_t>> done;
   for (const Probe& p : probes) {
-    // The components of a vector stand at two places or three; a mistake in the vector is made at each.
+    // The components of a vector are two or three places; a mistake in the vector is made at each.
     for (const std::vector<std::size_t>& at : kind == PlaceKind::plain ? vectors_of(p) : std::vector<std::vector<std::size_t>>()) {
       std::array<perturbed::Place, 4> places{};
       std::uint32_t key = 0;
@@ -141,7 +141,7 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
       for (std::size_t k = 0; k < at.size(); ++k) {
         const Node& n = p.trace.nodes[at[k]];
         places[k].shape = n.shape;
-        // Of the arguments of one call each is a place of its own.
+        // Each argument of one call is a separate place.
         if ((n.op == Op::argument || n.op == Op::bent) && p.trace.met.at(n.shape) > 1) places[k].occurrence = n.occurrence;
         key = (key * 5 ^ n.shape) + static_cast<std::uint32_t>(places[k].occurrence + 1);
         mistakes.push_back(mistakes_at(p, at[k]));
@@ -156,7 +156,7 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
         add(mistakes[0][m], places, at.size() == 2 ? Reach::both : Reach::all);
       }
     }
-    // From the results to what they are made of: a whole term left out is a plainer mistake than one in its depths.
+    // From the results to their operands: a whole missing term is plainer than a mistake inside it.
     for (std::size_t at = p.trace.nodes.size(); at-- > 0;) {
       const Node& n = p.trace.nodes[at];
       const std::int32_t count = p.trace.met.at(n.shape);
@@ -173,7 +173,7 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
         }
       }
       if (n.op != Op::lookup || kind == PlaceKind::multiple) continue;
-      // Both coordinates of a lookup: fx and fy of a blend are what a coordinate has beyond its floor.
+      // Both coordinates of a lookup: fx and fy of a blend are fractions of the coordinates.
       const auto coordinate_of = [&](std::int32_t fraction) -> std::int32_t {
         if (fraction < 0) return -1;
         const std::int32_t from = p.trace.nodes[static_cast<std::size_t>(fraction)].of[0];

@@ -25,7 +25,7 @@ using perturbed::Op;
 using perturbed::Trace;
 using Node = Trace::Node;
 
-/// What is probed of a model: a texel, or a whole list.
+/// Evaluates a texel, or a whole list.
 struct Evaluation {
   Texel at;
   std::string list;  ///< "": the texel
@@ -50,7 +50,7 @@ Trace traced(const capture::PassModel& model, const Evaluation& evaluation, cons
   following.known = &known;
   const perturbed::Scope scope(following);
   std::vector<std::int32_t> nodes = evaluation.run(model);
-  // Of a list of one record what that is given.
+  // For a list of one record, its input.
   if (!evaluation.list.empty())
     for (std::size_t at = 0; at < trace.nodes.size(); ++at)
       if (trace.nodes[at].op == Op::stored) nodes.push_back(static_cast<std::int32_t>(at));
@@ -60,11 +60,11 @@ Trace traced(const capture::PassModel& model, const Evaluation& evaluation, cons
   return trace;
 }
 
-/// A case with one thing changed by about its last bit.
+/// A case with one value changed by about its last bit.
 struct Touched {
   std::string name;
   bool is_input;               ///< an image: texels change, constants do not
-  std::optional<float> value;  ///< of a uniform: it is no texel
+  std::optional<float> value;  ///< of a uniform: it is not a texel
   std::function<void(PassCase&)> alter;
 };
 
@@ -92,7 +92,7 @@ void add_inputs(std::vector<Touched>& out, const PassCase& c) {
     }
     const FormatInfo& f = info(a.format);
     for (int k = 0; k < f.channels; ++k) {
-      const int byte = k * f.channel_bytes;  // little endian: the lowest
+      const int byte = k * f.channel_bytes;  // little endian: the lowest byte
       out.push_back({f.channels == 1 ? c.inputs[i].name : c.inputs[i].name + "." + component_name(k), true, std::nullopt,
                      [i, byte](PassCase& altered) {
                        judge::each_texel(altered.inputs[i].array, [byte](std::byte* t) { t[byte] ^= std::byte{1}; });
@@ -101,10 +101,10 @@ void add_inputs(std::vector<Touched>& out, const PassCase& c) {
   }
 }
 
-/// Names the leaves that differ under a change. A texel that is another because the place
-/// of a lookup moved has changed by more than its last bit, so the smallest change of all says whose it is.
+/// Names the leaves that a change affects. If the position of a lookup moves, its texel changes by more than its last bit, so the smallest
+/// change over all cases identifies the input.
 void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed, const Touched& touched, bool is_list) {
-  // Where it takes another way through the pass nothing stands beside its like; the records of before that do.
+  // If the invocation takes another path through the pass, later nodes do not correspond; the records before do.
   const std::size_t most = std::min(probe.trace.nodes.size(), changed.nodes.size());
   std::size_t alike = 0;
   while (alike < most && probe.trace.nodes[alike].op == changed.nodes[alike].op) ++alike;
@@ -115,18 +115,18 @@ void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed
     if (!is_leaf(a.op) || (is_texel ? touched.value.has_value() : touched.is_input)) continue;
     const double by = std::abs(static_cast<double>(b.value) - a.value);
     if (!(by > 0)) continue;
-    // A member of a record that changed by more than its last bits is that of another record: they came in another order.
+    // If a member of a record changes by more than its last bits, it belongs to another record: the order changed.
     const bool is_of_record = !touched.is_input && !touched.value;
     if (is_of_record && by > 0x1p-16 * std::abs(static_cast<double>(a.value)) + 0x1p-19) continue;
     std::string& name = probe.names[n];
     if (!touched.is_input && !name.empty()) {
-      // Of several numbers: named after all of them, the second time and on.
+      // A function of several numbers is named after all of them, from the second on.
       name = made_of_too(name, touched.name);
       continue;
     }
     if (by >= least[n]) continue;
     least[n] = by;
-    // What is computed of a number before the pass's arithmetic begins, 1 / ior, is not the number itself.
+    // A value computed before the pass's arithmetic begins, such as 1 / ior, is not the number itself.
     const bool falls = (b.value < a.value) == (a.value > 0);
     const bool is_itself = touched.is_input || (touched.value ? a.value == *touched.value : !falls);
     const bool is_inverse = touched.value ? a.value == 1 / *touched.value : falls;
@@ -190,7 +190,7 @@ std::map<float, int> constants_met(const capture::PassModel& model) {
   return places;
 }
 std::vector<float> constants_everywhere(const capture::PassModel& model) {
-  constexpr int of_two_rows = 16;  // a row's own is met by one row of eight
+  constexpr int of_two_rows = 16;  // a value of one row is used by one row of eight
   std::vector<float> out;
   for (const auto& [value, count] : constants_met(model))
     if (count > of_two_rows && value > -1e30f && value < 1e30f) out.push_back(value);
@@ -220,7 +220,7 @@ std::vector<Probe> probed(const Probed& p, const std::vector<Evaluation>& evalua
       for (std::size_t k = 0; k < probes.size(); ++k)
         name_changed(probes[k], least[k], traced(*model, evaluations[k], known), t, !evaluations[k].list.empty());
     } catch (const Error&) {
-      // out of its range by a bit: it stays without a name
+      // a bit outside its range: no name
     }
   }
   for (Probe& probe : probes)

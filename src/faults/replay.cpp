@@ -22,8 +22,8 @@ using judge::Cause;
 
 double score(const Cause& c) { return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1)); }
 bool is_explained(const std::vector<Tried>& causes) {
-  // What is fitted to the records that a port lost, or says that nothing was done, may have a reason in the text; and so has a
-  // number that is not set, of which a few records say little.
+  // A cause that is fitted to lost records, or that says that nothing was done, may have its reason in the text. So may an unset number,
+  // for which a few records are weak evidence.
   constexpr std::int64_t few = 8;
   const auto is_symptom = [](const Tried& c) {
     return c.what.is(trait::lost | trait::late) || (c.of_records && c.what.is(trait::empty)) || (c.what.is(trait::unset) && c.of < few);
@@ -33,14 +33,14 @@ bool is_explained(const std::vector<Tried>& causes) {
 }
 
 using Names = std::set<std::string>;
-/// Names of what was found by solving.
+/// Names of causes found by solving.
 Names solved_of(const std::vector<Tried>& causes) {
   Names out;
   for (const Tried& c : causes)
     if (is_solved(c)) out.insert(c.name);
   return out;
 }
-/// Those of these names that a run may have. `solved`: what is found by solving alone.
+/// The faults of a run with these names. `solved`: names that only solving finds.
 std::vector<Fault> named(Replay& run, const Names& names, const Names& solved) {
   Names found;
   std::vector<Fault> out;
@@ -77,13 +77,13 @@ void check_in(Replay& other, std::vector<Tried>& causes, std::vector<Fault>& all
   }
   double best = 0;
   for (const auto& [name, c] : there) best = std::max(best, score(c));
-  if (best < 1) return;  // there the mistake shows in another way
+  if (best < 1) return;  // there the mistake has another effect
   for (Tried& c : causes) {
     const auto found = there.find(c.name);
     if (found == there.end()) {
       c.is_likely = false;
       c.is_untested = true;
-      if (is_solved(c)) c.of += there.begin()->second.of;  // it was looked for there, and not found
+      if (is_solved(c)) c.of += there.begin()->second.of;  // it was searched for there, and not found
       continue;
     }
     c.explained += found->second.explained;
@@ -100,7 +100,7 @@ bool same(float a, float b) {
   const double size = std::max(std::abs(static_cast<double>(a)), std::abs(static_cast<double>(b)));
   return a == b || (std::isnan(a) && std::isnan(b)) || std::abs(static_cast<double>(a) - b) <= 0x1p-10 * size + 0x1p-20;
 }
-/// Whether two mistakes give the same numbers, but for rounding, where either shows: where it gives others than `right`.
+/// True if two mistakes give the same numbers, up to rounding, wherever either differs from `right`.
 bool alike(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& right) {
   if (a.size() != b.size()) return false;
   std::size_t alike = 0, shown = 0;
@@ -112,17 +112,17 @@ bool alike(const std::vector<float>& a, const std::vector<float>& b, const std::
   return shown > 0 && alike * 50 >= shown * 49;
 }
 
-/// What mistakes of these names give in a run.
+/// Values of the mistakes of these names in a run.
 std::map<std::string, std::vector<std::vector<float>>> given_by(Replay& run, const Names& names, const Names& solved) {
   std::map<std::string, std::vector<std::vector<float>>> given;
   for (const Fault& d : named(run, names, solved))
     if (std::vector<float> numbers = run.given(d); !numbers.empty()) given[name_of(d)].push_back(std::move(numbers));
   return given;
 }
-/// How others compare with the first, here and elsewhere, on other numbers.
+/// How other causes compare with the first, in this run and with other numbers.
 struct Compared {
-  bool has_rival = false;  ///< one of them is another mistake elsewhere
-  Names alike;             ///< those that give the same, here and there
+  bool has_rival = false;  ///< one of them is another mistake at another place
+  Names alike;             ///< those that give the same values, in this run and elsewhere
 };
 Compared compared(Replay& run, const Tried& best, const Names& others, const Names& solved) {
   const std::string& first = best.name;
@@ -151,7 +151,7 @@ Compared compared(Replay& run, const Tried& best, const Names& others, const Nam
   };
   Names unknown;
   out.alike = alike_in(*elsewhere, names, unknown);
-  // What was solved for cannot be asked elsewhere.
+  // Solved causes cannot be tested elsewhere.
   if (unknown.contains(first)) {
     out.alike.clear();
     out.has_rival = is_solved(best);
@@ -160,7 +160,7 @@ Compared compared(Replay& run, const Tried& best, const Names& others, const Nam
   out.alike.erase(first);
   for (const std::string& name : others) out.has_rival |= !out.alike.contains(name) && !unknown.contains(name);
   if (out.has_rival || out.alike.empty()) return out;
-  // On other numbers both may be held to the same bounds: what differs here does not give the same.
+  // With other numbers both may reach the same bounds: causes that differ here are not equal.
   Names here = out.alike, unused;
   here.insert(first);
   const Names same = alike_in(run, here, unused);
@@ -168,7 +168,7 @@ Compared compared(Replay& run, const Tried& best, const Names& others, const Nam
   return out;
 }
 
-/// Mistakes that give the same wherever it was looked, in the order in which they are to be believed: the port has one of them.
+/// Adds causes with equal values everywhere to the first one's text, in order of plausibility: the port has one of them.
 void say_one_of(Tried& first, std::vector<Tried> causes, Names others, int most = 2, const char* word = "; or, which gives the same, ",
                 std::string own = "") {
   std::stable_sort(causes.begin(), causes.end(), [](const Tried& a, const Tried& b) { return far_fetched(a) < far_fetched(b); });
@@ -184,7 +184,7 @@ void say_one_of(Tried& first, std::vector<Tried> causes, Names others, int most 
     }
 }
 
-/// How draws are ranked, whose words stand in a list of their own.
+/// The kind of a draw, for ranking; its texts are in a list of their own.
 Kind kind_of(const random::Draws& d) {
   const random::Draws right;
   const auto is_one = [](int off) { return off == 1 || off == -1; };
@@ -195,7 +195,7 @@ Kind kind_of(const random::Draws& d) {
   return d.mixing ? Kind::drawn_otherwise : Kind::drawn;
 }
 
-/// Whether a kind is not tried: one of those that RAINREF_LEAVE_OUT numbers, "17-23", for scripts/full/ablation.
+/// True if a kind is left out: RAINREF_LEAVE_OUT gives their numbers, "17-23", for scripts/full/ablation.
 bool is_left_out(Kind kind) {
   static const std::pair<int, int> range = [] {
     std::pair<int, int> out{0, -1};
@@ -228,7 +228,7 @@ std::vector<Tried> tried(const Replay& replay, const parallel::Executor& executo
       try {
         made = is_left_out(d.kind) || replay.is_time_over() ? untried(d, of, of_records) : try_one(d);
       } catch (const Error&) {
-        made = untried(d, of, of_records);  // the altered case is none that the pass can run
+        made = untried(d, of, of_records);  // the pass cannot run on the altered case
       }
       made.fault = &d;
     }
@@ -262,14 +262,14 @@ void add_lines(const Replay& run, const Replay* other, Tried& best, const std::v
 }
 
 std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
-  std::deque<std::vector<Fault>> faults;  // that causes point to
+  std::deque<std::vector<Fault>> faults;  // owns faults that causes point to
   std::vector<Tried> causes;
   const auto try_all = [&](std::vector<Fault> all) {
     faults.push_back(std::move(all));
     return run.causes(faults.back());
   };
   causes = try_all(run.plain());
-  // Where nearly all of it is explained by what is plain, what is less so is not needed.
+  // If plain faults explain nearly all failures, less plain ones are not tried.
   Names sought;
   const auto explains_little = [&] { return std::none_of(causes.begin(), causes.end(), [](const Tried& c) { return score(c) >= 1.5; }); };
   for (const auto more : {&Replay::deeper, &Replay::solved, &Replay::fitted}) {
@@ -290,12 +290,12 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   const Names solved = solved_of(causes);
   const auto said = [&] { return std::vector<Cause>(best.begin(), best.end()); };
   if (run.is_time_over()) {
-    // What was not tried may be as good.
+    // Untried faults may be as good.
     for (Tried& c : best) c.is_likely = false;
     return said();
   }
   static constexpr const char* as_much = "; or, which explains as much here, ";
-  // What leaves clearly more unexplained, or would have made more fail, is none.
+  // Causes that leave clearly more unexplained, or that would break more, are rejected.
   const double least_against = [&] {
     double out = HUGE_VAL;
     for (const Tried& c : causes)
@@ -304,12 +304,13 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   }();
   const auto is_rival = [&](const Tried& c) { return c.of_records || against(c) <= 1.4 * least_against + 1.5; };
   if (!best.front().is_likely) {
-    // What cannot be told apart here is said beside it.
+    // Causes that this run cannot distinguish are named together.
     Names same;
     for (const Tried& c : causes)
       if (c.of > 0 && score(c) >= score(best.front()) - 0.005 && is_rival(c) && c.name != best.front().name && !is_fitted(c))
         same.insert(c.name);
-    // Those that would give the same on other numbers too are other words for it; of the rest only what is no more far-fetched.
+    // Those that also give the same values with other numbers are other names for the cause; of the rest, only those at least as plausible
+    // are kept.
     const bool explains_most = score(best.front()) >= 1.8;
     const Names alike = explains_most ? compared(run, best.front(), same, solved).alike : Names();
     for (const Tried& c : causes)
@@ -327,12 +328,12 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
       others.insert(c.name);
   const Compared there = compared(run, best.front(), others, solved);
   best.front().is_likely = !there.has_rival;
-  // Of thousands that are tried one or another comes within an envelope by chance: what was sought must have the port's own bits.
+  // Among thousands of faults, one may come within an envelope by chance: a fault from a search must reproduce the port's bits.
   if (sought.contains(best.front().name) && best.front().explained * 10 < best.front().of * 9) best.front().is_likely = false;
-  // A number that fits must fit all but exactly: near a wrong one the port's bits are met often.
+  // A fitted number must fit all but a few exactly: near a wrong one, the port's bits are often met.
   if ((is_fitted(best.front()) || best.front().what.is_odd_number()) && best.front().explained * 50 < best.front().of * 49)
     best.front().is_likely = false;
-  // What could not be asked elsewhere is not said to give the same.
+  // Causes that could not be tested elsewhere are not reported as giving the same values.
   add_lines(run, other, best.front(), causes, there.alike);
   if (best.front().is_likely)
     say_one_of(best.front(), causes, there.alike);

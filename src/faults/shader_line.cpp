@@ -19,7 +19,7 @@ class LineSearch {
   std::vector<FoundLine> found() const;
 
  private:
-  /// A step, and who uses it.
+  /// A step, and its user.
   struct Met {
     int node, user;
   };
@@ -37,8 +37,8 @@ class LineSearch {
   bool in_function_;
 };
 
-/// Whether the reference computes it, too: one of both has all that the other one has, for either may leave out rounds of a loop, or do in
-/// one place what the other one does in several.
+/// True if the reference computes it, too: the values of one contain all of the other's, because either may omit rounds of a loop, or do in
+/// one place what the other does in several.
 bool LineSearch::is_vouched(const PortStep& p) const {
   for (std::size_t k = 0; k < p.values.size(); ++k) {
     if (p.values[k].empty()) continue;
@@ -56,14 +56,14 @@ bool LineSearch::is_vouched(const PortStep& p) const {
   return false;
 }
 
-/// The first operation, sooner than this one, to which the mistake gives such values; -1 where there is none.
+/// The first operation before `changed` to which the mistake gives these values; -1 if there is none.
 int LineSearch::sooner(int changed, const Values& v) const {
   for (int n = 0; n < changed; ++n)
     if (is_within(reference_.changed[static_cast<std::size_t>(n)], v)) return n;
   return -1;
 }
 
-/// A number that is no other in any invocation, and that the reference has not: where it comes from in the port.
+/// Finds the source in the port of a number that is equal in every invocation and that the reference lacks.
 int LineSearch::first_constant(int from) const {
   std::vector<char> is_seen(port_.steps.size(), 0);
   for (int at = from;;) {
@@ -78,7 +78,7 @@ int LineSearch::first_constant(int from) const {
   }
 }
 
-/// Back from a step through all that the reference does not have: what is met, with who uses it.
+/// Walks back from a step through all steps that the reference lacks; returns these with their users.
 std::vector<LineSearch::Met> LineSearch::unvouched(int from) const {
   std::vector<Met> open{{from, from}}, out;
   std::set<int> is_seen;
@@ -93,11 +93,11 @@ std::vector<LineSearch::Met> LineSearch::unvouched(int from) const {
   return out;
 }
 
-/// The instruction that a step stands in. Where a function is right in most of its calls, the call is what is wrong.
+/// The instruction of a step. If a function is right in most of its calls, the call is wrong.
 std::uint32_t LineSearch::blamed(int node) const {
   const PortStep& p = port_[node];
   if (p.calls.empty() || in_function_) return p.instruction;
-  std::map<std::vector<std::uint32_t>, bool> right;  // in each call, whether all of its parts are
+  std::map<std::vector<std::uint32_t>, bool> right;  // for each call: true if all of its parts are right
   for (const PortStep& o : port_.steps)
     if (o.instruction == p.instruction && o.calls.size() == p.calls.size()) {
       const auto [at, is_new] = right.emplace(o.calls, true);
@@ -107,8 +107,8 @@ std::uint32_t LineSearch::blamed(int node) const {
   return right.size() > 1 && 2 * wrong <= static_cast<std::ptrdiff_t>(right.size()) ? p.calls.back() : p.instruction;
 }
 
-/// From a value of the port that the mistake makes and the reference has not: back through what the reference does not have either, and
-/// what the mistake makes sooner.
+/// Walks back from a value of the port that equals the mistake's and that the reference lacks, through steps that the reference also lacks
+/// and earlier values of the mistake.
 std::vector<FoundLine> LineSearch::walked_back(int changed, int from, bool is_late) const {
   Met best{from, from};
   int best_time = changed, first = from;
@@ -116,11 +116,11 @@ std::vector<FoundLine> LineSearch::walked_back(int changed, int from, bool is_la
   for (const Met& at : unvouched(from)) {
     const PortStep& p = port_[at.node];
     const bool is_right = at.node != from && is_vouched(p);
-    // The invocation's own number is right; what may be wrong is how it is taken.
+    // The invocation's own index is right; its use may be wrong.
     if (p.is_position && port_[at.user].is_position) continue;
     const int time = at.node == from ? -1 : sooner(changed, p.values);
     if (!is_right && !p.is_position) first = std::min(first, at.node);
-    // Of copies of one value it is the first, which computes it; of one that the reference has too the last.
+    // Of copies of one value, the first counts, because it computes it; of a value that the reference has too, the last.
     if (time >= 0 && (!is_right || varies(p.values)) && (time < best_time || (time == best_time && !is_right && at.node < best.node))) {
       best = at;
       best_time = time;
@@ -129,21 +129,21 @@ std::vector<FoundLine> LineSearch::walked_back(int changed, int from, bool is_la
   }
   const FoundLine begins = line_at(first);
   if (is_old) {
-    // A value that a function gives is blamed on the call, as far as its user stands outside.
+    // A wrong result of a function is attributed to the call, if its user is outside.
     const PortStep &kept = port_[best.node], &user = port_[best.user];
     if (kept.of.empty()) return {line_at(best.user), begins};
     const std::uint32_t at = kept.calls.size() > user.calls.size() ? kept.calls[user.calls.size()] : kept.instruction;
     return {{at, kept.calls.size() < user.calls.size() ? at : user.instruction}, begins};
   }
-  // A texel is wrong by the place that it is taken from. And where the port does in another form what the mistake is in, it begins there.
+  // A texel is wrong if its position is. If the port has the mistake's operation in another form, the mistake begins there.
   const Op op = port_[best.node].op;
   const bool is_of_place = op == Op::lookup || op == Op::load || op == Op::fetch;
   if (!in_function_ && (is_of_place || (is_late && best.node == from))) return {begins, line_at(best.node)};
   return {line_at(first_constant(best.node)), begins};
 }
 
-/// Where nothing of the mistake is met before what is stored: the first that the reference has not, of what is stored; or, where it has all
-/// of that, that it is stored, or put together before.
+/// If no value of the mistake occurs before the stores: returns the first operand of a stored value that the reference lacks; if there is
+/// none, the store itself, or the construction of the stored vector.
 std::vector<FoundLine> LineSearch::of_outputs() const {
   int first = -1;
   for (const int output : port_.outputs)
@@ -159,7 +159,7 @@ std::vector<FoundLine> LineSearch::of_outputs() const {
 }
 
 std::vector<FoundLine> LineSearch::found() const {
-  bool is_late = false;  // something new that the mistake makes is not in the port, whose text has another form there
+  bool is_late = false;  // a new value of the mistake is not in the port, whose text has another form there
   for (std::size_t n = 0; n < reference_.changed.size(); ++n) {
     const Values& wrong = reference_.changed[n];
     if (!varies(wrong) || reference_.has(wrong)) continue;

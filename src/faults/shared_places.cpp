@@ -1,4 +1,4 @@
-// Functions of a pass text that are called several times: their places look alike, with arguments of other shapes.
+// Functions of a pass text that are called several times: their places look equal, with arguments of other shapes.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -14,7 +14,7 @@ using perturbed::Op;
 using Node = perturbed::Trace::Node;
 
 std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
-  // What is of one operation and two numbers looks alike everywhere.
+  // One operation of two plain numbers looks equal everywhere.
   const auto is_telling = [&](const Node& n, std::int8_t depth) {
     switch (n.op) {
       case Op::constant:
@@ -39,7 +39,7 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
         return true;
     }
   };
-  // Of these a call may be one that no probe makes.
+  // For these, one call in the probes is enough: another may be in no probe.
   const auto is_rare = [](Op op) {
     return op == Op::angle || op == Op::power || op == Op::mix || op == Op::smoothstep || op == Op::sine || op == Op::cosine ||
            op == Op::exponential || op == Op::fract;
@@ -54,7 +54,7 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
       std::set<std::uint32_t> shapes = {};
     };
     std::map<std::uint32_t, Class> classes;
-    // Invocations that take another way call the same functions with other arguments.
+    // Invocations with another path call the same functions with other arguments.
     for (std::size_t k = 0; k < probes.size(); ++k)
       for (std::int32_t at = 0; at < static_cast<std::int32_t>(probes[k].trace.nodes.size()); ++at) {
         const Node& n = probes[k].trace.nodes[static_cast<std::size_t>(at)];
@@ -72,7 +72,7 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
               [](const SharedPlace& a, const SharedPlace& b) { return a.probe != b.probe ? a.probe < b.probe : a.node > b.node; });
     out.insert(out.end(), found.begin(), found.end());
   }
-  // What a loop does in each round, whose first one has other values than those that follow.
+  // Places in a loop; the first round has other values than the later ones.
   constexpr std::size_t most_rounds = 400, most_in_loops = 60;
   std::vector<SharedPlace> in_loops;
   for (std::size_t k = 0; k < std::min<std::size_t>(probes.size(), 1); ++k) {
@@ -90,7 +90,7 @@ std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes) {
   }
   std::sort(in_loops.begin(), in_loops.end(), [](const SharedPlace& a, const SharedPlace& b) { return a.node > b.node; });
   if (in_loops.size() > most_in_loops) in_loops.resize(most_in_loops);
-  // Named functions first; of a long pass fewer, because each is evaluated.
+  // Named functions first; fewer in a long pass, because each is evaluated.
   const auto rarity = [&](const SharedPlace& place) {
     return is_rare(probes[place.probe].trace.nodes[static_cast<std::size_t>(place.node)].op);
   };

@@ -20,7 +20,7 @@ void put_numbers(std::vector<Substitution>& places, const std::vector<double>& n
 }
 double step_of(double x) { return 1e-3 * (std::abs(x) + 1e-2); }
 
-/// x of m x = b, by elimination with pivots; false where there is none. Of three unknowns at most.
+/// Solves m x = b for at most three unknowns, by elimination with pivots; false if there is no solution.
 bool solve(std::array<std::array<double, 3>, 3> m, std::array<double, 3> b, std::size_t n, std::array<double, 3>& x) {
   for (std::size_t k = 0; k < n; ++k) {
     std::size_t pivot = k;
@@ -145,7 +145,7 @@ std::vector<Solution> Solver::of_one(std::vector<Substitution> places, float now
   return out;
 }
 
-/// Levenberg's method with a few starts: sums of squares over the slots, each in its own leeway.
+/// Levenberg's method with a few starts: minimizes the sum of squares over the slots, each in units of its tolerance.
 std::vector<Solution> Solver::of_vector(std::vector<Substitution> places, const std::vector<float>& now) const {
   const std::size_t n = places.size();
   for (const double scale : {1.0, 0.3, -1.0}) {

@@ -1,4 +1,4 @@
-// What stands at a place of the text in place of what is meant: found from the numbers that the place would need to be.
+// Finds the expression at a place of the text from the number that the place would need to have.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,10 +31,10 @@ constexpr std::array<Change, 16> changes{Change::none,     Change::negated,   Ch
                                          Change::squared,  Change::rooted,    Change::inverted, Change::doubled,
                                          Change::halved,   Change::floored,   Change::rounded,  Change::truncated,
                                          Change::fraction, Change::saturated, Change::cubed,    Change::smoothed};
-/// How many steps off a change is.
+/// Number of editing steps of a change.
 int effort_of(Change change) { return change == Change::none ? 0 : change == Change::negated || change == Change::from_one ? 1 : 2; }
 
-/// What may be written for a number by a slip.
+/// Numbers that may be written for v by mistake.
 std::vector<float> other_numbers(float v) {
   std::vector<float> out{-v, 2 * v, v / 2, 10 * v, v / 10, v + 1, v - 1, v * v, 1 / v, 1 - v, 0.25f, 0.5f, 0.75f, 1.5f, 2.5f};
   for (int k = 0; k <= 12; ++k) out.push_back(static_cast<float>(k));
@@ -71,7 +71,7 @@ class Search {
   }
 
  private:
-  /// Whether it gives what was stored at these texels, but for one in eight: where a mistake takes another way through the pass.
+  /// True if it gives the stored values at these texels, except at one in eight, where a mistake may change the path through the pass.
   bool suits(const std::vector<Substitution>& places) const {
     std::size_t misses = 0;
     for (const Solver& at : solvers_)
@@ -79,7 +79,7 @@ class Search {
     return true;
   }
   void keep(int effort, std::vector<Substitution> places, What what) {
-    if (gaps_in_name(what) > 0) effort += 2;  // what cannot be said in full is rather something else
+    if (gaps_in_name(what) > 0) effort += 2;  // an expression that cannot be written in full is less likely
     if (places.size() > 1) what.reach = places.size() > 2 ? Reach::all : Reach::both;
     Fault d(std::move(what));
     d.substitutions = std::move(places);
@@ -97,7 +97,7 @@ class Search {
     const std::string right = words_for(first_, meant[0]);
     std::set<std::pair<std::string, Change>> done;
     for (const Source& s : sources_for(first_, t, groups_, numbers_.at(n))) {
-      // What becomes of the value that is meant there has plainer names.
+      // Changes of the intended value itself have plainer names.
       if (s.text == "..." || s.nodes == meant) continue;
       const bool is_number = s.nodes.empty(), is_later = !is_number && s.nodes[0] > t.nodes[0];
       for (const Change change : changes) {
@@ -105,7 +105,7 @@ class Search {
         bool is_same = true, is_trivial = !is_number;
         for (std::size_t c = 0; c < n; ++c) {
           numbers[c] = perturbed::changed(number_of(first_, s, c), change);
-          // What happens to be 0 or 1 makes nothing of a term, or leaves it as it is: that has plainer names.
+          // A factor or term of 0 or 1 removes a term or leaves it unchanged: that has plainer names.
           is_trivial &= numbers[c] == 0 || numbers[c] == 1 || numbers[c] == -1;
           is_same &= numbers[c] == now[c];
         }
@@ -126,8 +126,8 @@ class Search {
     return {Kind::wrong_value, {t.operand < 0 ? "for " + right : "in " + words_for(first_, t.nodes[0]), wrong, right}};
   }
 
-  /// Where two slots or three fail whose places look unlike each other, (-y, x) turned: each slot by itself, and what is said alike of
-  /// all of them but for the component.
+  /// If two or three slots fail whose places have different shapes, as in a rotation (-y, x): solves each slot separately, and keeps texts
+  /// that agree up to the component.
   void slot_by_slot() {
     const std::vector<float> right = solvers_[0].values({});
     std::vector<std::size_t> failing;
@@ -162,7 +162,7 @@ class Search {
     }
   }
 
-  /// Where numbers cannot be solved for, at places met again and again or that decide by steps: each value that stands near is tried.
+  /// If numbers cannot be solved for, at places met repeatedly or with decisions: tries each nearby value.
   void everywhere() {
     std::vector<Target> all;
     std::set<std::uint32_t> done;
@@ -179,7 +179,7 @@ class Search {
       if (done.insert(node_of(first_, at).shape).second && node_of(first_, at).occurrence >= 0) add({first_of(at)});
     const std::size_t nodes = std::max<std::size_t>(first_.trace.nodes.size(), 1);
     std::size_t left = std::min<std::size_t>(60000, most_steps / nodes);
-    // Of what decides by steps one texel or another feels it; in a long pass the first is asked alone.
+    // Step-like operations may change only some texels, so several are tested; only one in long passes.
     const std::size_t most_asked = nodes > 1000 ? 1 : 4;
     std::vector<std::vector<float>> right;
     for (std::size_t k = 0; k < std::min(most_asked, solvers_.size()); ++k) right.push_back(solvers_[k].values({}));
@@ -203,7 +203,7 @@ class Search {
         --left;
         if (suits(places)) keep(s.effort, places, wrong_value(t, s.text));
       }
-      // Another literal or uniform there alone.
+      // Another literal or uniform only there.
       if (value >= 0 && node_of(first_, value).op == Op::constant)
         for (const float number : other_numbers(node_of(first_, value).value)) {
           for (Substitution& place : places) place.back = 0, place.ahead = -1, place.number = number;
@@ -226,7 +226,7 @@ class Search {
       }
     }
   }
-  /// Whether every slot in which a port differs is another one with a mistake.
+  /// True if a mistake changes every slot in which a port differs.
   static bool moves_all_that_fails(const Solvable& at, const std::vector<float>& right, const std::vector<float>& made) {
     if (right.size() != at.port.size() || made.size() != at.port.size()) return false;
     bool is_any = false;
@@ -237,7 +237,7 @@ class Search {
     }
     return is_any;
   }
-  /// The column or row of one texel that is that of another one.
+  /// Replaces the column or row of one texel by another texel's.
   void other_taps() {
     constexpr std::size_t most = 24;
     std::size_t left = std::min<std::size_t>(2000, most_steps / std::max<std::size_t>(first_.trace.nodes.size(), 1));
@@ -246,7 +246,7 @@ class Search {
       if (node_of(first_, at).op == Op::coordinate && first_.trace.met.at(node_of(first_, at).shape) <= 12) taps.push_back(at);
     for (const std::int32_t to : taps) {
       const Target t{{to}, 0};
-      // What lies at the same place here lies elsewhere at another texel: nodes are told apart, not values.
+      // Equal positions here may differ at another texel, so nodes are distinguished, not values.
       std::set<std::int32_t> asked{t.value_at(first_, 0)};
       for (const std::int32_t from : taps) {
         const std::int32_t value = node_of(first_, from).of[0];
@@ -261,14 +261,14 @@ class Search {
       }
     }
   }
-  /// The first place of a node's shape.
+  /// The first place with a node's shape.
   std::int32_t first_of(std::int32_t node) const {
     std::int32_t at = 0;
     while (node_of(first_, at).shape != node_of(first_, node).shape) ++at;
     return at;
   }
 
-  /// A number in its place, or a factor or a term that is one, where the operand itself is none.
+  /// Replaces the operand by a number, or adds a number as a factor or term if the operand is not one.
   void number(const Target& t, const Solution& solution) {
     const std::int32_t value = t.value_at(first_, 0);
     const bool is_constant = value >= 0 && node_of(first_, value).op == Op::constant;
@@ -298,7 +298,7 @@ class Search {
     }
   }
 
-  std::size_t most_verified_ = 60;  ///< of a target, all that seem to fit at the first texel; more where the pass is short
+  std::size_t most_verified_ = 60;  ///< candidates of a target that fit the first texel; more for a short pass
   const Probed* p_ = nullptr;
   const std::vector<Solvable>& texels_;
   const Probe& first_;
@@ -313,11 +313,11 @@ class Search {
 
 void add_solved_substitutions(std::vector<Fault>& out, const Probed& p, const std::vector<Solvable>& texels,
                               const std::vector<float>& known) {
-  // Where the pass as it is comes near, anything that changes nothing would explain it.
+  // If the unchanged pass comes near, any change without effect would explain the texel.
   std::vector<Solvable> failing;
   for (const Solvable& t : texels)
     if (!Solver(t, known).is_near(std::vector<perturbed::Substitution>())) failing.push_back(t);
-  // What one texel of a few numbers stores is given by too much.
+  // One texel with few stored numbers fits too many candidates.
   if (failing.empty() || (failing.size() < 2 && failing[0].port.size() < 6)) return;
   Search(p, failing, known).run(out);
 }

@@ -1,4 +1,4 @@
-// What is read when a port takes texels loaded by integers from elsewhere.
+// Mistakes in integer texel loads: the values read from other places.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -21,7 +21,7 @@ namespace {
 using capture::Array;
 using capture::CaseInput;
 
-/// Adds what is read in place of the taps of an input, or of several that are read alike.
+/// Adds mistakes in the taps of an input, or of several inputs with equal taps.
 class TapAdder {
  public:
   TapAdder(std::vector<Fault>& out, std::string name) : out_(out), name_(std::move(name)) {}
@@ -32,7 +32,7 @@ class TapAdder {
                    {taps.scale_x, taps.scale_y}});
   }
 
-  /// change(tap): what is read in place of it; `more`: what its words speak of behind the name.
+  /// change(tap): the tap that is read instead; `more`: further names in its text.
   void operator()(Kind kind, std::vector<std::string> more, const std::function<Tap(Tap)>& change,
                   std::optional<Address> address = {}) const {
     std::vector<Read> reads = of_;
@@ -109,7 +109,7 @@ void add_neighbours(const TapAdder& add, const Taps& taps) {
                                      {-1, -1, Kind::taps_left_down},
                                      {1, 1, Kind::taps_right_up}})
     all(kind, [dx = dx, dy = dy](int x, int y) { return std::pair(x + dx, y + dy); });
-  // One of them alone.
+  // One tap alone.
   std::set<std::pair<int, int>> places;
   for (const Tap& one : taps.all) places.insert({one.dx, one.dy});
   constexpr std::size_t most_places = 12;
@@ -121,7 +121,7 @@ void add_neighbours(const TapAdder& add, const Taps& taps) {
           return t.dx == from.first && t.dy == from.second ? Tap{t.load, to.first, to.second, t.channel} : t;
         });
       }
-  // Of a texel that is read several times one read alone.
+  // One load alone of a texel that is read several times.
   constexpr std::size_t most_loads = 16;
   if (taps.all.size() <= most_loads)
     for (const Tap& one : taps.all) {
@@ -138,7 +138,7 @@ void add_neighbours(const TapAdder& add, const Taps& taps) {
               });
         }
     }
-  // All of one row or one column of them.
+  // All taps of one row or column.
   std::set<std::pair<bool, int>> lines;
   for (const Tap& one : taps.all)
     for (const bool is_row : {true, false}) {

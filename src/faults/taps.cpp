@@ -13,7 +13,7 @@ namespace {
 using capture::Array;
 using capture::PassCase;
 
-/// Writes a whole number so that whole_of() finds it: up to 255 of codes, 2000 of halves.
+/// Stores an integer so that whole_of() can read it: up to 255 for codes, 2000 for halves.
 void write_whole(const Array& a, std::byte* at, int number) {
   const FormatInfo& f = info(a.format);
   if (f.kind == FormatInfo::float32 || f.kind == FormatInfo::float16)
@@ -22,7 +22,7 @@ void write_whole(const Array& a, std::byte* at, int number) {
     *at = static_cast<std::byte>(number);
 }
 int whole_of(const Array& a, float v) { return static_cast<int>(std::lround(info(a.format).kind == FormatInfo::unorm8 ? v * 255 : v)); }
-/// Numbers around the probe, so that they fit.
+/// Numbers relative to the probe, so that they fit.
 constexpr int middle = 100, reach = 90;
 
 std::vector<float> loads_of(const capture::PassModel& model, Texel at) {
@@ -33,7 +33,7 @@ std::vector<float> loads_of(const capture::PassModel& model, Texel at) {
   return out;
 }
 
-/// The loads of an invocation when every channel of every texel of an input holds number(x, y, channel).
+/// The loads of an invocation if every channel of every texel of an input holds number(x, y, channel).
 template <class Number>
 std::vector<float> loads_with(const Probed& p, std::size_t input, Texel at, const Number& number) {
   PassCase c = p.c;
@@ -69,9 +69,9 @@ Taps found_taps(const Probed& p, std::size_t input) {
   if (columns.size() != rows.size() || columns.size() != channels.size() || columns.size() != none.size()) return taps;
   if (next_columns.size() != columns.size() || next_rows.size() != columns.size()) return taps;
   for (std::size_t l = 0; l < columns.size(); ++l) {
-    // A load of another input is the same every time.
+    // A load of another input does not change.
     if (channels[l] == none[l]) continue;
-    // What does not move with the pass's own texel is no neighbour of it.
+    // A load that does not move with the pass's own texel is not a neighbour.
     if (whole_of(a, columns[l]) - whole_of(a, next_columns[l]) != taps.scale_x * (at.x - next.x) ||
         whole_of(a, rows[l]) - whole_of(a, next_rows[l]) != taps.scale_y * (at.y - next.y))
       continue;
@@ -89,10 +89,10 @@ Taps taps_of(const Probed& p, std::size_t input) {
   try {
     taps = found_taps(p, input);
   } catch (const Error&) {
-    return taps;  // the pass refuses such an input
+    return taps;  // the pass rejects such an input
   }
   const int channels = info(a.format).channels;
-  // What is read far away, or in no channel, is no load of a texel of this one's own size.
+  // Loads from far away, or from no channel, are not loads of a texel from an input of this size.
   std::erase_if(taps.all,
                 [&](const Tap& t) { return t.channel < 0 || t.channel >= channels || std::abs(t.dx) >= reach || std::abs(t.dy) >= reach; });
   return taps;

@@ -20,12 +20,12 @@ using perturbed::Substitution;
 using Node = perturbed::Trace::Node;
 
 constexpr std::size_t most_targets = 400, most_sources = 400;
-constexpr std::int32_t most_alike = 6;  // of one shape that are solved for one by one
+constexpr std::int32_t most_alike = 6;  // places of one shape that are solved separately
 constexpr std::int32_t most_back = 64;
 
-/// What has a name of its own.
+/// True if it has a name of its own.
 bool is_named(Op op) { return is_leaf(op) || op == Op::lookup; }
-/// What the first two or three slots are made of side by side, as far as it is by the same operations.
+/// Adjacent operands of the first two or three slots, while their operations are equal.
 void add_below_outputs(const Probe& p, std::vector<std::vector<std::int32_t>>& out) {
   std::set<std::vector<std::int32_t>> done(out.begin(), out.end());
   for (std::size_t first = 0; first < p.outputs.size() && first < 8; ++first)
@@ -48,7 +48,7 @@ void add_below_outputs(const Probe& p, std::vector<std::vector<std::int32_t>>& o
     }
 }
 
-/// How many values of the same place after it, up to the target, a source lies back.
+/// Number of values of the source's shape from the source to the target.
 std::int32_t steps_back(const Probe& p, std::int32_t source, std::int32_t target) {
   std::int32_t back = 0;
   for (std::int32_t m = source; m < target; ++m) back += node_of(p, m).shape == node_of(p, source).shape;
@@ -82,7 +82,7 @@ std::vector<Target> targets_of(const Probe& p) {
       for (std::int8_t k = 0; k < (n.op == Op::choice ? 2 : 4); ++k)
         if (std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t at) { return node_of(p, at).of[static_cast<std::size_t>(k)] >= 0; }))
           out.push_back({nodes, k});
-    // What is used once is the operand there.
+    // A value with one use is solved for as an operand there.
     if (n.op != Op::comparison && uses[static_cast<std::size_t>(nodes[0])] != 1) out.push_back({nodes, Substitution::result});
   };
   std::vector<std::vector<std::int32_t>> together = vectors_in(p);
@@ -90,7 +90,7 @@ std::vector<Target> targets_of(const Probe& p) {
   for (const auto& v : together) add(v);
   for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;)
     if (p.trace.met.at(node_of(p, at).shape) <= most_alike) add({at});
-  // Each is solved for with about a hundred evaluations.
+  // Each takes about a hundred evaluations to solve.
   const std::size_t most = std::clamp<std::size_t>(most_steps / 100 / std::max<std::size_t>(p.trace.nodes.size(), 1), 20, most_targets);
   if (out.size() > most) out.resize(most);
   return out;
@@ -98,7 +98,7 @@ std::vector<Target> targets_of(const Probe& p) {
 
 std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
   std::vector<Source> out;
-  // Whole numbers after the others.
+  // Integers last.
   for (const bool is_whole : {false, true})
     for (const scene::Member& m : p.pass.block.members) {
       if (is_padding(m) || (m.scalar != scene::Scalar::float32) != is_whole) continue;
@@ -112,7 +112,7 @@ std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
       for (std::size_t k = 0; k < all.size() && all.size() <= 4; ++k)
         out.push_back({{}, {all[k]}, part_name(m, static_cast<int>(k)), effort});
     }
-  // The same component of two uniforms that differ by their axis: e_u.y and e_v.y.
+  // The same component of two uniforms that differ in their axis: e_u.y and e_v.y.
   if (components == 2)
     for (const scene::Member& a : p.pass.block.members)
       for (const scene::Member& b : p.pass.block.members) {
@@ -122,7 +122,7 @@ std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
           out.push_back(
               {{}, {number_at<float>(all, offset_of(a, k)), number_at<float>(all, offset_of(b, k))}, a.name + "." + component_name(k), 0});
       }
-  // A length in heights where it should be in widths, or the reverse.
+  // A length in units of the height in place of the width, or the reverse.
   if (p.model.height() > 0 && p.model.width() != p.model.height()) {
     const auto width = static_cast<float>(p.model.width()), height = static_cast<float>(p.model.height());
     out.push_back({{}, {width / height}, "width / height", 0});
@@ -136,14 +136,14 @@ std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
 
 namespace {
 
-/// What the pass computes only later, and not of the target: another order of the text would have it there. Numbers that every
-/// invocation has are numbers.
+/// Values that the pass computes later, and not from the target: another order of the text would have them there. Values that are equal in
+/// every invocation are numbers.
 void add_later(const Probe& p, const Target& t, std::vector<Source>& out) {
   constexpr std::size_t most_later = 40;
   const auto count = static_cast<std::int32_t>(p.trace.nodes.size());
   std::vector<bool> is_of_target(static_cast<std::size_t>(count));
   const auto is_in = [&](std::int32_t at) { return std::find(t.nodes.begin(), t.nodes.end(), at) != t.nodes.end(); };
-  constexpr std::int32_t most_alike_later = 8;  // told apart by their order, where no loop makes them
+  constexpr std::int32_t most_alike_later = 8;  // distinguished by their order, if they are not made by a loop
   std::set<std::pair<std::string, float>> names;
   std::size_t added = 0;
   for (std::int32_t at = *std::min_element(t.nodes.begin(), t.nodes.end()); at < count && added < most_later; ++at) {
@@ -167,7 +167,7 @@ void add_later(const Probe& p, const Target& t, std::vector<Source>& out) {
 
 std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vector<std::vector<std::int32_t>>& groups,
                                 const std::vector<Source>& numbers) {
-  std::vector<Source> out = numbers;  // few, and asked first: of many that nearly fit not all are
+  std::vector<Source> out = numbers;  // few, and tried first: if many nearly fit, not all are tried
   const std::int32_t before = *std::min_element(t.nodes.begin(), t.nodes.end());
   const auto effort = [&](std::int32_t node) { return is_named(node_of(p, node).op) ? 0 : 1; };
   if (t.nodes.size() > 1)

@@ -1,4 +1,4 @@
-// Failing texels followed in the port's own shader, and its lines.
+// Traces failing texels in the port's own shader, and finds its lines.
 #include <algorithm>
 #include <cstdlib>
 
@@ -15,7 +15,7 @@ void TexelReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
   if (!program_ || program_->values() != probed_.model.values()) return;
   const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
   if (!faulty.applies()) return;
-  // Where the mistake gives what the port's program gives, on which no device has a say.
+  // Texels where the mistake gives what the port's program gives, independent of the device.
   struct Agreed {
     Texel at;
     std::vector<int> outputs;
@@ -51,7 +51,7 @@ void TexelReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
     program_->trace(chosen.at.x, chosen.at.y, one.port);
   }
 } catch (const Error&) {
-  out.clear();  // the program does what is not executed: a note says so
+  out.clear();  // the program uses something unsupported: a note says so
 }
 std::optional<judge::ShaderLine> TexelReplay::line(const FoundLine& found) const {
   if (!program_) return {};

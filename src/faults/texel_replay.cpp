@@ -46,7 +46,7 @@ std::vector<Texel> passing_texels(const capture::PassModel& model, const std::ve
   return out;
 }
 
-/// What the reference stores by a rounding of halves. By its own the case has it.
+/// The reference's outputs with a rounding of halves. The case has those with its own rounding.
 std::vector<Array> finished_outputs(const capture::PassCase& c, const capture::PassModel& model, const parallel::Executor& executor,
                                     judge::HalfMode mode) {
   if (!judge::is_own_rounding(slots_of(c), mode)) return reference_outputs(c, model, executor, mode);
@@ -55,18 +55,18 @@ std::vector<Array> finished_outputs(const capture::PassCase& c, const capture::P
   return out;
 }
 
-/// How a fault's texel compares with the port's.
+/// Compares a fault's texel with the port's.
 struct Match {
-  bool exact = false;  ///< the same bits
-  bool near = false;   ///< as near as a device's own differences, and much nearer than the reference
-  bool close = false;  ///< so near by the envelope alone
-  bool tells = false;  ///< so near, or so much nearer than the reference, that it is no chance
-  double left = 1;     ///< of what the port is off from the reference, the share that is left: 0 to 1
+  bool exact = false;  ///< equal bits
+  bool near = false;   ///< within a device's own differences, and much nearer than the reference
+  bool close = false;  ///< the same, by the envelope alone
+  bool tells = false;  ///< so near, or so much nearer than the reference, that it is not chance
+  double left = 1;     ///< share of the port's difference from the reference that remains: 0 to 1
 };
 
 std::int64_t gap(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
 
-/// Of these texels.
+/// The tolerance at these texels.
 Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, const capture::PassModel& model,
                  const std::vector<Array>& reference, const std::vector<Array>& port, const CaseJudgement& j,
                  const enclosed::Profile& profile, const std::vector<Texel>& texels) {
@@ -74,7 +74,7 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
   for (const Slot& s : slots) {
     const std::string& name = c.outputs[static_cast<std::size_t>(s.output)].name;
     const auto found = std::find_if(j.outputs.begin(), j.outputs.end(), [&](const OutputJudgement& o) { return o.name == name; });
-    // What 99 % of the envelopes stay below, unless these few are far wider than most.
+    // The 99 % quantile of the envelopes' widths, unless these few are far wider than most.
     const double width = found == j.outputs.end() ? 0 : std::min(found->p99_width, 4 * found->median_width + 4);
     out.codes.push_back(1 + static_cast<std::int64_t>(width));
   }
@@ -90,11 +90,11 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
     paths.for_each_alternative([&] {
       model.enclose(t.x, t.y, stored.data(), values.data());
       const bool is_open = ++alternatives > 1;
-      // A bound that is hardly one would let everything count as near.
+      // A very wide bound would make everything near.
       for (std::size_t v = 0; v < slots.size(); ++v)
         if (!values[v].is_vacuous())
           widths[v] = std::max(widths[v], std::min(static_cast<double>(values[v].hi) - values[v].lo, slots[v].range / 64));
-      // Where the arithmetic leaves a decision open a port may take the other side, whatever else is wrong with it.
+      // If the arithmetic leaves a decision open, a port may take the other side, whatever else is wrong with it.
       for (std::size_t v = 0; is_open && v < slots.size(); ++v) {
         const float other = stored_value(slots[v], slots[v].at(port[static_cast<std::size_t>(slots[v].output)], t.x, t.y));
         if (!values[v].is_vacuous() && values[v].lo <= other && other <= values[v].hi)
@@ -105,7 +105,7 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
   return out;
 }
 
-/// Of texel number k.
+/// For texel number k.
 Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const StoredTexel& faulty, const std::vector<Array>& port,
               const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels, std::size_t k) {
   Match m{true, true, true, true};
@@ -117,7 +117,7 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     const std::size_t o = static_cast<std::size_t>(s.output);
     const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = faulty[v].data(),
                     *base = s.at(reference[o], texels[k].x, texels[k].y);
-    // What is not a number has many codes; a machine may give any of them.
+    // NaN has many codes; a machine may store any of them.
     const bool are_no_numbers = judge::is_nan(s.kind, got) && judge::is_nan(s.kind, guess);
     const auto code = [&](const std::byte* at) { return enclosed::ordered_code(s.kind, at); };
     const std::int64_t far = are_no_numbers ? 0 : gap(code(got), code(guess)), before = gap(code(got), code(base));
@@ -125,14 +125,14 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     off_with += static_cast<double>(far);
     off_before += static_cast<double>(before);
     m.exact &= far == 0;
-    // What is left of a large difference may be the device's own way of looking up a texel that lies elsewhere.
+    // A small rest of a large difference may come from the device's own lookup at the other position.
     const bool is_close = far <= leeway.codes[v] || off <= leeway.values[k][v];
     m.close &= is_close;
     m.near &= is_close || 48 * far <= before;
     nearer |= far < before && 4 * far <= before;
     m.tells &= far == 0 || 16 * far <= before;
   }
-  m.exact &= nearer;  // else the reference gives the same bits, and the fault explains nothing
+  m.exact &= nearer;  // otherwise the reference has the same bits, and the fault explains nothing
   m.close &= nearer;
   m.near &= nearer;
   m.tells &= m.near;
@@ -140,10 +140,10 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
   return m;
 }
 
-/// What a fault does to texels that passed.
+/// Effect of a fault on texels that passed.
 struct Passing {
-  double contradicted = 0;  ///< share of them where the fault would store clearly other codes than the port did
-  std::int64_t bad = 0;     ///< how many it moves by more than a few codes, away from where the port is
+  double contradicted = 0;  ///< share of them where the fault would store clearly different codes than the port did
+  std::int64_t bad = 0;     ///< number that it moves by more than a few codes, away from the port's values
 };
 Passing passing_with(const std::vector<Slot>& slots, const capture::PassModel& model, const FaultyPass& faulty,
                      const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway,
@@ -233,7 +233,7 @@ std::vector<Fault> TexelReplay::solved() {
     const auto number = static_cast<std::size_t>(std::find_if(failing_.begin(), failing_.end(), same) - failing_.begin());
     if (number < leeway_.values.size()) add(probe, number);
   }
-  // Others, so that what suits all by chance is rare.
+  // More texels, so that few candidates fit by chance.
   constexpr std::size_t most = 10;
   const std::size_t step = std::max<std::size_t>(1, failing_.size() / most);
   for (std::size_t k = step / 2; !texels.empty() && k < failing_.size(); k += step) add(probes_[0], k);
@@ -270,8 +270,8 @@ Tried TexelReplay::cause(const Fault& given) const {
     faulty.store(failing_[t], stored);
     return compare(slots_, probed_.model, stored, port_, reference_, leeway_, failing_, t);
   };
-  // Most hypotheses are none after a few texels; what explains too few of these is not tried on all.
-  // In an order that is spread over all of them: most are none after twelve.
+  // Most hypotheses fail after a few texels, in an order that is spread over all of them; what explains too few of these is not tried on
+  // all.
   const std::size_t few = std::min<std::size_t>(failing_.size(), 24);
   std::size_t matching = 0;
   for (std::size_t k = 0; k < few && matching * 6 < few; ++k) {
@@ -289,8 +289,8 @@ Tried TexelReplay::cause(const Fault& given) const {
     telling += m.tells;
     left += m.left;
   }
-  // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
-  // break about as many texels as it explains.
+  // In a nearly empty buffer a mirrored image also has zero wherever the port lost something. A cause must not break about as many texels
+  // as it explains.
   const std::vector<Texel>& passing = d.is_evaluated() ? few_passing_ : many_passing_;
   const Passing there = passing_with(slots_, probed_.model, faulty, port_, reference_, leeway_, passing);
   if (there.contradicted * passing_per_failing_ * 4 > 1) cause.explained = cause.inside = 0;
@@ -322,7 +322,7 @@ std::unique_ptr<Replay> TexelReplay::elsewhere() const {
     std::unique_ptr<capture::PassModel> model = probed_.bind(*c);
     return std::make_unique<OwnReplay<TexelReplay>>(*this, std::move(c), std::move(model));
   } catch (const Error&) {
-    return nullptr;  // the pass refuses such numbers
+    return nullptr;  // the pass rejects such numbers
   }
 }
 

@@ -22,7 +22,7 @@ namespace {
 constexpr auto npos = std::string::npos;
 constexpr const char *signs_alone = ".<+-*/ ()", *digits = "0123456789.-e";
 
-/// "min", "sqrt", ...; "" where it is written otherwise.
+/// "min", "sqrt", ...; "" if it is not written as a function.
 const char* function_of(Op op) {
   constexpr std::pair<Op, const char*> names[] = {
       {Op::minimum, "min"}, {Op::maximum, "max"}, {Op::exponential2, "exp2"}, {Op::logarithm, "log"},         {Op::sine, "sin"},
@@ -31,7 +31,7 @@ const char* function_of(Op op) {
     if (one == op) return name;
   return bend_name(op);
 }
-/// " + ", " * ", ... with its spaces; "" where none stands between two operands.
+/// " + ", " * ", ... with spaces; "" if it is not an infix operator.
 const char* sign_of(Op op) {
   return op == Op::sum ? " + " : op == Op::difference ? " - " : op == Op::product ? " * " : op == Op::quotient ? " / " : "";
 }
@@ -92,10 +92,10 @@ std::string Probe::text(std::int32_t node, int depth) const {
     if (up >= 0 && below(below(below(n.of[0], Op::negation), Op::floor), Op::negation) == up)
       return fmt::format("trunc({})", text(up, depth - 1));
   }
-  // One deeper with each choice too: the steps of a march choose between each other, and twice as many texts with each step.
+  // Depth decreases with each choice too: the steps of a march choose between each other, which would double the text with each step.
   if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth - 1), text(n.of[1], depth - 1));
   if (n.op == Op::negation) return "-" + text(n.of[0], depth);
-  // The pixel's centre is as deep as its row, which is one number.
+  // The pixel's centre counts as deep as its row, which is one number.
   if (n.op == Op::sum && is_of_column(n)) return text(n.of[0], depth) + " + 0.5";
   if (const char* sign = sign_of(n.op); *sign) {
     const auto side = [&](std::int32_t of) {
@@ -122,7 +122,7 @@ std::string words_for(const Probe& p, std::int32_t node) {
 std::string shortened(const Probe& p, std::int32_t node) {
   for (int depth = 3; depth > 0; --depth)
     if (const std::string text = p.text(node, depth); text.size() <= 60 && (depth > 1 || !says_nothing(text))) return text;
-  // A text of dots alone says nothing: then the beginning of a longer one.
+  // A text of dots alone is not informative: then the beginning of a longer one.
   std::string text = p.text(node, 1);
   for (int depth = 2; depth <= 4 && std::none_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c); }); ++depth)
     text = p.text(node, depth);
@@ -228,7 +228,7 @@ std::string of_any_component(std::string text, char first, char last) {
 }
 std::string of_any_axis(const std::string& text) {
   std::string out = of_any_component(with_columns(text), 'u', 'z');
-  std::erase(out, '-');  // a turned vector has another sign in one component
+  std::erase(out, '-');  // a rotated vector has another sign in one component
   return out;
 }
 std::string of_either_side(std::string text) {

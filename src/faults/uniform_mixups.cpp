@@ -26,7 +26,7 @@ void put_word(PassCase& c, const Member& m, int k, Word w) { put_number(c.unifor
 bool same_value(const PassCase& c, const Member& a, const Member& b) {
   return std::memcmp(c.uniforms.data() + a.offset, c.uniforms.data() + b.offset, a.size()) == 0;
 }
-/// Members of which `wanted` holds.
+/// The members for which `wanted` returns true.
 template <class Wanted>
 std::vector<Member> those_of(const std::vector<Member>& all, const Wanted& wanted) {
   std::vector<Member> out;
@@ -43,7 +43,7 @@ class UniformAdder {
       for (std::size_t j = i + 1; j < members.size(); ++j) {
         const Member a = members[i], b = members[j];
         if (a.components != b.components || same_value(c_, a, b)) continue;
-        // One in place of another is the plainer mistake.
+        // Replacing one by the other is the plainer mistake.
         for (const auto& [to, from] : {std::pair(a, b), std::pair(b, a)})
           add(Kind::uniform_is_another, {to.name, from.name}, [to = to, from = from](PassCase& altered) {
             std::memcpy(altered.uniforms.data() + to.offset, altered.uniforms.data() + from.offset, to.size());
@@ -112,7 +112,7 @@ class UniformAdder {
         }
   }
 
-  /// The same component of two vectors or more: one is taken for the other in all of them.
+  /// Exchanges the same component of two or more vectors.
   void joint_components(const std::vector<Member>& vectors) const {
     constexpr std::size_t most = 6;
     for (const Member& m : vectors)
@@ -123,7 +123,7 @@ class UniformAdder {
         if (vectors[i].components == vectors[j].components) joint({vectors[i], vectors[j]});
   }
 
-  /// change(value) of each float of a block, where that is another; what(its name, other, now): what that is.
+  /// change(value) for each float of a block, if the result differs; what(its name, other, now) describes it.
   template <class Change, class MakeWhat>
   void changed(const scene::UniformBlock& block, const Change& change, const MakeWhat& what) const {
     for (const Part& part : float_parts(block)) {
@@ -217,8 +217,8 @@ class Replacer {
   const Constant& of_;
 };
 
-/// A small literal that keeps a division or a root from zero. No power of two, which is a scale: it is left out at most, as nobody writes
-/// it otherwise.
+/// True for a small literal that protects a division or root from zero. Not for a power of two, which is a scale. It is only left out,
+/// because other errors in it do not occur.
 bool is_guard(const Constant& constant) {
   int exponent = 0;
   return constant.begins_as_literal && std::abs(constant.value) <= 1e-4f && std::abs(std::frexp(constant.value, &exponent)) != 0.5f;
@@ -229,7 +229,7 @@ bool is_guard(const Constant& constant) {
 void add_named_constants(std::vector<Fault>& out, const Constants& constants, bool literals) {
   for (const Constant& constant : constants) {
     const float value = constant.value;
-    if (value == 0 || constant.is_literal != literals || constant.is_made) continue;  // a made number is rarely left out by itself
+    if (value == 0 || constant.is_literal != literals || constant.is_made) continue;  // a computed number is rarely left out alone
     const Replacer as(out, constant);
     as(0, Kind::number_left_out);
     if (is_guard(constant)) continue;
@@ -259,7 +259,7 @@ void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants
     as(value - 1, Kind::number_one_less);
     as(value * (pi / 180), Kind::number_in_degrees);
     as(value / (pi / 180), Kind::number_in_degrees_for_radians);
-    // A number of stops, decibels or octaves is taken for a factor, or the reverse.
+    // A number of stops, decibels or octaves used as a factor, or the reverse.
     if (std::abs(value) < 60) as(exp2(Number(value)).v, Kind::number_as_power_of_2);
     if (std::abs(value) < 60) as(exp(Number(value)).v, Kind::number_as_exponent);
     if (value > 0) as(log(Number(value)).v / std::numbers::ln2_v<float>, Kind::number_as_log2);

@@ -1,5 +1,5 @@
-// What is done to a value, or to the components of a vector, too much or otherwise: an encoding, a tone curve, a clamp, a packing;
-// another curve of one number in place of a polynomial of it; blends of several values.
+// Operations that are wrongly applied to a value or to the components of a vector, or wrongly chosen: an encoding, a tone curve, a clamp, a
+// packing; another curve in place of a polynomial of one number; blends of several values.
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -36,7 +36,7 @@ struct Curve {
   const char* formula;  ///< of x
   Make make;
 };
-/// Of colours.
+/// For colours.
 const std::vector<Curve>& colour_curves() {
   static const std::vector<Curve> all{
       {Kind::decoded_from_srgb, "the sRGB curve, from code to light", decoded},
@@ -50,7 +50,7 @@ const std::vector<Curve>& colour_curves() {
   };
   return all;
 }
-/// Of any numbers.
+/// For any numbers.
 const std::vector<Curve>& plain_curves() {
   static const std::vector<Curve> all{
       {Kind::held, "", clamped},
@@ -64,7 +64,7 @@ const std::vector<Curve>& plain_curves() {
   return all;
 }
 
-/// What the curve of an operation is taken of, and which one that is.
+/// The argument of an operation's curve, and the curve.
 struct Own {
   enum class Is { none, power, clamp, srgb } is = Is::none;
   Expression of = {};
@@ -90,7 +90,7 @@ Own own_curve(const Probe& p, std::int32_t node) {
   return {};
 }
 
-/// Nodes that are met more than once below an operation, from the top.
+/// Nodes that occur more than once below an operation, top first.
 std::vector<std::int32_t> shared_below(const Probe& p, std::int32_t node) {
   std::vector<std::int32_t> out, met, open{node};
   constexpr std::size_t most = 64;
@@ -107,8 +107,8 @@ std::vector<std::int32_t> shared_below(const Probe& p, std::int32_t node) {
   }
   return out;
 }
-/// The one node that is no number of which the operation is a polynomial, met twice at least; -1: there is none. wanted: that one, or
-/// with -1 whichever node is no polynomial.
+/// The single non-constant node of which the operation is a polynomial, used at least twice; -1 if there is none. wanted: that node, or
+/// with -1 any node that is not a polynomial.
 std::int32_t variable_of(const Probe& p, std::int32_t top, std::int32_t wanted) {
   std::int32_t found = wanted;
   int uses = 0;
@@ -204,7 +204,7 @@ std::vector<Edit> value_curve_edits_of(const Probe& p, const std::vector<std::in
 
 std::vector<JointEdit> blend_edits_of(const Probe& p) {
   std::vector<JointEdit> out;
-  constexpr std::size_t longest = 5;  // a path reaches no deeper
+  constexpr std::size_t longest = 5;  // a path has at most this many steps
   constexpr std::int32_t near = 14;
   std::vector<bool> is_below(p.trace.nodes.size());
   for (const Node& n : p.trace.nodes)
@@ -225,7 +225,7 @@ std::vector<JointEdit> blend_edits_of(const Probe& p) {
     for (const Chain& c : v) {
       one.nodes.push_back(c.top);
       const Expression whole = expression_of(p, c.top, static_cast<int>(count));
-      std::vector<std::pair<Expression, Expression>> layers;  // from the top
+      std::vector<std::pair<Expression, Expression>> layers;  // top first
       const Expression* at = &whole;
       for (std::size_t k = 0; k < count; ++k, at = &at->of[0]) layers.emplace_back(at->of[1], at->of[2]);
       Expression made = *at;

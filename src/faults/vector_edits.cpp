@@ -1,4 +1,4 @@
-// What stands in place of a vector: its components exchanged, a matrix left out or transposed.
+// Replacements for a vector: exchanged components, a matrix left out or transposed.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,7 +16,7 @@ using perturbed::FormulaStep;
 using perturbed::Op;
 using Node = perturbed::Trace::Node;
 
-/// A component as a sum of coefficients times the components of another vector, which are nodes.
+/// A component as a sum of coefficients times the components of another vector, as nodes.
 struct Row {
   struct Term {
     std::int32_t coefficient, of;
@@ -43,7 +43,7 @@ std::optional<Row> row_of(const Probe& p, std::int32_t node, bool is_negative = 
   return {};
 }
 
-/// A matrix times a vector: rows, and the vector's components in their order.
+/// A matrix times a vector: rows, and the vector's components in order.
 struct Product {
   std::vector<Row> rows;
   std::vector<std::int32_t> columns;
@@ -60,7 +60,7 @@ std::optional<Product> product_of(const Probe& p, const std::vector<std::int32_t
     rows.push_back(*row);
   }
   if (n == 0 || columns.size() != n) return {};
-  // In the order of a row that has them all, as it is written: arguments of a call are met in no order that counts.
+  // In the order of a complete row as written: the arguments of a call have no useful order.
   const auto whole = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.terms.size() == n; });
   if (whole != rows.end())
     for (std::size_t k = 0; k < n; ++k) columns[k] = whole->terms[k].of;
@@ -68,7 +68,7 @@ std::optional<Product> product_of(const Probe& p, const std::vector<std::int32_t
     std::sort(columns.begin(), columns.end());
   return out;
 }
-/// Operand k of each; empty where one has none.
+/// Operand k of each; empty if one has none.
 std::vector<std::int32_t> operands(const Probe& p, const std::vector<std::int32_t>& v, std::size_t k) {
   std::vector<std::int32_t> out;
   for (const std::int32_t node : v)
@@ -103,7 +103,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
           {vector, component_name(static_cast<int>(i)), component_name(static_cast<int>(j)), words_for(p, v[i]), words_for(p, v[j])});
     }
 
-  // Of something that takes a matrix times a vector: the vector as it is, there alone.
+  // For an operation that uses a matrix times a vector: the vector itself, only there.
   for (const std::size_t k : {0u, 1u}) {
     const std::optional<Product> inner = product_of(p, operands(p, v, k));
     if (!inner) continue;
@@ -119,7 +119,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
     if (made.size() == n) add(std::move(made), Kind::matrix_left_out_there, {vector, listed(inner->columns), listed(whole)});
   }
 
-  // Of a matrix times a vector.
+  // For a matrix times a vector.
   const std::optional<Product> own = product_of(p, v);
   if (!own) return out;
   const std::vector<Row>& rows = own->rows;
@@ -129,7 +129,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
   for (std::size_t k = 0; k < n; ++k) bare.push_back(elsewhere(p, columns[k], v[k], v));
   add(bare, Kind::matrix_left_out, {vector, of_vector});
 
-  // Of a vector that is projected on others: on these as unit vectors in place of by the matrix.
+  // For a vector projected on others: on these as unit vectors, in place of the matrix.
   std::vector<Expression> on_units;
   for (std::size_t k = 0; k < n; ++k)
     if (const std::optional<Row> projection = row_of(p, columns[k])) {
@@ -143,7 +143,7 @@ std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t
     }
   if (on_units.size() == n) add(std::move(on_units), Kind::matrix_for_unit_vectors, {vector, of_vector});
 
-  // The same with rows and columns exchanged: each coefficient with the other component, in the other row.
+  // The transpose: each coefficient with the other component, in the other row.
   struct Entry {
     std::int32_t coefficient = -1;
     bool is_negative = false;

@@ -1,4 +1,4 @@
-// Nodes of a probe that belong together: the components of vectors, the channels that one lookup gives.
+// Groups nodes of a probe: the components of vectors, the channels of one lookup.
 #include <algorithm>
 #include <set>
 #include <string>
@@ -37,7 +37,7 @@ std::vector<Nodes> vector_groups_of(const Probe& p) {
       if (is_leaf(node_of(p, i).op) || node_of(p, i).op == Op::lookup) return;
       shapes.push_back(node_of(p, i).shape);
     }
-    // What is alike in the components is told apart by its order, in a loop from round to round.
+    // Components with equal shape are distinguished by their order, in a loop from round to round.
     if (are_alike(p, v) && p.trace.met.at(shapes[0]) > 3 && period_of(p, v) == 0) return;
     if (done.insert(shapes).second) out.push_back(std::move(v));
   };
@@ -49,7 +49,7 @@ std::vector<Nodes> vector_groups_of(const Probe& p) {
     if (first.op == Op::sum) add({squared(first.of[0]), squared(first.of[1]), squared(n.of[1])});
     add({squared(n.of[0]), squared(n.of[1])});
   }
-  // What these are made of side by side, as far as it is by the same operations, and what stands there.
+  // Their adjacent operands, while the operations are equal, and the leaves.
   const auto add_below = [&](Nodes top, std::size_t most) {
     std::vector<Nodes> open{std::move(top)};
     for (std::size_t at = 0; at < open.size() && open.size() < most; ++at) {
@@ -69,11 +69,11 @@ std::vector<Nodes> vector_groups_of(const Probe& p) {
       if (first + n > p.outputs.size()) continue;
       add_below({p.outputs.begin() + static_cast<std::ptrdiff_t>(first), p.outputs.begin() + static_cast<std::ptrdiff_t>(first + n)}, 300);
     }
-  // Two beside each other of the same operation of the same operations: members of a record have names of their own.
+  // Two adjacent nodes with equal operations of equal operations: members of a record have different names.
   const auto is_alike = [&](const Node& a, const Node& b) {
     for (std::size_t k = 0; k < a.of.size(); ++k) {
       if ((a.of[k] < 0) != (b.of[k] < 0)) return false;
-      const bool takes_sum = a.op == Op::choice || a.op == Op::mix;  // of a matrix one row may be a sum, and one a product
+      const bool takes_sum = a.op == Op::choice || a.op == Op::mix;  // one row of a matrix may be a sum, and another a product
       if (a.of[k] >= 0 && !takes_sum && node_of(p, a.of[k]).op != node_of(p, b.of[k]).op) return false;
     }
     return true;
@@ -101,7 +101,7 @@ std::vector<Nodes> lookups_of(const Probe& p) {
   const auto image = [&](std::int32_t at) { return image_of_channel(words_for(p, at)); };
   constexpr std::size_t most = 24;
   const auto count = static_cast<std::int32_t>(p.trace.nodes.size());
-  constexpr std::int32_t near = 12;  // what a lookup does for its next channel
+  constexpr std::int32_t near = 12;  // nodes between a lookup's channels
   for (std::int32_t at = 0; at < count && out.size() < most; ++at) {
     if (node_of(p, at).op != Op::lookup || node_of(p, at).occurrence != 0) continue;
     const std::string name = image(at);

@@ -1,4 +1,4 @@
-// What stands in place of a filter: a sum of values, each with a number as its weight.
+// Replacements for a filter: a sum of values, each with a number as its weight.
 #include <set>
 #include <string>
 #include <utility>
@@ -21,7 +21,7 @@ struct Term {
 };
 bool is_number(const Probe& p, const Expression& e) { return e.node >= 0 && !e.is_operation() && node_of(p, e.node).op == Op::constant; }
 
-/// Whether it is a weighted sum of its own: a row of a filter that is taken along columns too.
+/// True if it is a weighted sum itself: a row of a filter that is also applied along columns.
 bool is_weighted(const Probe& p, std::int32_t node) {
   if (node < 0 || node_of(p, node).op != Op::sum) return false;
   for (const std::int32_t of : node_of(p, node).of) {

@@ -1,4 +1,4 @@
-// Where a pass fails: one sentence when its failures share a place.
+// Where a pass fails: one sentence, if its failures share a region.
 #include "faults/diagnose.h"
 
 #include <algorithm>
@@ -24,9 +24,9 @@ using judge::FailedRun;
 using judge::OutputJudgement;
 using judge::Slot;
 
-// The rule. A place is named when nearly all failures lie in it, it covers no more than about half of all that was judged (of an odd
-// number of columns the even ones are a little more), and failures
-// that had nothing to do with it would lie there so completely by chance once in a million times. Of several the smallest.
+// A region is named if nearly all failures are in it, and if it covers at most about half of all judged elements (a little more, because
+// the even columns of an odd width are). The probability that independent failures would lie in it so completely must be below 10^-6. The
+// smallest region is named.
 constexpr double nearly_all = 0.99, largest_share = 0.51, least_chance = 1e-6;
 
 struct Share {
@@ -83,7 +83,7 @@ void add_groups(std::vector<Place>& out, int width, int height) {
   }
 }
 
-/// A channel of an image as large as the run, where it is above, at, or below 0.
+/// Masks of a channel of an image as large as the run: above, at, or below 0.
 void add_masks(std::vector<Place>& out, const std::string& name, const Array& a, int width, int height) {
   if (a.is_records || a.levels.size() != 1 || a.width != width || a.height != height) return;
   const auto texels = std::make_shared<const std::vector<float>>(capture::decoded(a));
@@ -177,7 +177,7 @@ std::string texels_text(const FailedRun& failed, const std::vector<Texel>& faili
   return best;
 }
 
-/// The one channel, or the one output, that is outside.
+/// The only channel, or the only output, with failures.
 std::string channel_text(const FailedRun& failed, const std::vector<Texel>& failing) {
   const std::vector<Slot> slots = judge::slots_of(failed.run.c);
   if (slots.size() < 2) return "";
@@ -198,7 +198,7 @@ std::string channel_text(const FailedRun& failed, const std::vector<Texel>& fail
   return is_where(of_output, of_slots) ? output : "";
 }
 
-/// Of a pass that runs for each mip level or in several steps, the runs that fail.
+/// For a pass that runs for each mip level or in several steps: the runs that fail.
 std::string runs_text(const FailedRun& failed) {
   std::set<int> failing_levels, levels;
   std::vector<char> fails;
@@ -217,7 +217,7 @@ std::string runs_text(const FailedRun& failed) {
   return "";
 }
 
-/// The one field of records that is wrong, where all failures are at hand.
+/// The only field of records that is wrong, if all failures are listed.
 std::string fields_text(const CaseJudgement& j) {
   std::set<std::string> fields;
   for (const OutputJudgement& o : j.outputs) {

@@ -1,4 +1,4 @@
-// The words of causes, made of the catalogue and of what of the pass a cause speaks of.
+// Makes the texts of causes from the catalogue and the names of a cause.
 #include <algorithm>
 #include <iterator>
 
@@ -23,7 +23,7 @@ constexpr Entry entries[] = {
 static_assert(std::size(entries) == static_cast<std::size_t>(Kind::count));
 const Entry& entry_of(const What& what) { return entries[static_cast<std::size_t>(what.kind)]; }
 
-/// What stands behind a name and behind a sentence.
+/// Text after a name, and after a sentence.
 constexpr const char* reaches[][2] = {
     {"", ""},
     {"", " (one of {0} alike, number {1})"},
@@ -40,7 +40,7 @@ constexpr const char* reaches[][2] = {
 };
 static_assert(std::size(reaches) == static_cast<std::size_t>(Reach::count));
 
-/// The number of the part that a text has at a place, as {0}; -1: a letter stands there.
+/// Number of the argument {0} at a position of a text; -1: a letter.
 int part_at(const char* at) { return at[0] == '{' && at[1] >= '0' && at[1] <= '9' && at[2] == '}' ? at[1] - '0' : -1; }
 std::string filled(const char* text, const std::vector<std::string>& of) {
   std::string out;
@@ -55,7 +55,7 @@ std::string filled(const char* text, const std::vector<std::string>& of) {
   }
   return out;
 }
-/// The parts of the pass that a name shows.
+/// The arguments that a name shows.
 std::vector<const std::string*> parts_of_name(const What& what) {
   std::vector<const std::string*> out;
   for (const char* text : {entry_of(what).head, entry_of(what).rest})
@@ -85,7 +85,7 @@ std::string head_of(const What& what) {
 int weight_of(const What& what) {
   const Entry& entry = entry_of(what);
   if (!what.is_literal) return entry.weight;
-  // A literal that is typed wrong is nearer than a uniform that is; another formula of it is farther.
+  // A wrongly typed literal is more plausible than a wrong uniform; another formula for it is less plausible.
   return (entry.traits & fitted) != 0 ? entry.weight - 1 : entry.weight == 0 ? 2 : entry.weight;
 }
 int gaps_in_name(const What& what) {
