@@ -108,14 +108,14 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
       roots.push_back(root);
     }
   if (!best) return best;
-  // 8-bit output bounds the number only to an interval per texel: average the nearby candidates, as the number lies in all intervals.
+  // 8-bit output bounds the number only to an interval per texel. The number is in all intervals, so average the nearby candidates.
   float sum = 0, count = 0;
   for (const float root : roots)
     if (std::abs(root - *best) <= 0.05f * std::abs(*best)) sum += root, count += 1;
   if (const float mean = sum / count; mean != pass.constant)
     if (const double m = misfit(mean); m < least) least = m, best = mean;
   const auto suits = [&](float r) { return r != pass.constant && misfit(r) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size()); };
-  // Of the numbers that fit equally well, prefer the most likely typing error.
+  // If numbers fit equally well, prefer the most likely typing error.
   std::optional<float> typed;
   for (const float other : is_literal ? typed_wrong(pass.constant) : std::vector<float>())
     if (std::abs(other - *best) <= 0.1f * std::abs(*best) && misfit(other) <= 1.02 * least + 0.005 * static_cast<double>(wanted.size()) &&

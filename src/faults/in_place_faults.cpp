@@ -69,8 +69,8 @@ void add_scans(std::vector<Fault>& out, const Of& u) {
     }));
 }
 
-/// Evaluation in groups: a neighbour in another group is new or old, in an unknown order of groups. Of the possible orders of a texel's
-/// neighbouring groups, the one nearest to what the port stored is taken. A texel inside a group has one possibility, at its edge two: too
+/// Evaluation in groups: a neighbour in another group is new or old, in an unknown order of groups. For each texel, the order of its
+/// neighbouring groups that is nearest to the port's values is taken. A texel inside a group has one possible order, at its edge two: too
 /// few to fit by chance.
 void add_group_orders(std::vector<Fault>& out, const Probed& p, const std::vector<Array>& port, const Of& u) {
   const std::vector<Slot> slots = judge::slots_of(p.c);

@@ -199,7 +199,7 @@ void add_list_faults(std::vector<Fault>& out, const PassCase& c, const PassCase*
     ListAdder a(out, List(c, o));
     const capture::CaseInput* in = c.input(c.outputs[o].name);
     const bool has_input = in && in->array.is_records && in->array.record.size == c.outputs[o].array.record.size;
-    // Of mistakes with the same bits the first is named: those of a whole list come before those of some records.
+    // If mistakes give the same bits, the first is named, so those of a whole list come before those of some records.
     add_times(out, a, c, has_input, before);
     add_orders(a);
     add_fields(a, has_input);

@@ -120,7 +120,7 @@ std::vector<FoundLine> LineSearch::walked_back(int changed, int from, bool is_la
     if (p.is_position && port_[at.user].is_position) continue;
     const int time = at.node == from ? -1 : sooner(changed, p.values);
     if (!is_right && !p.is_position) first = std::min(first, at.node);
-    // Of copies of one value, the first counts, because it computes it; of a value that the reference has too, the last.
+    // If several steps copy one value, the first counts, because it computes it; if the reference has the value too, the last.
     if (time >= 0 && (!is_right || varies(p.values)) && (time < best_time || (time == best_time && !is_right && at.node < best.node))) {
       best = at;
       best_time = time;

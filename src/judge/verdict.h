@@ -120,8 +120,8 @@ struct CaseJudgement {
   std::int64_t rearranged = 0;            ///< invocations that only a rearrangement accepts
   std::uint64_t rearranged_distance = 0;  ///< largest distance of their values from the formula as written [codes]
   std::int64_t beyond = 0;                ///< of the failing: with elements that are OutputJudgement::beyond; 0 if these are few
-  /// Of the failing: accepted, and near the results of the profile's own rearrangements, if products of sums were multiplied out, which no
-  /// compiler is known to do.
+  /// Failing invocations that are accepted, and near the results of the profile's own rearrangements, if products of sums are multiplied
+  /// out, which no compiler is known to do.
   std::int64_t expanded = 0;
   /// One in `stride` invocations was drawn for widths and shares (judge/sample.h): ambiguous, other_branch, gave_up, and those of the
   /// outputs. 1: all.

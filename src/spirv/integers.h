@@ -38,7 +38,7 @@ T clamped(T a, T low, T high) {
 /// operands.
 std::optional<std::uint32_t> word_operation(Op op, std::uint32_t a, std::uint32_t b);
 
-/// The bits of `base` from `offset` on, `count` of them; bits beyond 31 are not included.
+/// Bit fields of `count` bits of `base` from `offset` on, up to bit 31.
 inline std::uint32_t low_bits(std::uint32_t count) { return count >= 32 ? 0xffffffffu : (1u << count) - 1u; }
 inline std::uint32_t extracted_bits(std::uint32_t base, std::uint32_t offset, std::uint32_t count, bool is_signed) {
   if (count == 0 || offset > 31) return 0;

@@ -12,7 +12,7 @@
 
 namespace rainref::spirv {
 
-/// An instruction as it stands in the file.
+/// An instruction in the file.
 struct Raw {
   Op op;
   std::span<const std::uint32_t> words;  ///< without the first word
