@@ -8,7 +8,7 @@ using c_library::required;
 
 namespace {
 
-/// What a callback of the caller's returns. One in C++ may throw: the caller's exception means nothing here.
+/// Result of the caller's callback. A C++ callback may throw; the exception is discarded.
 template <class Callback>
 auto returned(const Callback& callback, const char* what) {
   try {
