@@ -69,7 +69,7 @@ float share_above(const float* light, float threshold) {
   return peak > threshold ? (peak - threshold) / peak : 0;
 }
 
-/// What is scattered, at the size of the picture: the mean of n x n samples, blurred.
+/// Returns the scattered light at the size of the picture: the mean of n x n samples, blurred.
 LightImage scattered(const Exposed& exposed, const Development& options, int n, const parallel::Executor& executor) {
   LightImage bright(exposed.width() / n, exposed.height() / n);
   const float weight = 1 / static_cast<float>(n * n), threshold = static_cast<float>(options.bloom_threshold);

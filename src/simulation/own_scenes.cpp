@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders `scenes`, from where that file lies: an installation may be moved. A build folder links the sources'.
+/// The folders `scenes`, relative to the location of that file, because an installation may be moved. A build folder links to those of the
+/// sources.
 std::vector<fs::path> own_folders() {
   std::vector<fs::path> folders;
   const auto add = [&](const fs::path& here, const char* from_here) {

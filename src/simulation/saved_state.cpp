@@ -15,7 +15,7 @@
 namespace rainref::simulation {
 namespace {
 
-// It says where a run ends, and nothing of what comes before.
+// This key only says where a run ends, so it may differ.
 constexpr std::string_view may_differ = "run.frames = ";
 
 std::vector<std::string_view> lines_of(std::string_view text) {

@@ -22,7 +22,7 @@
 namespace rainref {
 namespace {
 
-/// Whether images are kept between runs was said, and can be said no more.
+/// Whether keep_images was called, and whether a simulation has been opened, after which it may not be called.
 struct Keeping {
   std::mutex mutex{};
   bool is_said = false, has_begun = false;

@@ -95,7 +95,7 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-/// What the shape asks for, or more than any file has.
+/// Bytes that the shape needs, or more than any file has.
 std::uint64_t wanted_bytes(const Saved::Stored& item) {
   constexpr std::uint64_t most = std::uint64_t{1} << 62;
   std::uint64_t bytes = bytes_of(item.type);
