@@ -40,13 +40,12 @@ struct CodeRange {
 ///   uint32   x truncated, clamped to [0, 2^32 - 1].
 CodeRange code_range(FormatInfo::Kind kind, const Enclosure& value, const StoreRules& rules);
 
-/// The ordered code of a stored value, little endian, FormatInfo::channel_bytes of it. NaN: beyond the infinity of its
-/// sign.
+/// The ordered code of a stored value, little endian, FormatInfo::channel_bytes bytes. NaN: beyond the infinity of its sign.
 std::int64_t ordered_code(FormatInfo::Kind kind, const std::byte* stored);
 
-/// The bits of an ordered code, as they are stored; code 0 of a float is +0.
+/// The stored bits of an ordered code; code 0 of a float is +0.
 std::uint32_t code_bits(FormatInfo::Kind kind, std::int64_t code);
-/// What a shader reads: floats and integers as they are, unorm8 code / 255, srgb8 linear.
+/// The value that a shader reads: floats and integers unchanged, unorm8 code / 255, srgb8 linear.
 double code_value(FormatInfo::Kind kind, std::int64_t code);
 /// Value and bits: "0.146729 (0x30b2)".
 std::string code_text(FormatInfo::Kind kind, std::int64_t code);
