@@ -5,7 +5,7 @@
 
 namespace rainref::windshield {
 
-/// World axes are level and z up; car axes: x forward, y left, z up.
+/// In world axes x and y are level and z is up; car axes: x forward, y left, z up.
 struct WindshieldFrameUniforms {
   float heading[2], yaw_rate, yaw_acceleration;
   float world_wind[3], gravity;
