@@ -1,11 +1,11 @@
-// Where the results of sweeps lie: a folder that any number of plans and machines share.
+// A store: the folder with the results of sweeps, shared by any number of plans and machines.
 //
-//   rainref-store         that this folder is one: written by every run, asked for before anything is removed
-//   cells/ab/ab12...      a cell's files, and cell.json, which says what they are; whole or not there
-//   failed/ab12....json   why a cell has none
-//   states/<film>/N.state what a run holds before frame N, so that a chunk may begin there
-//   tries/ab12... .x      a cell that is being made, locked; or that was when its process died
-//   log/x.csv             how long each cell took, and where
+//   rainref-store         marks the folder as a store: every run writes it, and it must exist before anything is removed
+//   cells/ab/ab12...      a cell's files, and cell.json, which describes them; complete or absent
+//   failed/ab12....json   why a cell has no result
+//   states/<film>/N.state the state of a run before frame N, where a chunk may begin
+//   tries/ab12... .x      a cell that is being made, locked; or was being made when its process died
+//   log/x.csv             time and machine of each cell
 #pragma once
 
 #include <filesystem>
