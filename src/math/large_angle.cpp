@@ -35,7 +35,7 @@ ReducedAngle reduce_large_angle(double x) {
     previous = window;
   }
 
-  // Nearest whole number of quarter turns from the top two bits; what is left is a signed fraction of 128 bits.
+  // Nearest whole number of quarter turns from the top two bits; the remainder is a signed fraction of 128 bits.
   const std::uint64_t top = std::uint64_t{product[0]} << 32 | product[1];
   const std::uint64_t middle = std::uint64_t{product[2]} << 32 | product[3];
   const std::uint64_t turns = (top + (std::uint64_t{1} << 61)) >> 62;
