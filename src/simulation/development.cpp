@@ -63,7 +63,7 @@ class Exposed {
   float factor_;
 };
 
-/// The share of a sample's light that lies above the threshold: of all channels alike, by the brightest.
+/// The share of a sample's light above the threshold, the same for all channels, from the brightest one.
 float share_above(const float* light, float threshold) {
   const float peak = std::max({light[0], light[1], light[2]});
   return peak > threshold ? (peak - threshold) / peak : 0;

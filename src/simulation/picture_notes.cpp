@@ -31,7 +31,7 @@ std::string scene_text(const scene::Config& config, int frame) {
   std::string out;
   for (const scene::Config::Entry& e : config.entries()) {
     const std::string& key = e.parameter.key;
-    // A picture does not depend on how long its run went on.
+    // A picture does not depend on the number of frames after it.
     if (key == "run.frames")
       out += fmt::format("{} = {}\n", key, frame + 1);
     else if (names_file(e))

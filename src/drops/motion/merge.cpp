@@ -71,8 +71,8 @@ std::vector<std::int64_t> places_of_parts(const std::vector<std::vector<Member>>
 
 constexpr std::int64_t links_of_chunk = 256;
 
-/// Merges ending drops into the drops in which their chains end; the list contains all drops of each chain. Returns the number of merged
-/// drops.
+/// Merges ending drops into the drops in which their chains end. `members` holds all members of each of its chains. Returns the number of
+/// merged drops.
 std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropArrays& drops) {
   std::sort(members.begin(), members.end(),
             [](const Member& a, const Member& b) { return std::tie(a.root, a.id) < std::tie(b.root, b.id); });
