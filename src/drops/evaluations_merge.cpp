@@ -72,7 +72,7 @@ class Merging {
     merge(all, touching_ones);
     return all;
   }
-  /// All groups together, whoever touches; with a mistake drops may merge that are far apart.
+  /// All groups together, whichever drops touch; with a mistake, drops that are far apart may merge.
   template <class N>
   std::vector<Member<N>> merged_from_anywhere() const {
     std::vector<Member<N>> all;

@@ -135,7 +135,7 @@ void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
     const random::PoissonTable table(plan_.mean / plan_.uniforms.parts);
     plan_.uniforms.first_count = table.first();
     for (const std::uint32_t t : table.thresholds()) plan_.thresholds.push_back({t});
-    // Class k stands for the drops around the quantile (k + 1/2) / classes.
+    // Class k represents the drops around the quantile (k + 1/2) / classes.
     const auto bound = [&] { return total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes); };
     double sum = 0, next = bound();
     for (const SizeCell& c : sizes_) {

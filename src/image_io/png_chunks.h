@@ -10,8 +10,8 @@
 
 namespace rainref::image_io {
 
-/// True if every chunk from the signature to IEND lies within the bytes. libpng checks the contents. It also finds damage, but would accept
-/// a file that ends after its last texel, and it prints to stderr.
+/// True if every chunk from the signature to IEND lies within the bytes. The contents are left to libpng, which also finds damage, but
+/// would accept a file that ends after its last texel, and prints to stderr.
 bool png_is_whole(std::span<const std::byte> bytes);
 
 struct PngHeader {

@@ -8,10 +8,9 @@
 
 namespace rainref {
 
-// x = m 2^e with a 53-bit integer m. Of the bits of 2/pi, those above weight 2^(2-e) add multiples of four quarter
-// turns, and those below weight 2^(-158-e) add less than 2^-105: the 160 bits between them, times m, modulo 2^160, are
-// the quarter turns with 158 bits after the point. No float comes nearer to a multiple of pi/2 than 2^-30, so enough of
-// them are left.
+// x = m 2^e with a 53-bit integer m. The bits of 2/pi above weight 2^(2-e) add multiples of four quarter turns, and those below weight
+// 2^(-158-e) add less than 2^-105. The 160 bits between them, times m, modulo 2^160, are the quarter turns with 158 bits after the point.
+// No float is nearer to a multiple of pi/2 than 2^-30, so enough bits remain.
 ReducedAngle reduce_large_angle(double x) {
   constexpr int window_words = 5;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);

@@ -109,7 +109,7 @@ inline Rearranged sum_any_order_in_pairs(const Rearranged& a, const Rearranged& 
   return a + b + c + d;
 }
 inline Rearranged uniform_quotient(float a, float b, const Rearranged&) { return Rearranged(a) / Rearranged(b); }
-/// By t t (3 - 2 t) or 3 t t - 2 t t t.
+/// t t (3 - 2 t) or 3 t t - 2 t t t.
 Rearranged smoothstep(float edge0, float edge1, const Rearranged& x);
 inline Rearranged nearest_octave(const Rearranged& x) { return Rearranged(nearest_octave(x.settled())); }
 scalar::Vec3<Rearranged> normalize(const scalar::Vec3<Rearranged>& a);

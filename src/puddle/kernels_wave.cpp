@@ -188,7 +188,7 @@ class Rows {
   }
 
  private:
-  // Number of vectors per fetched line: rows are contiguous in memory.
+  // Rows prefetched per computed row, with one line per vector; rows are contiguous in memory.
   static constexpr int rows_fetched = std::max(line / (Lanes::size() * static_cast<int>(sizeof(Storage))), 1);
   const Storage* newest(int y) const { return pass::row_at<Storage>(*job_.newest, *job_.rest_row, address_of(job_.boundary), y); }
   const float* shore(int y) const { return job_.shore ? job_.shore->row<float>(y) : nullptr; }

@@ -104,8 +104,8 @@ std::vector<std::string> line_texts(const judge::Cause& cause);
 /// "is outside the as-written envelope of puddle.shade.corrected/2", or the text for values that no known device gives, if only that fails.
 std::string outside_text(const judge::PassJudgement& pass);
 
-/// Whether a run of it fails for a reason of its own, which is then the cause: a race, an input that differs from the output it comes from,
-/// a uniform.
+/// Whether a run of it fails for a separate reason, which is then the cause: a race, an input that differs from the output it comes from, a
+/// uniform.
 bool is_broken(const judge::PassJudgement& pass);
 /// Whether it fails without a known cause.
 bool has_unknown_cause(const judge::PassJudgement& pass);

@@ -193,7 +193,8 @@ RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp
   constexpr const char* hold_water = "both footprints hold water";
   s.height = s.height * (round / guard<N>(max(both * half, N(1e-6f)), hold_water));
   if (leans(u)) {
-    // Of caps with one curvature the larger holds more, so the centre of mass is off the centre, and the drop is higher and wider below.
+    // If both caps have the same curvature the larger one holds more water. So the centre of mass is off the centre, and the drop is higher
+    // and wider below.
     const N below = (s.neck_x * s.lean_x + s.neck_y * s.lean_y) * (moment / guard<N>(max(both, N(1e-6f)), hold_water));
     const N even = one + (s.taper * s.skew) * N(u.moment);
     const N least = guard<N>(max(even + (s.taper + s.skew) * below, N(0.25f)), "the middle of mass is near the middle");

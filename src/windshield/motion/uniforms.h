@@ -1,4 +1,4 @@
-// Uniform blocks of windshield_frame and wipe_drops; the record Wiper lies in windshield/uniforms.h.
+// Uniform blocks of windshield_frame and wipe_drops; the record Wiper is in windshield/uniforms.h.
 #pragma once
 
 #include <cstdint>
