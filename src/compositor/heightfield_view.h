@@ -21,7 +21,7 @@ struct HeightfieldView {
   double columns;
   int rows;
   double origin[3];
-  bool is_level;         ///< below the first row, row x has a number only for x, the second for z, the third for y
+  bool is_level;         ///< to_grid depends only on x in its first row, on z in its second, and on y in its third
   double to_grid[3][3];  ///< rows: cells along u, cells along v, and height of a world direction
 };
 
