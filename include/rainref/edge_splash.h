@@ -1,6 +1,5 @@
-// Rain that splashes on the upper edges of what the depth buffer shows: the effect of the article "Recreating the Rain Drop
-// Effect in The Legend of Zelda: TOTK", as published and corrected. Mathematics, choices and the list of what is corrected:
-// docs/effects/edge_splash.md.
+// Rain that splashes on the upper edges of objects in the depth buffer: the effect of the article "Recreating the Rain Drop Effect in The
+// Legend of Zelda: TOTK", as published and corrected. Mathematics, choices and the list of corrections: docs/effects/edge_splash.md.
 #pragma once
 
 #include <array>
@@ -20,18 +19,18 @@ class Items;  // src/state/items.h
 
 namespace rainref::edge_splash {
 
-/// What a stored depth d in [0, 1] means: 1 / z is affine in d, with z along the view axis.
+/// How to read a stored depth d in [0, 1]: 1 / z is affine in d, with z along the view axis.
 struct DepthRange {
   double near_plane = 0.3, far_plane = 1000;  ///< [m]
-  bool reversed = true;                       ///< 1 at the near plane and 0 at the far one; else 0 and 1
+  bool reversed = true;                       ///< d is 1 at the near plane and 0 at the far plane; if false, the other way round
 
   bool operator==(const DepthRange&) const = default;
 };
-/// The distance [m] of a device depth, and back; in double.
+/// Converts a device depth to a distance [m] and back, in double.
 double distance_of(const DepthRange& range, double depth);
 double depth_of(const DepthRange& range, double distance);
 
-/// Everything that the effect depends on besides its images. Names, units and ranges: `rainref describe edge_splash`.
+/// All parameters of the effect except its images. Names, units and ranges: `rainref describe edge_splash`.
 struct Settings {
   Variant variant = Variant::corrected;
   std::uint64_t seed = 0;
@@ -49,56 +48,56 @@ struct Settings {
   double edge_threshold = 0.166, drop_speed = 100;
 
   // corrected
-  double band = 0.03;                                     ///< of the splashes beside an edge [m]
+  double band = 0.03;                                     ///< height of the splashes beside an edge [m]
   double smallest_band = 1.0 / 720, largest_band = 0.01;  ///< [picture heights]
   double edge_step = 0.15;                                ///< smallest step of distance at an edge [m]
-  double edge_bend = 0.02;                                ///< smallest share of the distance that the step is
-  double softness = 0.3;                                  ///< of every threshold: it ends at (1 + softness) times its beginning
-  double widest_angle_deg = 62;                           ///< between an edge's normal and up
-  std::array<double, 3> up{0, 1, 0};                      ///< against the fall of the rain, world axes; any length
-  double noise_size = 0.3;                                ///< of the tile [picture heights]
+  double edge_bend = 0.02;                                ///< smallest step, as a share of the distance
+  double softness = 0.3;                                  ///< softness of every threshold: it ends at (1 + softness) times its beginning
+  double widest_angle_deg = 62;                           ///< between the normal of an edge and up
+  std::array<double, 3> up{0, 1, 0};                      ///< against the direction of falling rain, world axes; any length
+  double noise_size = 0.3;                                ///< size of the tile [picture heights]
   std::array<double, 2> drop_velocity{0.25, -1.0};        ///< [picture heights/s]
-  bool has_crowns = false;                                ///< crowns that rise and fall in place of the scrolling noise
+  bool has_crowns = false;                                ///< crowns that rise and fall instead of scrolling noise
 
   std::array<double, 3> camera_position{0.15, 1.25, 1.2}, camera_target{-0.35, 0.75, -6}, camera_up{0, 1, 0};
   double vertical_fov_deg = 50;
 
   bool operator==(const Settings&) const = default;
 };
-/// What a scene of this variant that says nothing gives: `rainref describe`. Settings{} are those of corrected.
+/// Defaults of this variant: `rainref describe`. Settings{} holds the defaults of corrected.
 Settings default_settings(Variant variant);
 
-/// The images that splash takes. Row 0 is the bottom.
+/// The input images of the pass splash. Row 0 is the bottom.
 struct Inputs {
   Image colour;                    ///< 4 channels
-  bool colour_is_encoded = false;  ///< 8-bit codes are sRGB; else every number is linear radiance
-  Image depth;                     ///< the first channel, of the colour's size
-  bool depth_is_distance = false;  ///< metres along the view axis, the sky at far_plane; else device depth in Settings::depth
-  Image noise;                     ///< the first channel, a tile; empty: gradient noise or crowns made here
-  Image layer;                     ///< corrected: the first channel, 1 where splashes may be; empty: everywhere
+  bool colour_is_encoded = false;  ///< 8-bit codes are sRGB; other formats hold linear radiance
+  Image depth;                     ///< its first channel is read; same size as colour
+  bool depth_is_distance = false;  ///< true: metres along the view axis, the sky at far_plane; false: device depth as in Settings::depth
+  Image noise;                     ///< a tile, first channel; empty: gradient noise or crowns are generated
+  Image layer;                     ///< corrected: first channel, 1 where splashes are allowed; empty: everywhere
 };
 
-/// A picture on which rain splashes. Every buffer has the same bits whatever the executor's threads and the SIMD target.
+/// A picture on which rain splashes. The bits of every buffer do not depend on the number of threads or the SIMD target.
 class EdgeSplash {
  public:
-  /// Throws Error(usage) for images of different size, for a depth outside its range (the first place is named) and for
-  /// planes that are no range. The size of the colour is the picture's, whatever Settings say. The executor must outlive this.
+  /// Throws Error(usage) for images of different sizes, for a depth outside its range (it names the first place) and for an invalid depth
+  /// range. The picture has the size of the colour image, whatever Settings say. The executor must outlive this object.
   EdgeSplash(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor);
   ~EdgeSplash();
   EdgeSplash(EdgeSplash&&) noexcept;
 
-  /// To the next frame: 0, 1, 2 ... Frame n shows time n / fps; nothing is computed from one frame to the next.
+  /// Moves to the next frame: 0, 1, 2 ... Frame n shows time n / fps. No frame depends on an earlier one.
   void simulate(Recorder* recorder = nullptr);
-  /// splash and display of the frame that was simulated last.
+  /// Runs splash and display for the last simulated frame.
   void render(Recorder* recorder = nullptr);
-  /// Both: one call for each frame of a film.
+  /// Both: one call for each frame of an animation.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
   }
 
-  /// From the next render on, other pictures: colour, depth and layer, of the sizes and kinds that the constructor takes; the noise
-  /// stays. Throws as the constructor, and for another size than the first colour's; the old pictures then stay.
+  /// Replaces the pictures from the next render on: colour, depth and layer. The noise stays. Throws as the constructor does, and for
+  /// another size than the first colour image; the old pictures then stay.
   void show(const Inputs& inputs);
 
   /// Frames simulated so far.
@@ -109,12 +108,12 @@ class EdgeSplash {
   const Image& noise() const;
   const Image& colour() const;   ///< rgba16f: linear radiance, the scene's alpha
   const Image& picture() const;  ///< rgba8: display code; row 0 = bottom
-  const Image& depth() const;    ///< r32f: device depth as splash reads it
+  const Image& depth() const;    ///< r32f: device depth that splash reads
 
-  /// What is doubtful about the inputs, a sentence each: a noise map that does not tile.
+  /// Sentences about doubtful inputs, such as a noise map that does not tile.
   const std::vector<std::string>& warnings() const;
 
-  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  /// Lists the state kept between frames, for Simulation::save and load. Internal.
   void list_state(state::Items& items);
 
  private:
@@ -122,8 +121,8 @@ class EdgeSplash {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes that these settings take at their peak, within 10 %: every buffer, decoded texture and scratch of src/edge_splash/memory.cpp. The
-/// caller's images are not counted.
+/// Peak memory [byte] for these settings, within 10 %: every buffer, decoded texture and scratch of src/edge_splash/memory.cpp, without the
+/// caller's images.
 std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::edge_splash

@@ -1,4 +1,4 @@
-// Errors that reach a user: one sentence, a place, an exit code.
+// Errors shown to the user: one sentence, a place, an exit code.
 #pragma once
 
 #include <span>
@@ -9,17 +9,17 @@
 
 namespace rainref {
 
-/// Exit codes of the command line. When several hold, the more serious one wins: 5, 4, 2, 3, 1.
+/// Exit codes of the command line. If several apply, the more serious one is returned, in the order 5, 4, 2, 3, 1.
 enum class ExitCode : int {
   pass = 0,
   fail = 1,        ///< a check failed, or something was not judged
-  usage = 2,       ///< command line, scene, or an input image that cannot be decoded
+  usage = 2,       ///< invalid command line or scene, or an input image that cannot be decoded
   port_files = 3,  ///< a port's files are missing or malformed
   io = 4,          ///< unreadable, unwritable, disk full
   internal = 5     ///< a defect of rainref
 };
 
-/// A place in a text file; line and column count from 1, 0 means unknown.
+/// A place in a text file; line and column count from 1, and 0 means unknown.
 struct SourceLocation {
   std::string file;
   int line = 0;
@@ -28,7 +28,7 @@ struct SourceLocation {
   std::string text() const;
 };
 
-/// The one exception type that rainref throws on purpose. what() is the whole message for the user.
+/// The exception type of rainref. what() is the whole message for the user.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -39,11 +39,11 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// The name in `names` nearest to `wrong` by edit distance, or "" when none is near enough to be a likely slip
-/// (distance over a third of the longer length, at least 1). Ties go to the earlier name.
+/// Returns the name in `names` nearest to `wrong` by edit distance, or "" if none is near enough to be a likely typo (distance above a
+/// third of the longer length, at least 1). Ties go to the earlier name.
 std::string nearest_name(std::string_view wrong, std::span<const std::string> names);
 
-/// "; did you mean 'x'?" for the nearest name, or "" when none is near.
+/// "; did you mean 'x'?" for the nearest name, or "" if none is near.
 std::string did_you_mean(std::string_view wrong, std::span<const std::string> names);
 
 }  // namespace rainref

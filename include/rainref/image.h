@@ -1,4 +1,4 @@
-// Storage formats and the images that hold them: what a pass reads and writes, byte for byte.
+// Storage formats, and the images that passes read and write, byte for byte.
 #pragma once
 
 #include <cstddef>
@@ -27,21 +27,21 @@ struct FormatInfo {
 };
 
 const FormatInfo& info(Format format);
-/// The format of this name; throws Error(usage) naming the nearest one.
+/// Returns the format of this name. Throws Error(usage) with the nearest name.
 Format format_from_name(std::string_view name);
 
 /// A two-dimensional array of texels, channels interleaved, row 0 = v 0 of the pass that writes it.
 ///
-/// Every row has left_margin texels before and at least right_margin texels after it, so that a kernel may read a
-/// whole vector at any column and keep ghost texels for its boundary rule. Margins are zero until a kernel fills
-/// them, and are never hashed, captured or written to a file.
+/// Every row has left_margin texels before it and at least right_margin after it. A kernel may read a whole vector at any column, and keep
+/// ghost texels for its boundary rule there. Margins are zero until a kernel fills them. They are never hashed, captured or written to a
+/// file.
 class Image {
  public:
   static constexpr int left_margin = 16;
   static constexpr int right_margin = 32;
 
   Image() = default;
-  /// Zero-filled. Throws Error(usage) when a side is not in [1, 65536] or the memory cannot be had.
+  /// Zero-filled. Throws Error(usage) if a side is not in [1, 65536] or there is not enough memory.
   Image(Format format, int width, int height);
 
   Format format() const { return format_; }
@@ -64,18 +64,18 @@ class Image {
     return origin_ + static_cast<std::ptrdiff_t>(y) * stride_;
   }
   const std::byte* row_bytes(int y) const { return origin_ + static_cast<std::ptrdiff_t>(y) * stride_; }
-  /// Bytes from one row to the next.
+  /// Distance between rows [byte].
   std::ptrdiff_t stride() const { return stride_; }
 
-  /// Bytes that an image of this format and size occupies.
+  /// Memory of an image of this format and size [byte].
   static std::uint64_t memory_bytes(Format format, int width, int height);
 
-  /// Another image with the same texels in the same memory, which is given back with the last of them. From the first call on nobody may
-  /// change the texels: to ask one of these images for a row to write throws Error(internal).
+  /// Returns another image that shares this one's texels; the last of them frees the memory. From the first call on, the texels must not
+  /// change: asking one of these images for a writable row throws Error(internal).
   Image share();
-  /// The same of an image that is shared already; of another one, a copy that may be shared.
+  /// The same for an image that is already shared; otherwise a copy that may be shared.
   Image shared() const;
-  /// Of format, size and texels, margins left out. Of shared texels it is computed once.
+  /// Hash of format, size and texels without margins. It is computed once for shared texels.
   Hash128 content_hash() const;
 
  private:
@@ -92,13 +92,12 @@ class Image {
   int width_ = 0, height_ = 0;
   std::ptrdiff_t stride_ = 0;
   std::unique_ptr<std::byte, Free> memory_;
-  std::shared_ptr<Shared> shared_;  // then it holds the memory
+  std::shared_ptr<Shared> shared_;  // if set, it owns the memory
   std::byte* origin_ = nullptr;
 };
 
-/// What a buffer looks like from outside: its channels, in order, taken from one image or from several single-channel
-/// images of one size (`parts`); channels beyond the parts are zero. Canonical bytes are its rows without padding,
-/// little endian.
+/// External view of a buffer: its channels in order, from one image or from several single-channel images of one size (`parts`). Channels
+/// without a part are zero. The canonical bytes are its rows without padding, little endian.
 struct BufferView {
   Format format;
   std::vector<const Image*> parts;
@@ -108,7 +107,7 @@ struct BufferView {
   int width() const { return parts.front()->width(); }
   int height() const { return parts.front()->height(); }
   std::size_t row_bytes() const { return static_cast<std::size_t>(width()) * info(format).texel_bytes(); }
-  /// Writes the canonical bytes of row y to out (row_bytes() of them).
+  /// Writes the canonical bytes of row y to out (row_bytes() bytes).
   void copy_row(int y, std::byte* out) const;
 };
 

@@ -1,5 +1,5 @@
-// Rain on a puddle: the ripples of seed article "Rain drops on a puddle" (Nikolaos Papadopoulos, 4rknova.com), as
-// published and corrected. Mathematics, choices and the list of what is corrected: docs/effects/puddle.md.
+// Rain on a puddle: the ripples of the article "Rain drops on a puddle" (Nikolaos Papadopoulos, 4rknova.com), as published and corrected.
+// Mathematics, choices and the list of corrections: docs/effects/puddle.md.
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ namespace rainref::puddle {
 enum class Boundary : std::uint8_t {
   reflecting,  ///< edge texels repeat outside (clamp): waves reflect upright
   periodic,    ///< opposite edges join (repeat)
-  fixed        ///< the rest value outside: waves reflect inverted
+  fixed        ///< the rest value lies outside: waves reflect inverted
 };
 enum class Shape : std::uint8_t {
   natural,  ///< an irregular shore inside the rectangle, wet ground around it
   basin     ///< water of constant depth all over
 };
 
-/// Everything that a puddle depends on besides its images. Names, units and ranges: `rainref describe puddle`.
+/// All parameters of a puddle except its images. Names, units and ranges: `rainref describe puddle`.
 struct Settings {
   Variant variant = Variant::corrected;
   std::uint64_t seed = 0;
@@ -55,45 +55,44 @@ struct Settings {
   std::array<int, 2> grid{768, 512};
   double cell_size = 0.004, wave_speed = 0.25, step_rate = 240, rim_width = 0, shore_width = 0.004, ground_reach = 0.3, exposure = 0.7;
   Shape shape = Shape::natural;
-  int bed_columns = 768;  ///< of the image of a natural bed; its rows follow the grid
+  int bed_columns = 768;  ///< columns of the image of a natural bed; its rows follow from the grid
   bool exact_fresnel = true;
   double rain_rate = 5, smallest_drop = 1.6;
   std::string shelter;  ///< roofs over the water, "x0 z0 x1 z1; ..." [m]
-  std::string objects;  ///< that move through it, "radius depth: time x z, ...; ..." [m, s]
+  std::string objects;  ///< objects that move through the water, "radius depth: time x z, ...; ..." [m, s]
 
   std::array<double, 3> camera_position{0.25, 0.36, 1.8}, camera_target{0.0, 0.0, 0.1}, camera_up{0, 1, 0};  ///< world, y up [m]
   double vertical_fov_deg = 36;
 
   bool operator==(const Settings&) const = default;
 };
-/// What a scene of this variant that says nothing gives: `rainref describe`. Settings{} are those of corrected.
+/// Defaults of this variant: `rainref describe`. Settings{} holds the defaults of corrected.
 Settings default_settings(Variant variant);
 
-/// The images that shade takes. Row 0 is v = 0.
+/// The input images of the pass shade. Row 0 is v = 0.
 struct Surroundings {
-  Image environment;  ///< 4 channels; latitude/longitude, or six stacked faces
+  Image environment;  ///< 4 channels; latitude/longitude panorama, or six stacked cube faces
   bool environment_is_cube = false;
-  bool environment_is_encoded = false;  ///< display-encoded rather than linear
-  Image ground;                         ///< 4 channels, a tile; empty: asphalt made here
+  bool environment_is_encoded = false;  ///< display-encoded instead of linear
+  Image ground;                         ///< 4 channels, a tile; empty: asphalt is generated
   bool ground_is_encoded = false;
-  Image shelter;  ///< corrected: over the water's rectangle, in its first channel the share of the rain that falls; empty: all of it
+  Image shelter;  ///< corrected: share of the rain that falls, in the first channel, over the water's rectangle; empty: all of it
 };
 
-/// A puddle and its water. Advance it frame by frame; every buffer has the same bits whatever the executor's threads
-/// and the SIMD target.
+/// A puddle and its water, advanced frame by frame. The bits of every buffer do not depend on the number of threads or the SIMD target.
 class Puddle {
  public:
-  /// Throws Error(usage) for settings that cannot run: an unstable Courant number names the limit, sizes that need too
-  /// much memory name the need; and without an environment. The executor must outlive the puddle.
+  /// Throws Error(usage) for settings that cannot run, and without an environment. For an unstable Courant number the message names the
+  /// limit; for sizes that need too much memory it names the need. The executor must outlive the puddle.
   Puddle(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor);
   ~Puddle();
   Puddle(Puddle&&) noexcept;
 
-  /// raindrops and wave_step from time frame / fps to (frame + 1) / fps. Frames are 0, 1, 2 ... in this order.
+  /// Runs raindrops and wave_step from time frame / fps to (frame + 1) / fps. Frames run in the order 0, 1, 2 ...
   void simulate(Recorder* recorder = nullptr);
-  /// surface_hit, shade and display of the present water.
+  /// Runs surface_hit, shade and display for the current water.
   void render(Recorder* recorder = nullptr);
-  /// Both: one call for each frame of a film.
+  /// Both: one call for each frame of an animation.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
@@ -101,15 +100,15 @@ class Puddle {
 
   /// Frames simulated so far.
   int frame() const;
-  /// Wave steps made so far.
+  /// Wave steps run so far.
   std::int64_t steps() const;
-  /// c dt / dx; as-published sqrt(1/2) times the offset of the neighbours.
+  /// c dt / dx; for as-published sqrt(1/2) times the offset of the neighbours.
   double courant() const;
 
-  /// Water: the newest and the previous level, in the storage type; single-channel planes.
+  /// The newest and the previous level of the water, in the storage type; single-channel planes.
   const Image& newest() const;
   const Image& previous() const;
-  /// As `wave` is captured: newest and previous as channels of the storage format.
+  /// The captured buffer `wave`: newest and previous level as channels of the storage format.
   BufferView wave() const;
   /// Overwrites both levels with heights (corrected: metres; as-published: decoded units), row-major, rounded to the
   /// storage type.
@@ -120,7 +119,7 @@ class Puddle {
   const Image& colour() const;   ///< rgba16f: linear radiance
   const Image& picture() const;  ///< rgba8: display code values; row 0 = bottom
 
-  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  /// Lists the state kept between frames, for Simulation::save and load. Internal.
   void list_state(state::Items& items);
 
  private:
@@ -128,8 +127,8 @@ class Puddle {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes that a puddle of these settings takes at its peak, within 10 %: every buffer, decoded texture, mip and scratch of
-/// src/puddle/memory.cpp. The caller's images are not counted.
+/// Peak memory [byte] of a puddle with these settings, within 10 %: every buffer, decoded texture, mip and scratch of
+/// src/puddle/memory.cpp, without the caller's images.
 std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::puddle

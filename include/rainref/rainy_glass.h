@@ -1,5 +1,5 @@
-// Rain streaking down glass: raindrop impacts and rivulets from two baked maps, after Toadstorm's conservatory shader, as
-// published and corrected. Mathematics, choices and the list of what is corrected: docs/effects/rainy_glass.md.
+// Rain streaking down glass: raindrop impacts and rivulets from two baked maps, after Toadstorm's conservatory shader, as published and
+// corrected. Mathematics, choices and the list of corrections: docs/effects/rainy_glass.md.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ namespace rainref::rainy_glass {
 enum class Shape : std::uint8_t {
   pane,    ///< an upright plane across the view
   sphere,  ///< a ball of glass
-  image    ///< world normals and coverage by pixel: Surroundings::normals
+  image    ///< world normals and coverage per pixel: Surroundings::normals
 };
 
-/// Everything that the effect depends on besides its images. Names, units and ranges: `rainref describe rainy_glass`.
+/// All parameters of the effect except its images. Names, units and ranges: `rainref describe rainy_glass`.
 struct Settings {
   Variant variant = Variant::corrected;
   std::uint64_t seed = 0;
@@ -37,32 +37,32 @@ struct Settings {
   Rounding rounding = Rounding::rne;
   int droplet_count = 2200, trail_count = 22;
   double largest_droplet = 0.028, smallest_droplet = 0.0035;  ///< radius [tile]
-  double trail_half_width = 0.011;                            ///< of the widest head [tile]
+  double trail_half_width = 0.011;                            ///< half width of the widest trail's head [tile]
   double contact_angle_deg = 45;
   int flow_cells = 8;
   double flow_gain = 1.2;
 
   // The glass.
   Shape shape = Shape::pane;
-  double distance = 0.5;                        ///< of the pane, or the centre of the sphere, along the horizontal view [m]
-  double yaw_deg = 0;                           ///< turn of the pane about the vertical
+  double distance = 0.5;                        ///< of the pane, or of the sphere's centre, along the horizontal view [m]
+  double yaw_deg = 0;                           ///< rotation of the pane about the vertical
   double radius = 0.2;                          ///< of the sphere [m]
   double drop_tile = 0.36, rivulet_tile = 0.4;  ///< side of a map on the glass [m]
 
   // The rain.
   double rain_amount = 0.9;
   double drop_period = 9, flow_period = 3;  ///< [s]
-  double flow_strength = 0.015;             ///< way of a rivulet in a cycle at full flow [tile]
+  double flow_strength = 0.015;             ///< distance that a rivulet runs in a cycle at full flow [tile]
   bool use_probe = false;
   double probe_level = 1;
 
-  double distortion = 0.02;  ///< as-published: pictures per unit of the summed channels
+  double distortion = 0.02;  ///< as-published: picture sizes per unit of the summed channels
 
   // corrected
   double rivulet_speed = 0.03;  ///< mean speed down the glass [m/s]
-  double run = 0.9;             ///< share of that speed by which rivulets slow down and run
+  double run = 0.9;             ///< share of that speed by which rivulets slow down and speed up
   double rivulet_amount = 1, impact = 0.04, rim = 0.06, water_ior = 1.333;
-  double wind = 6, fall_speed = 6;  ///< of the rain, toward the glass and down [m/s]
+  double wind = 6, fall_speed = 6;  ///< speed of the rain toward the glass, and down [m/s]
 
   double exposure = 1;  ///< [EV]
 
@@ -71,37 +71,38 @@ struct Settings {
 
   bool operator==(const Settings&) const = default;
 };
-/// What a scene of this variant that says nothing gives: `rainref describe`. Settings{} are those of corrected.
+/// Defaults of this variant: `rainref describe`. Settings{} holds the defaults of corrected.
 Settings default_settings(Variant variant);
 
 /// The images of the scene. Row 0 is v = 0, the bottom; colours are linear radiance.
 struct Surroundings {
   Image colour;               ///< width x height, 4 channels
-  Image depth;                ///< r32f of the same size, along the view axis [m], finite, the sky far away; used by corrected
-  Image normals;              ///< Shape::image: 4 channels of that size, world normal and coverage
-  Image raindrops, rivulets;  ///< maps instead of the bakes, 4 channels, any size; empty: baked
-  Image probe;                ///< latitude/longitude panorama for use_probe, 4 channels
+  Image depth;                ///< r32f of the same size, along the view axis [m], finite, the sky far away; only for corrected
+  Image normals;              ///< for Shape::image: 4 channels of that size, world normal and coverage
+  Image raindrops, rivulets;  ///< maps that replace the baked ones, 4 channels, any size; empty: baked
+  Image probe;                ///< latitude/longitude panorama, read if use_probe is set, 4 channels
 };
 
-/// Wet glass before a still scene. Every buffer has the same bits whatever the executor's threads and the SIMD target.
+/// Wet glass before a still scene. The bits of every buffer do not depend on the number of threads or the SIMD target.
 class RainyGlass {
  public:
-  /// Throws Error(usage) for settings or images that cannot run, naming key, expected and found. The executor must outlive this.
+  /// Throws Error(usage) for settings or images that cannot run, and names key, expected and found. The executor must outlive this object.
   RainyGlass(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor);
   ~RainyGlass();
   RainyGlass(RainyGlass&&) noexcept;
 
-  /// To the next frame: 0, 1, 2 ... Frame n shows time n / fps; nothing is computed from one frame to the next.
+  /// Moves to the next frame: 0, 1, 2 ... Frame n shows time n / fps. No frame depends on an earlier one.
   void simulate(Recorder* recorder = nullptr);
-  /// rain_on_glass and display of the frame that was simulated last. The maps are baked the first time.
+  /// Runs rain_on_glass and display for the last simulated frame. The first call bakes the maps.
   void render(Recorder* recorder = nullptr);
-  /// Both: one call for each frame of a film.
+  /// Both: one call for each frame of an animation.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
   }
 
-  /// From the next render on, another scene behind the glass: Surroundings::colour and, corrected, depth. Throws as the constructor.
+  /// Replaces the scene behind the glass from the next render on: Surroundings::colour and, for corrected, depth. Throws as the constructor
+  /// does.
   void show(const Image& colour, const Image& depth);
 
   /// Frames simulated so far.
@@ -109,12 +110,12 @@ class RainyGlass {
 
   const Image& raindrops() const;    ///< map_storage: normal x, y, time offset, height
   const Image& rivulets() const;     ///< map_storage: normal x, y, flow across, flow along
-  const Image& surface() const;      ///< rgba32f: place on the glass u, v [m], distance along the view axis [m], 0
+  const Image& surface() const;      ///< rgba32f: position on the glass u, v [m], distance along the view axis [m], 0
   const Image& orientation() const;  ///< rgba16f: world normal toward the rain, coverage
   const Image& colour() const;       ///< rgba16f: linear radiance
   const Image& picture() const;      ///< rgba8: display code; row 0 = bottom
 
-  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  /// Lists the state kept between frames, for Simulation::save and load. Internal.
   void list_state(state::Items& items);
 
  private:
@@ -122,14 +123,14 @@ class RainyGlass {
   std::unique_ptr<State> state_;
 };
 
-/// How badly a map's opposite edges disagree: the mean step of its channels across the edges over that between neighbours
-/// inside; about 1 for a tile, 0 for a constant.
+/// Measures how badly a map tiles: the mean step of its channels across opposite edges over the mean step between neighbours inside. About
+/// 1 for a tile, 0 for a constant.
 double seam(const Image& map);
-/// Above this a map does not tile.
+/// A map with a larger seam() does not tile.
 inline constexpr double worst_seam = 4;
 
-/// Bytes that settings take at their peak, within 10 %: every buffer, decoded map, mip and scratch of src/rainy_glass/memory.cpp. The
-/// caller's images are not counted.
+/// Peak memory [byte] for these settings, within 10 %: every buffer, decoded map, mip and scratch of src/rainy_glass/memory.cpp, without
+/// the caller's images.
 std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::rainy_glass

@@ -1,4 +1,4 @@
-// What an effect tells about each pass it runs: the hook of hashing, timing and capture.
+// The hook that an effect calls for each pass, used for hashing, timing and capture.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct RecordView {
   std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(data), count * record_bytes}; }
 };
 
-/// How a pass reads an image: `none` loads by integer texel.
+/// How a pass reads an image; `none` loads by integer texel.
 enum class Filter : std::uint8_t { none, nearest, linear };
 /// "none", "nearest" or "linear".
 constexpr const char* name(Filter filter) {
@@ -27,25 +27,25 @@ constexpr const char* name(Filter filter) {
   return names[static_cast<int>(filter)];
 }
 
-/// One input of a pass: an image, records, a texture, which brings its own address rules and border, or the mip levels of one image.
+/// One input of a pass: an image, records, a texture with its own address rules and border, or the mip levels of one image.
 struct PassInput {
   std::string_view name;
   std::variant<BufferView, RecordView, const Texture*, std::span<const Image>> content;
   Filter filter = Filter::none;
   Filter mip_filter = Filter::none;  ///< `none`: level 0 only
-  Address address = Address::clamp;  ///< of a BufferView, in u and v
-  std::array<float, 4> border{};     ///< of a BufferView
+  Address address = Address::clamp;  ///< for a BufferView, in u and v
+  std::array<float, 4> border{};     ///< for a BufferView
 };
 
-/// A run of a pass before it happens.
+/// Describes a run of a pass before it starts.
 struct PassStart {
   int frame, step;
   std::string_view pass;
   std::span<const PassInput> inputs;
-  std::span<const std::byte> uniforms;  ///< the uniform block, as a GPU takes it
-  float time, dt;                       ///< [s] of the frame's start, and that this run advances; each rounded once
+  std::span<const std::byte> uniforms;  ///< the uniform block in the layout of a GPU
+  float time, dt;                       ///< [s] start of the frame, and time step of this run; each rounded once
   Rounding store_rounding = Rounding::rne;
-  int level = -1;  ///< the mip level, where the pass runs once for each
+  int level = -1;  ///< the mip level, if the pass runs once for each
 };
 
 /// One output of a pass.
@@ -54,25 +54,24 @@ struct PassOutput {
   std::variant<BufferView, RecordView> content;
 };
 
-/// One run of a pass. step counts the substeps in a frame.
+/// One run of a pass. step counts the substeps of a frame.
 struct PassCall {
   int frame, step;
   std::string_view pass;
   std::span<const PassOutput> outputs;
-  double seconds;  ///< time the pass took
+  double seconds;  ///< duration of the pass [s]
   int level = -1;
 };
 
 class Recorder {
  public:
   virtual ~Recorder() = default;
-  /// Whether it reads the buffers of this pass in this frame. Where not, an effect may tell it of a list of records as empty: to
-  /// list drops costs more than some passes take.
+  /// Returns whether the recorder reads the buffers of this pass in this frame. If not, an effect may pass an empty list of records,
+  /// because listing drops costs more than some passes.
   virtual bool reads(int /*frame*/, std::string_view /*pass*/) const { return true; }
-  /// Called before pass() of the same run, while the inputs hold what the pass takes: a pass may overwrite them. From
-  /// the thread that runs the effect.
+  /// Called before pass() of the same run, because a pass may overwrite its inputs. Runs on the thread of the effect.
   virtual void before(const PassStart&) {}
-  /// Called after each pass, from the thread that runs the effect. Buffers may change after it returns.
+  /// Called after each pass, on the thread of the effect. Buffers may change after it returns.
   virtual void pass(const PassCall& call) = 0;
 };
 

@@ -1,4 +1,4 @@
-// A scene as text, for effects that take a whole scene rather than a struct of settings.
+// A scene as text, for effects that take a whole scene instead of a struct of settings.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 
 namespace rainref {
 
-/// What a scene file says, and changes to it. Keys, units and defaults: `rainref describe EFFECT`; every key may be left out, `effect`
-/// and `variant` too: they are then the effect whose constructor takes this, and "corrected".
+/// The text of a scene file and changes to it. Keys, units and defaults: `rainref describe EFFECT`. Every key may be left out. The default
+/// of `effect` is the effect whose constructor takes this text; the default of `variant` is "corrected".
 struct SceneText {
-  std::string toml{};              ///< the text of a scene file; "": every default
-  std::vector<std::string> set{};  ///< "key=value" each, as `rainref run --set` takes them: they win over the text
-  std::string file = "scene";      ///< what errors call the text; files that it names lie in this one's folder
+  std::string toml{};              ///< the text of a scene file; "": all defaults
+  std::vector<std::string> set{};  ///< "key=value" each, as for `rainref run --set`; overrides the text
+  std::string file = "scene";      ///< name of the text in errors; files that the scene names are relative to its folder
 };
 
 }  // namespace rainref

@@ -1,4 +1,4 @@
-// Any effect, as a scene says it: one interface over all of them.
+// One interface to all effects: runs the effect that a scene names.
 #pragma once
 
 #include <cstdint>
@@ -22,30 +22,30 @@ namespace scene {
 class Scenery;  // src/scene/scenery.h
 }
 
-/// What an effect holds under a name: an image, or records.
+/// A named buffer of an effect: an image, or records.
 using Buffer = std::variant<BufferView, RecordView>;
 
-/// The text of a scene file, with changes to it. Where there is no such file, of the scene of this name that came with rainref
-/// ("puddle/default.toml": `rainref list`). Of a PNG or EXR that rainref wrote: the scene that is in it, up to that frame. Throws Error(io)
-/// when it cannot be read, Error(usage) for another picture.
+/// Reads a scene file and adds changes to it. If no such file exists, the bundled scene of that name is used ("puddle/default.toml":
+/// `rainref list`). A PNG or EXR that rainref wrote gives the scene stored in it, up to that frame. Throws Error(io) if it cannot be read,
+/// and Error(usage) for another picture.
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set = {});
 
-/// Where made images that are the same in every run (the street around a puddle) are kept for later runs, by every simulation of this
-/// process; an empty path: nowhere. Without this call as `rainref run` keeps them: in $XDG_CACHE_HOME/rainref, or ~/.cache/rainref. No bit
-/// hangs on it. Throws Error(usage) once a simulation was opened.
+/// Sets the folder in which all simulations of this process keep generated images that are the same in every run (such as the street around
+/// a puddle) for later runs. An empty path: they are not kept. Without this call the folder is that of `rainref run`:
+/// $XDG_CACHE_HOME/rainref, or ~/.cache/rainref. Does not affect results. Throws Error(usage) after a simulation has been opened.
 void keep_images(const std::filesystem::path& folder);
 
-/// The street at night that scenes without pictures show, for windshield::Surroundings. clear_lane: no car stands in the lane that one
-/// drives along.
+/// Returns the street at night that scenes without pictures show, for windshield::Surroundings. clear_lane: no car stands in the lane of
+/// the camera's car.
 std::shared_ptr<const scene::Scenery> street_at_night(std::uint64_t seed = 1, bool clear_lane = false);
 
-/// A scene that runs. Every buffer has the same bits whatever the executor's threads, the SIMD target and the caller's floating-point
-/// state, and the bits of `rainref hash` of the same scene.
+/// A running scene. The bits of every buffer do not depend on the number of threads, the SIMD target or the caller's floating-point state.
+/// They are those that `rainref hash` prints for the same scene.
 class Simulation {
  public:
-  /// Opens a scene; `effect` must be said in its text or in `set`, `variant` is "corrected" unless said. Its files are read, pictures
-  /// that it does not name are made, and what does not fit into memory is refused first. Throws Error, naming place, key, expected and
-  /// found: usage for what no scene may say and what cannot run, io for files. The executor must outlive the simulation.
+  /// Opens a scene. Its text or `set` must give `effect`; `variant` defaults to "corrected". Reads the scene's files and generates the
+  /// pictures that it does not name; first refuses a scene that does not fit into memory. Throws Error with place, key, expected and found:
+  /// usage for an invalid scene or one that cannot run, io for files. The executor must outlive the simulation.
   Simulation(const SceneText& scene, const parallel::Executor& executor);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
@@ -55,50 +55,49 @@ class Simulation {
   Variant variant() const;
   /// Every key of the scene with its value, as JSON: {"key": value, ...}.
   std::string scene_json() const;
-  /// The frames that the scene asks for (run.frames). More may be simulated.
+  /// Number of frames that the scene asks for (run.frames). More may be simulated.
   int frames() const;
-  /// What is doubtful about the scene's files, a sentence each.
+  /// Sentences about doubtful properties of the scene's files.
   const std::vector<std::string>& warnings() const;
 
-  /// To the next frame: 0, 1, 2 ... Nothing is rendered.
+  /// Simulates the next frame (0, 1, 2 ...) without rendering it.
   void simulate(Recorder* recorder = nullptr);
-  /// The frame that was simulated last; a traced picture of it where the scene wants one. Once for each frame at most where textures have
-  /// a past (windshield).
+  /// Renders the last simulated frame, by ray tracing if the scene asks for it. Call it at most once for each frame if textures carry over
+  /// between frames (windshield).
   void render(Recorder* recorder = nullptr);
-  /// Both: one call for each frame of a film.
+  /// Both: one call for each frame of an animation.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
   }
-  /// In place of render, once for a frame, where its picture is not wanted: what render would leave for later frames, whose pictures are
-  /// the same. To come to frame n quickly: simulate and skip the frames before it.
+  /// Replaces render, once for each frame whose picture is not wanted. It updates only what later frames need, so their pictures are the
+  /// same. To reach frame n quickly, simulate and skip the frames before it.
   void skip(Recorder* recorder = nullptr);
   /// Frames simulated so far.
   int frame() const;
 
-  /// What is held between frames: load() into a simulation of the same scene goes on with the same bits, whatever it did before. Without
-  /// pictures: these come with the next render.
+  /// Returns the state kept between frames. After load() a simulation of the same scene continues with the same bits, whatever it did
+  /// before. Pictures are not included; the next render makes them.
   std::vector<std::byte> save() const;
-  /// Throws Error(usage) for bytes that are no state, damaged, of another golden generation, of another scene (run.frames may differ),
-  /// of other pictures, or with numbers that cannot be; the simulation then is as it was.
+  /// Throws Error(usage) for bytes that are no state, are damaged, hold impossible numbers, or belong to another golden generation, another
+  /// scene (run.frames may differ) or other pictures. The simulation is then unchanged.
   void load(std::span<const std::byte> state);
-  /// Gives a key of the scene another value, as TOML writes it ("rain.rate", "30"), from the next frame on: save, rebuild, load. Each
-  /// texel and each drop keeps its numbers, the frame its number. Throws Error as the constructor does, and Error(usage) naming the key
-  /// where the state does not fit the new scene: effect, variant, sizes, storage, fewer drops than there are; the simulation then is
-  /// as it was.
+  /// Sets a key of the scene to another value, written as in TOML ("rain.rate", "30"), from the next frame on: saves, rebuilds, loads.
+  /// Every texel and drop keeps its values, and the frame its number. Throws Error as the constructor does, and Error(usage) with the key
+  /// if the state does not fit the new scene: effect, variant, sizes, storage, fewer drops than exist. The simulation is then unchanged.
   void set(const std::string& key, const std::string& value);
 
-  /// The picture that was rendered last: rgba8 display code, row 0 = bottom.
+  /// The last rendered picture: rgba8 display code, row 0 = bottom.
   const Image& picture() const;
-  /// Names of what is held between frames, in the order of the passes: those of `rainref describe`.
+  /// Names of the buffers kept between frames, in the order of the passes, as in `rainref describe`.
   std::vector<std::string> buffers() const;
-  /// One of them, row 0 = bottom, valid until the next call that is not const: planes and strides of an image, or records. Throws
+  /// Returns one of these buffers, row 0 = bottom, valid until the next non-const call: planes and strides of an image, or records. Throws
   /// Error(usage) with the nearest name.
   Buffer buffer(std::string_view name) const;
 
-  /// The picture, 8 bits RGB. Throws Error(io); nothing half-written stays.
+  /// Writes the picture as 8-bit RGB. Throws Error(io); no partial file stays.
   void write_png(const std::filesystem::path& path) const;
-  /// Radiance and what belongs to it as named channels, half and float as the effect stores them. Throws like write_png.
+  /// Writes radiance and its auxiliary images as named channels, half or float as the effect stores them. Throws like write_png.
   void write_exr(const std::filesystem::path& path) const;
 
  private:

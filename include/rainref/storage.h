@@ -1,11 +1,11 @@
-// How one channel is stored: strong types, so that an overload of load or store picks the conversion.
+// Storage types of one channel. They are distinct types, so that an overload of load or store selects the conversion.
 #pragma once
 
 #include <cstdint>
 
 namespace rainref {
 
-/// How a float becomes a stored value: to nearest (ties to even) or toward zero, as many GPUs do.
+/// How a float is rounded to a stored value: to nearest (ties to even), or toward zero as on many GPUs.
 enum class Rounding : std::uint8_t { rne, rtz };
 /// "rne" or "rtz".
 constexpr const char* name(Rounding rounding) { return rounding == Rounding::rne ? "rne" : "rtz"; }

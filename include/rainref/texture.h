@@ -1,11 +1,11 @@
-// Decoded images as passes sample them.
+// Decoded images that passes sample.
 #pragma once
 
 #include <cstdint>
 
 namespace rainref {
 
-/// What a lookup outside the image gives.
+/// How a lookup outside the image is resolved.
 enum class Address : std::uint8_t {
   clamp,   ///< the nearest texel of the edge
   repeat,  ///< the image is a tile
@@ -18,11 +18,11 @@ constexpr const char* name(Address address) {
   return names[static_cast<int>(address)];
 }
 
-/// What the texels were stored as, before they were decoded to float: a texture unit may filter at that precision.
+/// Storage precision of the texels before they were decoded to float; a texture unit may filter at that precision.
 enum class TexelPrecision : std::uint8_t { float32, float16, unorm8 };
 
-/// A view of float texels with mip levels. Level l has width[l] x height[l] texels, row-major, channels interleaved,
-/// starting at texel offset[l]. Row 0 is v = 0.
+/// View of float texels with mip levels. Level l has width[l] x height[l] texels, row-major, channels interleaved, starting at texel
+/// offset[l]. Row 0 is v = 0.
 struct Texture {
   static constexpr int max_levels = 17;
   const float* texels = nullptr;

@@ -1,4 +1,4 @@
-// The two forms that every effect has.
+// The two variants of every effect.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 namespace rainref {
 
 enum class Variant : std::uint8_t {
-  as_published,  ///< what the source says, its defects included
-  corrected      ///< in metres and seconds, its defects mended
+  as_published,  ///< the source's arithmetic, defects included
+  corrected      ///< in metres and seconds, defects fixed
 };
 /// "as-published" or "corrected", as scenes and packs say it.
 constexpr const char* name(Variant variant) { return variant == Variant::corrected ? "corrected" : "as-published"; }
-/// The one of that name; as_published for any other.
+/// Returns the variant of that name, as_published for any other name.
 constexpr Variant variant_from_name(std::string_view name) { return name == "corrected" ? Variant::corrected : Variant::as_published; }
 
 }  // namespace rainref

@@ -12,14 +12,14 @@ namespace rainref {
 /// "major.minor.patch" of this build.
 const char* version();
 
-/// Generation of the golden results. It rises when a change alters the bits of any published pass;
-/// CHANGELOG.md says which and why. It seeds every hash, so hashes of two generations never compare equal by accident.
+/// Generation of the golden results. It rises when a change alters the bits of any published pass; CHANGELOG.md says which and why. It
+/// seeds every hash, so hashes of two generations never compare equal by accident.
 inline constexpr unsigned golden_generation = 2;
 
-/// Which bits this build gives: the first 32 hexadecimal digits of the SHA-256 of tests/golden/hashes.txt, where each golden change
-/// shows, also one that leaves the generation as it is.
+/// Identifies the bits of this build: the first 32 hexadecimal digits of the SHA-256 of tests/golden/hashes.txt. It changes with each
+/// golden change, also if the generation stays.
 const char* golden_hash();
-/// The same of the lines that begin with this effect's name and "/", which no other effect changes; "" for one that has none.
+/// The same of the lines that begin with this effect's name and "/", so no other effect changes it; "" for an effect without such lines.
 const char* golden_hash(std::string_view effect);
 
 }  // namespace rainref

@@ -41,7 +41,7 @@ void AtomicFile::create_temporary() {
   try {
     target_ = followed(path_);
     if (!path_.has_filename()) fail(path_.empty() ? ENOENT : EISDIR);
-    // The final name is no part of the temporary one: it may already be of full length.
+    // The temporary's name does not contain the final name, which may already have the maximum length.
     temporary_.emplace(target_.parent_path(), Hidden::Kind::file);
   } catch (const std::system_error& e) {
     fail(e.code().value());
@@ -65,7 +65,7 @@ void AtomicFile::commit() {
   require_open();
   flush();
   if (temporary_ && ::fsync(descriptor_) != 0) fail(errno);
-  // On some file systems the disk turns out to be full only here. The descriptor is gone whatever close returns.
+  // Some file systems report a full disk only here. The descriptor is closed whatever close returns.
   if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail(errno);
   if (!temporary_) return;
   try {
@@ -90,7 +90,7 @@ void AtomicFile::write_through(std::span<const std::byte> bytes) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
-    // A short write is no error yet: the next one either goes on or says why not. Zero bytes would repeat for ever.
+    // A short write is no error yet: the next one either continues or fails with the reason. Zero bytes would repeat forever.
     if (written == 0) fail(EIO);
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }

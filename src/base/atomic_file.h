@@ -1,4 +1,4 @@
-// Files that appear under their final name only when whole.
+// Files that appear under their final name only when complete.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace rainref {
 
-/// A file being written. Its bytes go to a hidden temporary in the same folder; commit() gives it its name. Without a
-/// commit, whatever stood under that name stays untouched and the temporary is removed (base/hidden.h).
+/// A file being written. Its bytes go to a hidden temporary in the same folder; commit() renames it. Without a commit, an existing file of
+/// that name is unchanged and the temporary is removed (base/hidden.h).
 ///
-/// A symbolic link is written through; one that leads nowhere has the file made that it names. A path that exists and is
-/// no regular file (/dev/stdout, a pipe) is written straight away, because a rename would replace the device itself.
+/// A symbolic link is followed; if its target does not exist, the target is created. A path that exists and is no regular file
+/// (/dev/stdout, a pipe) is written directly, because a rename would replace the device itself.
 ///
-/// Every failure is Error(io), naming the file and the system's reason. After a failure the temporary is already gone
-/// and the object refuses further use. One object belongs to one thread; two objects never share a temporary.
+/// Every failure throws Error(io) with the file and the system's reason. After a failure the temporary is already removed and the object
+/// refuses further use. One object belongs to one thread; two objects never share a temporary.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -30,9 +30,9 @@ class AtomicFile {
 
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-  /// Flush, fsync, rename. Call once, last.
+  /// Flushes, syncs and renames. Call once, last.
   void commit();
-  /// What commit() replaces: the path with its own links followed.
+  /// The path that commit() replaces: the given path with its links followed.
   const std::filesystem::path& target() const { return target_; }
 
  private:
@@ -43,14 +43,14 @@ class AtomicFile {
   void discard() noexcept;
   [[noreturn]] void fail(int error);
 
-  std::filesystem::path path_;       // as the caller named it, for messages
-  std::filesystem::path target_;     // what the rename replaces
-  std::optional<Hidden> temporary_;  // none when writing straight to a device
-  std::vector<std::byte> pending_;   // small writes are gathered
+  std::filesystem::path path_;       // as the caller gave it, for messages
+  std::filesystem::path target_;     // path that the rename replaces
+  std::optional<Hidden> temporary_;  // none when writing directly to a device
+  std::vector<std::byte> pending_;   // buffer for small writes
   int descriptor_ = -1;
 };
 
-/// Writes a whole file; failures as AtomicFile.
+/// Writes a whole file. Failures are those of AtomicFile.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file(const std::filesystem::path& path, std::string_view text);
 

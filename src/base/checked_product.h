@@ -1,4 +1,4 @@
-// Products of sizes that files state: where std::size_t has 32 bits, 65536 x 65536 texels of four bytes are 0.
+// Checked products of sizes stated by files. With a 32-bit std::size_t, 65536 x 65536 texels of four bytes would be 0.
 #pragma once
 
 #include <concepts>
@@ -7,13 +7,13 @@
 
 namespace rainref {
 
-/// a * b, or nothing where T does not hold it.
+/// a * b, or nothing if T cannot hold it.
 template <std::unsigned_integral T>
 constexpr std::optional<T> checked_product(T a, T b) {
   if (b != 0 && a > std::numeric_limits<T>::max() / b) return std::nullopt;
   return a * b;
 }
-/// a * b * c, or nothing. A factor of 0 makes 0 of everything before it that fits.
+/// a * b * c, or nothing. A factor of 0 gives 0 if the product of the factors before it fits.
 template <std::unsigned_integral T>
 constexpr std::optional<T> checked_product(T a, T b, T c) {
   const std::optional<T> first = checked_product(a, b);

@@ -31,10 +31,10 @@ bool is_still(int descriptor, const fs::path& path) {
 FolderLock::FolderLock(const fs::path& folder) : path_(folder / ".rainref-run.lock") {
   const Uninterrupted scope;
   int error = EWOULDBLOCK;
-  // Whoever had it may remove the file just when this one has opened it. Nobody does so for ever.
+  // The previous owner may remove the file just when this process has opened it, but not every time.
   for (int tries = 0; tries < 100 && descriptor_ < 0; ++tries) {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    // One that another user's killed process left can be locked all the same.
+    // A file left by another user's killed process can be locked all the same.
     if (descriptor_ < 0 && errno == EACCES) descriptor_ = ::open(path_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor_ < 0) {
       error = errno;
@@ -59,7 +59,7 @@ FolderLock::~FolderLock() {
 }
 
 void FolderLock::remove() noexcept {
-  if (!path_.empty()) ::unlink(path_.c_str());  // while it is locked: who has opened it sees that it is gone
+  if (!path_.empty()) ::unlink(path_.c_str());  // while it is locked, so that a process that has opened it sees that it is gone
   path_.clear();
 }
 

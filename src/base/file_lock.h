@@ -1,4 +1,4 @@
-// Locks that a killed process drops: flock, which knows open files and not process numbers, so that namespaces do not matter.
+// Locks that end when a process is killed: flock, which belongs to open files, not process numbers, so namespaces do not matter.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,16 @@
 namespace rainref {
 
 enum class FileLock { mine, taken, impossible };  ///< impossible: the file system has no locks
-/// Locks an open file or folder, without waiting, until its last descriptor is closed. NFS wants it open for writing.
+/// Locks an open file or folder, without waiting, until its last descriptor is closed. NFS requires it to be open for writing.
 FileLock lock_file(int descriptor);
-/// Whether a name still leads to what was opened: before it was locked it may have been removed.
+/// True if a path still leads to the opened file, which may have been removed before it was locked.
 bool is_still(int descriptor, const std::filesystem::path& path);
 
-/// Keeps other processes out of a folder: a lock on a hidden file there, which goes with the object. That of a killed
-/// process keeps nobody out.
+/// Keeps other processes out of a folder by a lock on a hidden file in it, which is removed with the object. The lock of a killed process
+/// has no effect.
 class FolderLock {
  public:
-  /// Throws std::system_error; EWOULDBLOCK: another one has it. Where the file system has no locks nobody is kept out.
+  /// Throws std::system_error; EWOULDBLOCK: another process has it. If the file system has no locks, nothing is kept out.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

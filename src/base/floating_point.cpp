@@ -12,7 +12,7 @@ FloatingPointGuard::FloatingPointGuard() : saved_(floating_point_unit::whole_sta
 FloatingPointGuard::~FloatingPointGuard() { floating_point_unit::put_back(saved_); }
 
 FloatingPointReport probe_floating_point() {
-  // volatile keeps the compiler from folding, not from fusing: the products and sums below are ordinary expressions.
+  // Always restored, because the scope may have changed the state itself.
   volatile float va = 1.0f + 0x1p-12f, vc = -(1.0f + 0x1p-11f), smallest_normal = 0x1p-126f, half = 0.5f, subnormal = 0x1p-127f,
                  big = 0x1p20f, one = 1.0f, little = 0x1p-26f;
   FloatingPointReport report;
@@ -21,12 +21,12 @@ FloatingPointReport probe_floating_point() {
   report.contracts = sum == 0x1p-24f;
   const float normal = smallest_normal;
   const float product = normal * half;
-  // By its bits: with denormals-are-zero a comparison takes a subnormal for zero.
+  // Compared by bits: with denormals-are-zero a comparison treats a subnormal as zero.
   report.flushes_results = std::bit_cast<std::uint32_t>(product) == 0;
   const float operand = subnormal;
   const float scaled = operand * big;
   report.flushes_operands = scaled == 0.0f;
-  // Each direction but the nearest moves one of these away from 1.
+  // Each rounding direction except nearest moves one of these away from 1.
   const float o = one, l = little;
   const float above = o + l, below = o - l;
   report.rounds_to_nearest = above == 1.0f && below == 1.0f;

@@ -1,4 +1,4 @@
-// The floating-point environment that every result depends on: checked when compiling, pinned when running.
+// The floating-point environment that every result depends on: checked at compile time, set at run time.
 #pragma once
 
 #include <cfloat>
@@ -13,15 +13,15 @@
 
 namespace rainref {
 
-/// The control bits of the floating-point unit: MXCSR on x86, FPCR on aarch64, always 0 in WebAssembly, which has none to set.
+/// The control bits of the floating-point unit: MXCSR on x86, FPCR on aarch64, always 0 in WebAssembly, which has none.
 std::uint64_t floating_point_control();
 void set_floating_point_control(std::uint64_t bits);
 
-/// The pinned state: round to nearest even, subnormals kept (no flush to zero, no denormals-are-zero), no traps.
+/// The required state: round to nearest even, subnormals kept (no flush to zero, no denormals-are-zero), no traps.
 extern const std::uint64_t pinned_floating_point_control;
 
-/// Pins the state for a scope and puts the caller's back. Every tile body runs inside one, because a thread pool hands
-/// its workers whatever state the caller had, and a task that dirties the state leaks it to the next.
+/// Sets that state for a scope and then restores the caller's. Every tile body runs inside one, because a thread pool passes the caller's
+/// state to its workers, and a task that changes the state would pass it on to the next.
 class FloatingPointGuard {
  public:
   FloatingPointGuard();
@@ -33,11 +33,11 @@ class FloatingPointGuard {
   std::uint64_t saved_;
 };
 
-/// What the arithmetic of this build does, found by computing.
+/// Properties of this build's arithmetic, measured by computing.
 struct FloatingPointReport {
   bool contracts = false;         ///< a*b+c was fused
   bool flushes_results = false;   ///< a subnormal result became zero
-  bool flushes_operands = false;  ///< a subnormal operand was taken as zero
+  bool flushes_operands = false;  ///< a subnormal operand was treated as zero
   bool rounds_to_nearest = true;
   bool good() const { return !contracts && !flushes_results && !flushes_operands && rounds_to_nearest; }
 };

@@ -1,16 +1,16 @@
-// What a guard asks of the processor. One of floating_point_<processor>.cpp is compiled, which CMake chooses; that file also has
-// floating_point_control(), set_floating_point_control() and pinned_floating_point_control.
+// Access of a guard to the processor. CMake compiles one of floating_point_<processor>.cpp, which also defines floating_point_control(),
+// set_floating_point_control() and pinned_floating_point_control.
 #pragma once
 
 #include <cstdint>
 
 namespace rainref::floating_point_unit {
 
-/// What a guard keeps, in 64 bits: the control register with its sticky flags, and whatever else of the unit bears on results.
+/// The state that a guard saves, in 64 bits: the control register with its sticky flags, and all other state that affects results.
 std::uint64_t whole_state();
-/// To pinned_floating_point_control, and the rest to what a process starts with.
+/// Sets pinned_floating_point_control, and all other state to its value at the start of a process.
 void pin();
-/// Back to what whole_state() gave.
+/// Restores the result of whole_state().
 void put_back(std::uint64_t state);
 
 }  // namespace rainref::floating_point_unit

@@ -14,9 +14,9 @@ void set_floating_point_control(std::uint64_t bits) { _mm_setcsr(static_cast<uns
 
 namespace floating_point_unit {
 
-// A guard keeps MXCSR and the x87 unit's control and status words, which std::fesetround sets as well and by which the C library rounds
-// when it reads and prints numbers.
-constexpr std::uint16_t pinned_x87 = 0x37f;  // all six exceptions masked, 64 bits, to nearest: what a process starts with
+// A guard saves MXCSR and the control and status words of the x87 unit, which std::fesetround also sets and which the C library uses to
+// round when it reads and prints numbers.
+constexpr std::uint16_t pinned_x87 = 0x37f;  // all six exceptions masked, 64 bits, to nearest: the initial state of a process
 
 std::uint64_t whole_state() {
   std::uint16_t control, status;
@@ -28,7 +28,7 @@ void pin() {
   std::uint16_t control;
   asm volatile("fnstcw %0" : "=m"(control));
   if (control == pinned_x87) return;
-  // A flag whose exception the caller wants as a signal would raise it at the next instruction of the unit.
+  // Clears the flags first: a flag whose exception the caller has unmasked would raise a signal at the next x87 instruction.
   asm volatile("fnclex\n\tfldcw %0" : : "m"(pinned_x87) : "memory");
 }
 void put_back(std::uint64_t state) {
@@ -40,7 +40,7 @@ void put_back(std::uint64_t state) {
       std::uint16_t control, unused0, status, unused1;
       std::uint32_t rest[5];
     } environment;
-    constexpr std::uint16_t flags = 0x80ff;  // with the summary of those that are unmasked
+    constexpr std::uint16_t flags = 0x80ff;  // with the summary of the unmasked ones
     asm volatile("fnstenv %0" : "=m"(environment));
     environment.control = control;
     environment.status = static_cast<std::uint16_t>((environment.status & ~flags) | (status & flags));

@@ -16,14 +16,14 @@ namespace rainref {
 namespace fs = std::filesystem;
 
 fs::path followed(fs::path path) {
-  constexpr int most_links = 40;  // as the kernel
+  constexpr int most_links = 40;  // the kernel's limit
   for (int i = 0; i <= most_links; ++i) {
     if (!path.has_filename() && path.has_relative_path()) path = path.parent_path();
     std::error_code error;
     if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
     const fs::path to = fs::read_symlink(path, error);
     if (error) throw_system_error(error.value());
-    path = path.parent_path() / to;  // `to` alone where it is absolute
+    path = path.parent_path() / to;  // only `to` if it is absolute
   }
   throw_system_error(ELOOP);
 }
@@ -40,7 +40,7 @@ MadeFolders::MadeFolders(const fs::path& folder) {
     if (::mkdir(p->c_str(), 0777) == 0) {
       made_.insert(made_.begin(), *p);
     } else if (const int why = errno; why != EEXIST || !fs::is_directory(*p, error)) {
-      // A link that leads nowhere is in the way like a file.
+      // A dangling link blocks the path like a file.
       remove();
       throw_system_error(why);
     }
@@ -82,7 +82,7 @@ void sync_to_disk(std::span<const fs::path> paths) {
       const auto sync = [&path] { sync_to_disk(path); };
       try {
         waiting.push_back(std::async(std::launch::async, sync));
-      } catch (const std::system_error&) {  // no thread: one after the other
+      } catch (const std::system_error&) {  // no thread available: one after the other
         waiting.push_back(std::async(std::launch::deferred, sync));
       }
     }

@@ -1,4 +1,4 @@
-// Folders that are made on the way to a result, and links that lead to one.
+// Folders made for a result, and links that lead to one.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace rainref {
 
-/// Where a path leads: its last component's symbolic links are followed, also when they end at nothing, so that what is
-/// then made there is what the link names. A slash at the end is dropped. Throws std::system_error for a circle of links.
+/// Target of a path. Symbolic links of its last component are followed, even if the target does not exist, so that the target is created
+/// and not the link. A slash at the end is dropped. Throws std::system_error for a circle of links.
 std::filesystem::path followed(std::filesystem::path path);
 
-/// Makes a folder and those above it. Unless keep() is called, those that it made go again, if nothing lies in them; on
-/// an interruption too. Throws std::system_error.
+/// Makes a folder and its parents. Unless keep() is called, those that it made are removed again if they are empty, also on an
+/// interruption. Throws std::system_error.
 class MadeFolders {
  public:
   /// "" is the current folder.
@@ -33,10 +33,10 @@ class MadeFolders {
   std::optional<Undo> undo_;
 };
 
-/// Waits until a folder's entries are on the disk, or a file's bytes. Throws std::system_error, but not where the file
-/// system cannot say (EINVAL).
+/// Waits until a folder's entries, or a file's bytes, are on the disk. Throws std::system_error, except if the file system does not support
+/// this (EINVAL).
 void sync_to_disk(const std::filesystem::path& path);
-/// The same of all of them at once: a disk makes one wait of many. Throws the first one's error once all have ended.
+/// The same for several paths at once, because a disk combines the waits. Throws the first path's error after all have ended.
 void sync_to_disk(std::span<const std::filesystem::path> paths);
 
 }  // namespace rainref

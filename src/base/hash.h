@@ -22,7 +22,7 @@ struct Hash128 {
 class Hasher {
  public:
   Hasher();
-  /// Another seed than the golden generation; 0 hashes as `xxhsum -H2` does.
+  /// Uses another seed than the golden generation; 0 hashes as `xxhsum -H2` does.
   explicit Hasher(std::uint64_t seed);
   ~Hasher();
   Hasher(const Hasher&) = delete;
@@ -36,7 +36,7 @@ class Hasher {
   std::unique_ptr<State> state_;
 };
 
-/// Unseeded hash of a file's bytes: what `xxhsum -H2` prints for the file.
+/// Unseeded hash of a file's bytes, as `xxhsum -H2` prints it.
 Hash128 file_hash(std::span<const std::byte> bytes);
 
 }  // namespace rainref

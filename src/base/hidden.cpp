@@ -25,13 +25,13 @@ namespace {
 constexpr std::string_view prefix = ".rainref-", making = ".tmp", replaced = ".old";
 constexpr std::size_t digits = 16;
 
-// The user's own file or folder that some process was making, opened and locked; or -1.
+// Opens and locks this user's own unfinished file or folder; -1 if that is impossible.
 int lock_leftover(const fs::path& path) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0 || found.st_uid != ::geteuid()) return -1;
   const bool is_folder = S_ISDIR(found.st_mode);
   if (!is_folder && !S_ISREG(found.st_mode)) return -1;
-  // NFS locks only what is open for writing.
+  // NFS locks only files that are open for writing.
   const int descriptor = ::open(path.c_str(), (is_folder ? O_RDONLY | O_DIRECTORY : O_RDWR | O_NONBLOCK) | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor < 0) return -1;
   if (lock_file(descriptor) == FileLock::mine && is_still(descriptor, path)) return descriptor;
@@ -53,13 +53,13 @@ bool exchange([[maybe_unused]] const fs::path& a, [[maybe_unused]] const fs::pat
   return false;
 }
 
-// A folder that was being replaced lies in one of a hidden name, under its own. False when its place is free and it cannot be
-// put there.
+// Restores a folder that was being replaced; it lies under its own name in a folder with a hidden name. Returns false if its place is free
+// but it cannot be moved there.
 bool put_back(const fs::path& holder) {
   for (const auto& entry : fs::directory_iterator(holder)) {
     const fs::path place = holder.parent_path() / entry.path().filename();
     struct stat found {};
-    if (::lstat(place.c_str(), &found) == 0) continue;  // the new one has come
+    if (::lstat(place.c_str(), &found) == 0) continue;  // the new folder is already in place
     if (errno != ENOENT || std::rename(entry.path().c_str(), place.c_str()) != 0) return false;
   }
   return true;
@@ -81,7 +81,7 @@ Hidden::Hidden(const fs::path& parent, Kind kind, const std::function<std::strin
   undo_.emplace([this] { remove(); });
 }
 
-// False: the name is taken, or another process took this for a leftover before it was locked.
+// Returns false if the name is taken, or if another process treated this as a leftover before it was locked.
 bool Hidden::make(Kind kind) {
   if (kind == Kind::file) {
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -128,13 +128,13 @@ void Hidden::become(const fs::path& target) {
 
 void Hidden::replace(const fs::path& target) {
   const Uninterrupted scope;
-  if (exchange(path_, target)) return;  // the old one has the hidden name now
+  if (exchange(path_, target)) return;  // the old folder now has the hidden name
   Hidden holder(path_.parent_path(), Kind::folder, [] { return random_name(replaced); });
   const fs::path old = holder.path_ / target.filename();
   if (std::rename(target.c_str(), old.c_str()) != 0) throw_system_error(errno);
   if (std::rename(path_.c_str(), target.c_str()) != 0) {
     const int error = errno;
-    if (std::rename(old.c_str(), target.c_str()) != 0) holder.is_gone_ = true;  // stays, with the old folder in it
+    if (std::rename(old.c_str(), target.c_str()) != 0) holder.is_gone_ = true;  // it stays, with the old folder in it
     throw_system_error(error);
   }
   is_gone_ = true;
@@ -157,7 +157,7 @@ void remove_leftovers(const fs::path& folder) noexcept {
       ::close(descriptor);
     }
   } catch (...) {
-    // Not what the caller is here for.
+    // A failure here must not disturb the caller's work.
   }
 }
 

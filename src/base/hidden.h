@@ -1,4 +1,4 @@
-// Results in the making, under hidden names; and what killed processes left of theirs.
+// Unfinished results under hidden names, and the leftovers of killed processes.
 #pragma once
 
 #include <filesystem>
@@ -11,18 +11,17 @@
 
 namespace rainref {
 
-/// An empty file or folder under a hidden name, `.rainref-` and 16 random hexadecimal digits and `.tmp`, which was free when
-/// it was made. At the end, and on an interruption, whatever stands under that name is removed.
+/// An empty file or folder under an unused hidden name: `.rainref-`, 16 random hexadecimal digits, `.tmp`. The destructor removes it, as
+/// does an interruption.
 ///
-/// It is locked (flock) while the object lives. A killed process drops its lock, whatever namespace it ran in and however
-/// machines number their processes, so remove_leftovers() can tell what is left over from what is being written. Where the
-/// file system has no such locks nothing is ever taken for left over.
+/// It is locked (flock) while the object lives. A killed process loses its lock, in any namespace and on any machine, so remove_leftovers()
+/// can tell leftovers from files that are being written. If the file system has no such locks, nothing counts as a leftover.
 class Hidden {
  public:
-  enum class Kind { file, folder, private_folder };  ///< private: for this user alone
+  enum class Kind { file, folder, private_folder };  ///< private: for this user only
   static std::string random_name() { return random_name(".tmp"); }
 
-  /// Throws std::system_error. Names that are taken are passed over.
+  /// Throws std::system_error. Skips names that are taken.
   Hidden(
       const std::filesystem::path& parent, Kind kind, const std::function<std::string()>& name = [] { return random_name(); });
   ~Hidden();
@@ -30,13 +29,12 @@ class Hidden {
   Hidden& operator=(const Hidden&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Of the file, open for writing; or of the folder.
+  /// For a file, open for writing; or of the folder.
   int descriptor() const { return descriptor_; }
-  /// It gets its final name, where a file gives way to a file, and an empty folder to a folder.
+  /// Renames it to its final name. A file may replace a file; a folder may replace an empty folder.
   void become(const std::filesystem::path& target);
-  /// It gets the name of another folder, which is removed at the end: in one step where the file system can exchange two names
-  /// (ext4, XFS, Btrfs and tmpfs can, NFS cannot). Elsewhere a kill may come between two steps; then remove_leftovers() puts the
-  /// old folder back.
+  /// Takes the name of another folder, which is removed at the end. This is one step if the file system can exchange two names (ext4, XFS,
+  /// Btrfs and tmpfs can, NFS cannot). Otherwise a kill may come between two steps; then remove_leftovers() restores the old folder.
   void replace(const std::filesystem::path& target);
 
  private:
@@ -44,16 +42,16 @@ class Hidden {
   bool make(Kind kind);
   void remove() noexcept;
 
-  std::filesystem::path path_;  // as made, to the end: an interruption comes while the owner reads it
-  bool is_gone_ = false;        // removed, or under another name; inside an Uninterrupted scope alone
+  std::filesystem::path path_;  // never changes, because an interruption may read it at any time
+  bool is_gone_ = false;        // removed or renamed; changed only inside an Uninterrupted scope
   int descriptor_ = -1;
   std::optional<Undo> undo_;
 };
 
-/// Whether a name is one of Hidden's.
+/// True if a name has the form of Hidden's names.
 bool is_hidden_name(std::string_view name);
-/// Removes what killed processes of this user left in a folder, and puts folders back that they were replacing. What cannot
-/// be removed stays, silently: it is in nobody's way.
+/// Removes leftovers of this user's killed processes from a folder, and restores folders that they were replacing. Ignores files that
+/// cannot be removed, because they do no harm.
 void remove_leftovers(const std::filesystem::path& folder) noexcept;
 
 }  // namespace rainref

@@ -9,7 +9,7 @@ struct Registry {
   std::recursive_mutex mutex;
   std::list<const std::function<void()>*> actions;  // newest first
 };
-// Never destroyed: a thread that waits for signals outlives static objects.
+// Never destroyed, because the thread that waits for signals outlives static objects.
 Registry& registry() {
   static Registry& only = *new Registry;
   return only;
@@ -34,7 +34,7 @@ void undo_all() noexcept {
     try {
       (*action)();
     } catch (...) {
-      // The others are still to be done.
+      // Continues with the other actions.
     }
   }
 }

@@ -1,4 +1,4 @@
-// What an interruption leaves behind: nothing.
+// Cleaning up after an interruption.
 #pragma once
 
 #include <functional>
@@ -6,8 +6,8 @@
 
 namespace rainref {
 
-/// What to do, while this object lives, should the process be interrupted. Its end does nothing: who would otherwise
-/// clean up does so itself. An action runs inside an Uninterrupted scope, in another thread.
+/// An action to run if the process is interrupted while this object lives. The destructor does not run it, because the owner then cleans up
+/// itself. Actions run inside an Uninterrupted scope, in another thread.
 class Undo {
  public:
   explicit Undo(std::function<void()> action);
@@ -19,8 +19,8 @@ class Undo {
   std::function<void()> action_;
 };
 
-/// A scope that an interruption does not cut in two: making a file and registering its removal, say. Nests. It must not
-/// wait for anybody for long.
+/// A scope that an interruption does not divide, for example making a file and registering its removal. Scopes may nest. Do not wait long
+/// inside one.
 class Uninterrupted {
  public:
   Uninterrupted();
@@ -29,8 +29,8 @@ class Uninterrupted {
   std::unique_lock<std::recursive_mutex> lock_;
 };
 
-/// Runs all actions, the newest first. Every Uninterrupted scope but the caller's waits for ever after: nothing new may be made
-/// when what was made is gone.
+/// Runs all actions, newest first. From then on every other Uninterrupted scope waits forever, so that nothing new is made after the
+/// removal.
 void undo_all() noexcept;
 
 }  // namespace rainref

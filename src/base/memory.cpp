@@ -15,7 +15,7 @@
 namespace rainref {
 namespace {
 
-/// The number that a file's first line is; none where there is no such file, or a word like "max".
+/// The number in a file's first line; none if there is no such file, or for a word like "max".
 std::optional<std::uint64_t> number_in(const std::filesystem::path& file) {
   std::string text;
   std::getline(std::ifstream(file), text);
@@ -26,8 +26,7 @@ void lower(MemoryLimit& least, std::uint64_t bytes, const std::string& owner) {
   if (bytes < least.bytes) least = {bytes, owner};
 }
 
-/// A limit holds for a cgroup and all below it. A container may show a group's path as it is outside: then only the mount's own root is
-/// found.
+/// A limit holds for a cgroup and all below it. A container may show a group's path as it is outside; then only the mount's root is found.
 void lower_by_group(MemoryLimit& least, const std::filesystem::path& mount, std::string group, const char* file) {
   while (true) {
     while (group.ends_with('/')) group.pop_back();

@@ -14,7 +14,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// How many digits stand at the front, which are taken away.
+/// Removes the digits at the front and returns their number.
 std::size_t take_digits(std::string_view& text) {
   std::size_t count = 0;
   while (count < text.size() && is_digit(text[count])) ++count;
@@ -37,7 +37,7 @@ bool is_number(std::string_view text) {
   return take_digits(text) > 0 && text.empty();
 }
 
-/// Whether a digit other than 0 stands before the exponent.
+/// Whether all digits before the exponent are 0.
 bool is_zero(std::string_view text) {
   return text.substr(0, text.find_first_of("eE")).find_first_of("123456789") == std::string_view::npos;
 }
@@ -49,7 +49,7 @@ std::optional<T> number_from(std::string_view text) {
   if (!is_number(text)) return std::nullopt;
   static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", locale_t{});
   const std::string ended(text);
-  const FloatingPointGuard guard;  // the C library rounds as the processor does
+  const FloatingPointGuard guard;  // the C library rounds in the processor's current mode
   T value;
   if constexpr (std::is_same_v<T, float>)
     value = ::strtof_l(ended.c_str(), nullptr, plain);

@@ -1,5 +1,5 @@
-// Numbers in texts that others write: the only place that reads them. For floating-point numbers not std::from_chars, which LLVM's library
-// has for none before version 20, and not std::strtod alone, which reads by the locale of the process.
+// Conversion of texts to numbers, done only here. For floating-point numbers not std::from_chars, which LLVM's library lacks before version
+// 20, and not std::strtod alone, which depends on the locale.
 #pragma once
 
 #include <charconv>
@@ -9,13 +9,13 @@
 
 namespace rainref {
 
-/// The value of the whole text, [-]digits[.digits][e[+-]digits] with a digit before or after the point, rounded once to the nearest, ties
-/// to even. Nothing for any other text (spaces, a plus sign in front, "inf", "nan", hexadecimal digits), and for a number so far from 1
-/// that it would become infinite, or zero without being zero. T is float or double.
+/// The value of the whole text, [-]digits[.digits][e[+-]digits] with a digit before or after the point, rounded once to nearest, ties to
+/// even. Nothing for any other text (spaces, a leading plus sign, "inf", "nan", hexadecimal digits), and for numbers that overflow to
+/// infinity or underflow to zero. T is float or double.
 template <class T>
 std::optional<T> number_from(std::string_view text);
 
-/// The value of the whole text, [-]digits without a minus sign for a T that has none. Nothing for any other text, and for a number that T
+/// The value of the whole text, [-]digits, without a minus sign if T is unsigned. Nothing for any other text, and for a number that T
 /// cannot hold. T is an integer type; `base` from 2 to 36, without a prefix.
 template <std::integral T>
 std::optional<T> whole_from(std::string_view text, int base = 10) {

@@ -1,4 +1,4 @@
-// Text of unknown origin, made fit to be shown.
+// Makes text of unknown origin safe to print.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace rainref {
 
-/// Bytes of the UTF-8 sequence that starts the text, or 0 where there is none. The Unicode standard's table 3-7: no overlong
+/// Length [byte] of the UTF-8 sequence at the start of the text, or 0 if there is none. By the Unicode standard's table 3-7: no overlong
 /// forms, no surrogates, nothing beyond U+10FFFF.
 std::size_t utf8_length(std::string_view text);
 
-/// The text with U+FFFD for what a terminal could take as a command: control characters but line ends and tabs (C0, DEL and
-/// C1), and bytes that are no UTF-8.
+/// Returns the text with U+FFFD in place of everything that a terminal could take as a command: control characters except line ends and
+/// tabs (C0, DEL and C1), and bytes that are not UTF-8.
 std::string printable(std::string_view text);
 
 }  // namespace rainref

@@ -1,4 +1,4 @@
-// By the kernel's file.
+// From a file of the kernel.
 #include <fstream>
 
 #include <unistd.h>

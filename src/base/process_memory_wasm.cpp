@@ -1,4 +1,5 @@
-// What the allocator has given out: the process is a browser or node, whose memory, and pages of another size, are not this program's.
+// Counts the memory that the allocator has given out. The process is a browser or node, so its memory and page size do not belong to this
+// program.
 #include <malloc.h>
 
 #include "base/process_memory.h"

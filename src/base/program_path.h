@@ -1,4 +1,4 @@
-// Where a program lies.
+// Finds a program.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace rainref {
 
-/// A program of this name in the folders of PATH, as a shell finds it; "" where there is none.
+/// The path of a program of this name in the folders of PATH, as a shell finds it; "" if there is none.
 std::filesystem::path program_in_path(const std::string& name);
 
 }  // namespace rainref

@@ -47,7 +47,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, const MostBy
     const ssize_t count = ::read(file.number, bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail(path, errno);
-    if (count == 0) break;  // it became shorter meanwhile
+    if (count == 0) break;  // the file became shorter meanwhile
     done += static_cast<std::size_t>(count);
   }
   bytes.resize(done);

@@ -10,17 +10,16 @@
 
 namespace rainref {
 
-/// The bytes of a regular file. Read here rather than by a library, so that a failing disk and damaged contents stay
-/// apart. Throws Error(io), naming the file and the system's reason; a pipe, a device, a folder, and a file larger than
-/// this machine's memory are refused before anything is allocated.
+/// Reads a regular file. No library reads it, so that disk errors and damaged contents stay apart. Throws Error(io) with the file and the
+/// system's reason. Refuses a pipe, a device, a folder, or a file larger than this machine's memory before it allocates anything.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
-/// Most bytes that a file may have, and the exit code of one that has more.
+/// Largest accepted size of a file, and the exit code for a larger one.
 struct MostBytes {
   std::uint64_t bytes;
   ExitCode code;
 };
-/// The same of a file that others may have made as long as they like: Error(most.code) where it is longer, before anything is allocated.
+/// The same for a file from outside, of any size: throws Error(most.code) if it is larger, before it allocates anything.
 std::vector<std::byte> read_file(const std::filesystem::path& path, const MostBytes& most);
 
 }  // namespace rainref

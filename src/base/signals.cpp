@@ -43,12 +43,12 @@ void undo_when_interrupted() {
       int signal = 0;
       while (::sigwait(&waited_for, &signal) != 0) {
       }
-      // The signals stay blocked meanwhile: `timeout` and others send theirs twice.
+      // The signals stay blocked meanwhile, because `timeout` and others send theirs twice.
       undo_all();
       die_of(signal);
     }).detach();
   } catch (const std::system_error&) {
-    take_signals_again();  // without a thread they do as they always did
+    take_signals_again();  // without the thread the signals keep their default effect
     has_mask = false;
   }
 }

@@ -3,11 +3,11 @@
 
 namespace rainref {
 
-/// From now on SIGINT, SIGTERM and SIGHUP undo all (base/interruption.h) before the process dies of them; those that are ignored
-/// stay ignored (nohup). Call first: threads that are already running would die of a signal as before.
+/// Makes SIGINT, SIGTERM and SIGHUP run undo_all (base/interruption.h) before they end the process; ignored signals stay ignored (nohup).
+/// Call it first: threads that already run would die of a signal as before.
 void undo_when_interrupted();
 
-/// After fork(), before exec(): the child takes these signals as if undo_when_interrupted() had never been called.
+/// Call after fork() and before exec(): the child handles these signals as if undo_when_interrupted() had not been called.
 /// Async-signal-safe.
 void take_signals_again() noexcept;
 

@@ -1,5 +1,5 @@
-// Zeroed memory of the system. Large blocks are not touched before they are used: the thread that uses a part of one first pays for it,
-// and has it near; and where the system has large pages, few of them hold a picture.
+// Zeroed memory from the system. Large blocks are not touched before use. The thread that first uses a part pays for it and has it near. If
+// the system has large pages, a few of them hold a picture.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace rainref::zeroed {
 
-/// Zeroed, aligned to 64 bytes; nullptr where so much cannot be had. bytes > 0.
+/// Allocates zeroed memory, aligned to 64 bytes; nullptr if there is not enough. bytes > 0.
 std::byte* take(std::size_t bytes);
-/// What take gave, of as many bytes.
+/// Frees memory of take, with the same number of bytes.
 void give_back(std::byte* memory, std::size_t bytes);
 
-/// Asks for large pages in the whole ones that lie in memory taken elsewhere. A wish: it changes no byte.
+/// Requests large pages for the whole large pages inside memory allocated elsewhere. Only a hint: it changes no byte.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-/// Of arrays that are made once and only grow: their new elements are zero and, in a large block, untouched.
+/// Allocator for arrays that are made once and only grow: new elements are zero and, in a large block, untouched.
 template <class T>
 struct Allocator {
   using value_type = T;
@@ -37,7 +37,7 @@ struct Allocator {
   }
   bool operator==(const Allocator&) const { return true; }
 };
-/// Not to be made smaller and larger again: what was there would be seen.
+/// Do not shrink it and grow it again: the old values would reappear.
 template <class T>
 using Array = std::vector<T, Allocator<T>>;
 

@@ -1,4 +1,4 @@
-// Blocks of a mebibyte or more are mapped; large pages are asked for, and it does not matter whether they come.
+// Blocks of a mebibyte or more are mapped. Large pages are requested but not required.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t mapped_from = std::size_t{1} << 20, large_page = std::size_t{2} << 20;
 constexpr std::size_t shift_by = 512, shifts = 8;  // within a page
 
-/// Where a block begins in its first page: elsewhere than the one before. Of two blocks that begin alike, as rows of the newest and of the
-/// previous wave would, Intel's cores take a load of one for a read of what was just stored to the other, by the last twelve bits of the
-/// address, and wait for the store ("4K aliasing").
+/// Offset of a block in its first page, different from the previous block's. If two blocks begin at the same offset, as rows of the newest
+/// and of the previous wave would, Intel's cores mistake a load from one for a read of data just stored to the other, by the last twelve
+/// bits of the address, and wait for the store ("4K aliasing").
 std::size_t next_shift() {
   static std::atomic<std::size_t> turn{0};
   return turn.fetch_add(1, std::memory_order_relaxed) % shifts * shift_by;
@@ -37,7 +37,7 @@ std::byte* take(std::size_t bytes) {
     return static_cast<std::byte*>(memory ? std::memset(memory, 0, bytes) : nullptr);
   }
   if (bytes > SIZE_MAX / 2) return nullptr;
-  // One that may hold a large page begins with one: what was mapped before and behind it goes back.
+  // A block that may hold a large page begins with one; the mapped memory before and behind it is returned.
   const std::size_t more = bytes < large_page ? 0 : large_page, shift = next_shift();
   const std::size_t kept = whole_pages(shift + bytes);
   void* const mapped = ::mmap(nullptr, kept + more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -1,4 +1,4 @@
-// Where memory comes from the C library alone.
+// For systems where memory comes only from the C library.
 #include <cstdlib>
 #include <cstring>
 

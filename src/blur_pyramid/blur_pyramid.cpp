@@ -24,7 +24,7 @@ BlurUniforms blur_uniforms(const BlurSettings& s, int width, int height, int lev
   for (std::size_t k = 0; k < 2; ++k) {
     const int n = above[k], m = here[k];
     u.source_size[k] = n;
-    // A side of one texel stays as it is.
+    // A side of one texel is not halved.
     u.middle[k] = static_cast<float>(n == 1 ? 0.0 : static_cast<double>(m) / n);
     u.last[k] = static_cast<float>(n % 2 == 0 || n == 1 ? 0.0 : 1.0 / n);
   }

@@ -10,7 +10,7 @@
 
 namespace rainref::blur_pyramid {
 
-/// A run for level 0. From which passes the scene comes, blur_info says.
+/// A run for level 0. blur_info names the passes that the scene comes from.
 struct FogPass : pass::Takes<BlurUniforms> {
   static constexpr pass::About about{"blur_pyramid", "The scene in fog, and blurred levels of it; one run a level.", {1}, {2}};
   static scene::UniformBlock uniforms() {
@@ -43,7 +43,7 @@ struct HalvePass {
   };
 };
 
-/// Texel i of a side of n, i from -2 to n + 2, in mirrors that stand at its edges; of a side of less than three the nearest one beyond.
+/// Texel i of a side of n, i from -2 to n + 2, mirrored at the edges. For a side of less than three, the nearest texel.
 inline int mirrored(int i, int n) {
   const int from_first = i < 0 ? -1 - i : i;
   return std::clamp(from_first < n ? from_first : 2 * n - 1 - from_first, 0, n - 1);
@@ -65,22 +65,22 @@ RAINREF_FN N box_of_four(N a, N b, N c, N d) {
   return N(0.25f) * sum_any_order_in_pairs(a, b, c, d);
 }
 
-/// corrected: texels under a bell, 1 4 6 4 1 sixteenths, of a picture that is mirrored at its edges, so that what is bright becomes round
-/// from level to level and moves with it: a box alone leaves squares that stand still. With the box of an even side 1 5 10 10 5 1, a
-/// B-spline of fourth degree. The mean is kept: as much of a texel goes to its neighbours as comes from them.
+/// corrected: a bell of 1 4 6 4 1 sixteenths over the picture, which is mirrored at its edges. So bright spots become round from level to
+/// level and move with the picture; a box alone leaves squares that stand still. Combined with the box of an even side it is 1 5 10 10 5 1,
+/// a B-spline of fourth degree. The mean is kept: a texel gives its neighbours as much as it gets from them.
 template <class N>
 RAINREF_FN N bell_of_five(N t0, N t1, N t2, N t3, N t4) {
   const N middle = N(0.375f) * t2, near = N(0.25f) * (t1 + t3), far = N(0.0625f) * (t0 + t4);
   return (middle + near) + far;
 }
-/// corrected: a texel of m covers 1 / m of the n texels above, so with n = 2 m + 1 three of them, weighted by the overlap:
-/// (m - x) / n, m / n, (x + 1) / n. Every texel above counts the same in sum, so the mean is kept. Written from the first
-/// tap on, so that a constant stays as it is. Columns are taken together first, then rows of that.
+/// corrected: a texel of m covers 1 / m of the n texels above. With n = 2 m + 1 it covers three of them, weighted by the overlap: (m - x) /
+/// n, m / n, (x + 1) / n. The weights of every texel above have the same sum, so the mean is kept. Written relative to the first tap, so
+/// that a constant is unchanged. Columns are combined first, then rows.
 template <class N>
 RAINREF_FN N box_of_three(N t0, N t1, N t2, N w1, N w2) {
   return (t0 + w1 * (t1 - t0)) + w2 * (t2 - t0);
 }
-/// Both, of seven texels from the second before the first on.
+/// Both, from seven texels starting at the second before the first.
 template <class N>
 RAINREF_FN N round_of_seven(const N (&t)[7], N w1, N w2) {
   const N first = bell_of_five(t[0], t[1], t[2], t[3], t[4]), second = bell_of_five(t[1], t[2], t[3], t[4], t[5]);
@@ -93,8 +93,8 @@ RAINREF_FN N last_weight(float last, N x) {
   return N(last) * (x + N(1.0f));
 }
 
-/// Output texel (x, y), one channel; tap(i, j) is input texel (2 x + i, 2 y + j), where there is none the nearest one as published, that
-/// in the mirror, mirrored(), corrected.
+/// Output texel (x, y), one channel. tap(i, j) is input texel (2 x + i, 2 y + j); outside the image as-published uses the nearest texel,
+/// corrected the mirrored one, mirrored().
 template <class N, class Tap>
 RAINREF_FN N halved_as_published(Tap tap) {
   return box_of_four(tap(0, 0), tap(1, 0), tap(0, 1), tap(1, 1));

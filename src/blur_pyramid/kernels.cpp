@@ -20,8 +20,8 @@ RAINREF_TARGET_BEGIN(blur_pyramid)
 
 RAINREF_PASS_ROWS(FogPass)
 
-// One row of the level above as four planes of floats, and what two or seven such rows come to. A plane is readable two
-// vectors and six texels past its last texel.
+// One row of the level above as four planes of floats, and the combination of two or seven such rows. A plane is readable two vectors and
+// six texels past its last texel.
 struct Planes {
   std::size_t pitch;
   std::unique_ptr<float[]> texels;
@@ -33,7 +33,7 @@ struct Planes {
   float* channel(int c) { return texels.get() + pitch * static_cast<std::size_t>(c); }
 };
 
-// A row of pairs starts at 2 x. Even and odd texels part on loading; every lane is still one output texel.
+// A row of pairs starts at 2 x. Even and odd texels are separated on loading; every lane is still one output texel.
 HWY_INLINE HWY_ATTR void load_pairs(const float* row, Lanes& even, Lanes& odd) {
 #if HWY_TARGET == HWY_SCALAR
   even = Lanes::load(row);
@@ -46,7 +46,7 @@ HWY_INLINE HWY_ATTR void load_pairs(const float* row, Lanes& even, Lanes& odd) {
 template <bool corrected>
 HWY_INLINE HWY_ATTR void halve(const BlurUniforms& u, Rounding rounding, const Image& above, Image& out, const parallel::Tile& tile) {
   const int n = Lanes::size(), source_width = u.source_size[0], width = out.width();
-  // corrected: the seven rows taken together, from the second texel before the first on; as-published: the first row.
+  // corrected: the seven rows combined, from the second texel before the first on; as-published: the first row.
   constexpr int before = corrected ? 2 : 0;
   Planes column(source_width);
   Planes second(corrected ? 0 : source_width);
@@ -71,7 +71,7 @@ HWY_INLINE HWY_ATTR void halve(const BlurUniforms& u, Rounding rounding, const I
         }
       }
     }
-    // Where there is no texel, that in the mirror, or the nearest one.
+    // Outside the image: the mirrored texel, or the nearest one.
     for (int k = 0; k < 4; ++k) {
       float* const own = column.channel(k) + before;
       const auto beyond = [&](int i) { return corrected ? mirrored(i, source_width) : source_width - 1; };

@@ -1,12 +1,12 @@
-// What the pass blur_pyramid takes besides images. The size is a multiple of 16 bytes and nothing straddles a 16-byte row,
-// so the bytes serve every GPU language.
+// Uniform block of the pass blur_pyramid. The size is a multiple of 16 bytes and no member crosses a 16-byte row, so the bytes are valid in
+// every GPU language.
 #pragma once
 
 #include <cstdint>
 
 namespace rainref::blur_pyramid {
 
-/// Of a run for one level: 0 fogs the scene, the others halve the level above.
+/// For a run of one level: level 0 fogs the scene, the others halve the level above.
 struct BlurUniforms {
   float fog_colour[3], fog_density;
   // corrected: an output texel (x, y) is t0 + w1 (t1 - t0) + w2 (t2 - t0) of three input texels a side, from 2 x on, with

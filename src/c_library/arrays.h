@@ -1,4 +1,4 @@
-// Arrays and layouts as rainref.h hands them out: addresses of what others hold.
+// Arrays and layouts of rainref.h that refer to memory of others.
 #pragma once
 
 #include "capture/array.h"
@@ -9,13 +9,13 @@
 
 namespace rainref::c_library {
 
-/// A buffer that a simulation holds; `record` is the layout of records, null of images. `name` must outlive it.
+/// Describes a buffer that a simulation holds. `record` is the layout of records, null for images. `name` must outlive the result.
 rr_array array_of(const char* name, const Buffer& content, const scene::UniformBlock* record);
-/// A mip level of a captured array; Error(usage) where it has no such level.
+/// Describes a mip level of a captured array. Throws Error(usage) if there is no such level.
 rr_array array_of(const char* name, const capture::Array& array, int level);
-/// An image that a caller gives; Error(usage), naming the member, for what no image is.
+/// Checks an image given by a caller. Throws Error(usage) with the member if it is not valid.
 port_dump::StoredImage image_of(const rr_array& given);
-/// A uniform block and its bytes.
+/// Describes a uniform block and its bytes.
 rr_array array_of(const scene::UniformBlock& block, const void* bytes);
 
 }  // namespace rainref::c_library

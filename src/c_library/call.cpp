@@ -6,14 +6,14 @@
 namespace rainref::c_library {
 namespace {
 
-// A plain array, so that nothing has to be destroyed when a thread ends after the library was unloaded.
+// A plain array, so that nothing needs destruction if a thread ends after the library was unloaded.
 thread_local std::array<char, 8192> last_error{};
 
 }  // namespace
 
 int keep_error(int code, std::string_view text) noexcept {
   std::size_t size = std::min(text.size(), last_error.size() - 1);
-  while (size < text.size() && size > 0 && (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80) --size;  // no half character
+  while (size < text.size() && size > 0 && (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80) --size;  // do not cut a character
   std::copy_n(text.data(), size, last_error.data());
   last_error[size] = '\0';
   return code;

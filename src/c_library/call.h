@@ -1,4 +1,4 @@
-// What every function of rainref.h does around its work: pins the floating-point state, and turns what is thrown into a code and a text.
+// The frame around every function of rainref.h: it sets the floating-point state, and turns exceptions into a code and a text.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@
 
 namespace rainref::c_library {
 
-/// Keeps the text for this thread's rr_error() and returns the code. Takes no memory: the error may be that there is none.
+/// Keeps the text for this thread's rr_error() and returns the code. Allocates no memory, because the error may be that none is left.
 int keep_error(int code, std::string_view text) noexcept;
 
-/// Runs the body of a public function in the pinned state; what it throws ends here.
+/// Runs the body of a public function in the fixed floating-point state and catches every exception.
 template <class Body>
 int call(const Body& body) noexcept {
   const FloatingPointGuard guard;
@@ -37,14 +37,14 @@ int call(const Body& body) noexcept {
   }
 }
 
-/// Error(usage) where an argument is NULL.
+/// Throws Error(usage) if an argument is NULL.
 template <class T>
 T& required(T* argument, const char* name) {
   if (!argument) throw Error(ExitCode::usage, fmt::format("{}: expected an address, found NULL", name));
   return *argument;
 }
 
-/// A struct that the caller provides; Error(usage) where it is NULL or its size is another than this library's.
+/// Checks a struct that the caller provides. Throws Error(usage) if it is NULL or its size differs from this library's.
 template <class T>
 T& sized(T* from, const char* type) {
   T& s = required(from, type);
@@ -54,7 +54,7 @@ T& sized(T* from, const char* type) {
   return s;
 }
 
-/// A list of texts of the caller's, none of them NULL.
+/// Converts the caller's list of texts. None may be NULL.
 std::vector<std::string> texts(const char* const* first, std::size_t count, const char* name);
 
 }  // namespace rainref::c_library

@@ -1,4 +1,4 @@
-// Cases of passes as C has them: by number, with arrays that are addresses of what the cases hold.
+// Cases of passes for C: by number, with arrays that point into the cases.
 #include <algorithm>
 
 #include "c_library/arrays.h"

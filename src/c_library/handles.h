@@ -1,4 +1,4 @@
-// What the handles of rainref.h hold.
+// The contents of the handles of rainref.h.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 struct rr_simulation {
   rainref::parallel::Executor executor;
   rainref::Simulation running;
-  std::vector<std::string> buffers;  ///< their names
+  std::vector<std::string> buffers;  ///< names
   std::string scene_json{}, hash_lines{};
 
   rr_simulation(const rainref::SceneText& scene, int threads) : executor(threads), running(scene, executor), buffers(running.buffers()) {}
@@ -27,5 +27,5 @@ struct rr_cases {
 
 struct rr_judgement {
   rainref::judging::Judged made;
-  std::optional<std::string> text{}, json{}, html{}, junit{};  ///< made when asked for
+  std::optional<std::string> text{}, json{}, html{}, junit{};  ///< made on demand
 };

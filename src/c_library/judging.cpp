@@ -1,4 +1,4 @@
-// Verdicts on outputs in memory as C has them: texts are addresses in the judgement.
+// Verdicts on outputs in memory for C: texts point into the judgement.
 #include "c_library/call.h"
 #include "c_library/handles.h"
 #include "judging/judge_folder.h"
@@ -25,7 +25,7 @@ const PassVerdict& pass_of(const rr_judgement* judgement, size_t pass) {
   return j.made.verdict.passes[pass];
 }
 
-/// Tells the caller how far it is. One in C++ may throw: the caller's exception means nothing here.
+/// Reports progress to the caller. A C++ callback may throw; the exception is discarded.
 void go_on(const rr_folder_options& o, int done, int of) {
   int result = 1;
   try {
@@ -36,7 +36,7 @@ void go_on(const rr_folder_options& o, int done, int of) {
   if (result != 0) throw Error(ExitCode::usage, fmt::format("stopped by rr_folder_options.progress after {} of {} runs", done, of));
 }
 
-/// A report, which is made once.
+/// A report, which is made on the first call.
 template <class Make>
 int report(rr_judgement* judgement, const char** text, std::optional<std::string> rr_judgement::*which, const Make& make) {
   return call([&] {

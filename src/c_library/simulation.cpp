@@ -17,7 +17,7 @@ using c_library::sized;
 
 namespace {
 
-/// Opens what `scene` returns, which has the options' changes.
+/// Opens the result of `scene`, with the options' changes.
 template <class Scene>
 int open(const rr_open_options* options, rr_simulation** simulation, const Scene& scene) {
   return call([&] {

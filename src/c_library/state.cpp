@@ -8,7 +8,7 @@ using c_library::required;
 
 namespace {
 
-/// What a callback of the caller's returns. One in C++ may throw: the caller's exception means nothing here.
+/// Result of the caller's callback. A C++ callback may throw; the exception is discarded.
 template <class Callback>
 auto returned(const Callback& callback, const char* what) {
   try {
@@ -18,7 +18,7 @@ auto returned(const Callback& callback, const char* what) {
   }
 }
 
-/// All that the callback gives, which may be in pieces.
+/// All data of the callback, which may come in pieces.
 std::vector<std::byte> read_all(rr_read read, void* user) {
   std::vector<std::byte> bytes, piece(std::size_t{1} << 20);
   for (;;) {
@@ -35,7 +35,7 @@ std::vector<std::byte> read_all(rr_read read, void* user) {
 
 }  // namespace
 
-// Callbacks run before anything changes, with the state in memory: they may fail, or call the library.
+// Callbacks run before anything changes, with the state in memory, because they may fail or call the library.
 int rr_save(rr_simulation* simulation, rr_write write, void* user) {
   return call([&] {
     const rr_simulation& s = required(simulation, "simulation");
@@ -57,6 +57,6 @@ int rr_set(rr_simulation* simulation, const char* key, const char* value) {
   return call([&] {
     rr_simulation& s = required(simulation, "simulation");
     s.running.set(&required(key, "key"), &required(value, "value"));
-    s.buffers = s.running.buffers();  // a key may add some
+    s.buffers = s.running.buffers();  // a key may add buffers
   });
 }

@@ -40,7 +40,7 @@ constexpr char magic[16] = "rainref kept 1\n";
 constexpr std::string_view suffix = ".images";
 struct Head {
   char magic[16];
-  std::uint64_t high, low;  // hash of all that follows the head
+  std::uint64_t high, low;  // hash of everything after the head
   std::uint32_t recipe_bytes, images;
 };
 struct ImageHead {
@@ -57,7 +57,7 @@ ImageHead head_of(const Image& image) {
           static_cast<std::uint32_t>(image.height())};
 }
 
-/// All that follows the head, piece by piece.
+/// Visits everything after the head, piece by piece.
 template <class Piece>
 void pieces(const std::string& recipe, const std::vector<Image>& images, const Piece& piece) {
   piece(std::as_bytes(std::span(recipe)));
@@ -74,9 +74,9 @@ Head head_of(const std::string& recipe, const std::vector<Image>& images) {
   return head;
 }
 
-/// To touch memory for the first time takes longer than to read a file into it, and any number of threads may.
+/// Touching memory for the first time takes longer than reading a file into it, and can be done by many threads.
 void touch(Image& image, const Rows& rows) {
-  constexpr std::size_t page = 4096;  // at the least
+  constexpr std::size_t page = 4096;  // lower bound
   rows(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (std::size_t at = 0; at < row_bytes(image); at += page) image.row_bytes(y)[at] = std::byte{0};
@@ -86,7 +86,7 @@ bool has(const ImageHead& image, const Shape& shape) {
   return image.format == static_cast<std::uint32_t>(shape.format) && (shape.width == 0 || std::cmp_equal(image.width, shape.width)) &&
          (shape.height == 0 || std::cmp_equal(image.height, shape.height));
 }
-/// None where it is not this user's, not of this recipe, not of these shapes, or not whole.
+/// None if the file is not this user's, or not of this recipe, not of these shapes, or incomplete.
 std::optional<std::vector<Image>> read(const fs::path& path, const std::string& recipe, const std::vector<Shape>& shapes,
                                        const Rows& rows) {
   OwnFile file(path);
@@ -96,7 +96,7 @@ std::optional<std::vector<Image>> read(const fs::path& path, const std::string& 
   file.hash_from_here();
   std::string read_recipe(recipe.size(), '\0');
   if (!file.read(std::as_writable_bytes(std::span(read_recipe))) || read_recipe != recipe) return {};
-  // Sizes are held to the file's before anything is allocated for them.
+  // Sizes are checked against the file's size before memory is allocated for them.
   if (head.images != shapes.size()) return {};
   std::vector<ImageHead> heads(shapes.size());
   std::uintmax_t expected = 0;
@@ -124,11 +124,11 @@ std::optional<std::vector<Image>> found(const fs::path& path, const std::string&
   try {
     std::optional<std::vector<Image>> images = read(path, recipe, shapes, rows);
     if (images)
-      fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // used last
+      fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // marks the time of last use
     else
       fs::remove(path, error);
     return images;
-  } catch (const std::system_error&) {  // it went meanwhile
+  } catch (const std::system_error&) {  // the file disappeared meanwhile
     return {};
   } catch (const Error&) {  // an image of no size
     return {};
@@ -143,7 +143,7 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
 }
-/// Removes those used longest ago until the rest fit.
+/// Removes the least recently used files until the rest fit.
 void make_room(const Folder& in) {
   struct File {
     fs::file_time_type used;
@@ -173,7 +173,7 @@ void keep(const Folder& in, const fs::path& path, const std::string& recipe, con
     if (fs::create_directories(in.path)) fs::permissions(in.path, fs::perms::owner_all);
     remove_leftovers(in.path);
     Hidden file(in.path, Hidden::Kind::file);
-    // Whatever the umask: what others may write is not read.
+    // Set explicitly, because files writable by others are not read, whatever the umask.
     if (::fchmod(file.descriptor(), S_IRUSR | S_IWUSR) != 0) throw std::system_error(errno, std::generic_category());
     write_all(file.descriptor(), raw_bytes(head_of(recipe, images)));
     std::vector<std::byte> gathered;
@@ -187,7 +187,7 @@ void keep(const Folder& in, const fs::path& path, const std::string& recipe, con
     file.become(path);
     make_room(in);
   } catch (const std::system_error&) {
-    // No room, no right to write: the next run makes them again.
+    // No space or no permission: the next run makes them again.
   }
 }
 
@@ -199,7 +199,7 @@ fs::path folder_of_user() {
   const auto variable = [](const char* name) {
     const char* const value = std::getenv(name);
     const fs::path path = value ? value : "";
-    return path.is_absolute() ? path : fs::path();  // others are to be ignored (XDG Base Directory Specification 0.8)
+    return path.is_absolute() ? path : fs::path();  // relative paths must be ignored (XDG Base Directory Specification 0.8)
   };
   if (const fs::path cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache / "rainref";
   const fs::path home = variable("HOME");

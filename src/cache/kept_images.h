@@ -1,5 +1,5 @@
-// Images that take long to make and are the same in every run, kept in a folder of the user's. Never needed: what is not there, is
-// damaged, another user's or of another shape than its maker expects, or cannot be written is made anew, silently.
+// Images that take long to generate and are the same in every run, kept in a folder of the user. The folder is never required. An image is
+// silently generated again if its file is missing, damaged, owned by another user or of an unexpected shape. A failure to write is ignored.
 #pragma once
 
 #include <cstdint>
@@ -15,26 +15,26 @@
 
 namespace rainref::cache {
 
-/// What an image is, as its maker knows it before it is made.
+/// The shape of an image, known to its maker before it is made.
 struct Shape {
   Format format;
   int width, height;  ///< 0: any
 };
 
-/// From here on images are kept in this folder, which is made when the first is; an empty path: nowhere, as at the start. At most
-/// `most_bytes` of them, those used last. From the thread that starts the others.
+/// Sets the folder in which images are kept; it is made with the first image. An empty path, the initial value: images are not kept. Keeps
+/// at most `most_bytes`, the most recently used. Call it from the thread that starts the others.
 void keep_in(std::filesystem::path folder, std::uintmax_t most_bytes = std::uintmax_t{2} << 30);
-/// $XDG_CACHE_HOME/rainref, or ~/.cache/rainref; empty where neither variable says an absolute path.
+/// $XDG_CACHE_HOME/rainref, or ~/.cache/rainref; empty if neither variable holds an absolute path.
 std::filesystem::path folder_of_user();
 
-/// The images of make(), which have these shapes, shared (Image::share). Taken instead from what this process remembers
-/// (cache/prepared.h); or read, where they were kept by this very program (its file's bytes count) for this recipe, in a file that belongs
-/// to this user and that nobody else may write, their hash says that they are whole, and they have the shapes. rows: who makes the memory
-/// that they are read into ready.
+/// Returns the images of make(), which have these shapes, shared (Image::share). They come from this process's memory (cache/prepared.h) if
+/// possible. Else they are read from a file if this same program (by the bytes of its file) kept them for this recipe, the file belongs to
+/// this user and nobody else may write it, its hash is right, and the shapes match. rows: runs the preparation of the memory that they are
+/// read into.
 std::vector<Image> images(const Recipe& recipe, const std::vector<Shape>& shapes, const std::function<std::vector<Image>()>& make,
                           const Rows& rows = rows_here);
 
-/// The same as prepared(): the images that make(by, reads...) gives.
+/// The same as prepared(): the images of make(by, reads...).
 template <class By, class... Reads>
 std::vector<Image> kept(std::string_view what, const std::vector<Shape>& shapes, const Rows& rows, const By& by,
                         std::vector<Image> (*make)(const By&, const Reads&...), const std::type_identity_t<Reads>&... reads) {

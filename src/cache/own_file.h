@@ -1,4 +1,4 @@
-// A kept file, as far as it can be trusted.
+// A kept file, with checks whether it can be trusted.
 #pragma once
 
 #include <fcntl.h>
@@ -16,8 +16,8 @@
 
 namespace rainref::cache {
 
-/// A file that is read from the front, its bytes hashed. One that another user owns or may write was not written by this program: its hash
-/// proves nothing, for anybody can make one. That makes the folder's rights of no account.
+/// A file that is read from the front while its bytes are hashed. If another user owns it or may write it, its hash proves nothing, because
+/// anyone can compute a hash. With this check the rights of the folder do not matter.
 class OwnFile {
  public:
   explicit OwnFile(const std::filesystem::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {
@@ -31,11 +31,11 @@ class OwnFile {
   }
   OwnFile(const OwnFile&) = delete;
   OwnFile& operator=(const OwnFile&) = delete;
-  /// A regular file of this user, which nobody else may write. Of another one nothing is to be read.
+  /// True for a regular file of this user that nobody else may write. Do not read from any other.
   bool is_own() const { return is_own_; }
-  /// Bytes that were not read yet.
+  /// Number of bytes not read yet.
   std::uintmax_t left() const { return left_; }
-  /// False where so many are not there.
+  /// Returns false if the file has fewer bytes left.
   bool read(std::span<std::byte> to) {
     if (to.size() > left_) return false;
     for (std::size_t done = 0; done < to.size();) {

@@ -13,12 +13,12 @@ struct Store {
     std::size_t bytes;
   };
   std::mutex mutex;
-  std::list<Entry> entries;  // used last first
+  std::list<Entry> entries;  // most recently used first
   std::map<std::string, std::list<Entry>::iterator> by_recipe;
   std::size_t held = 0, limit = 0;
   std::map<std::string, std::int64_t> made;
 
-  /// What goes is handed to `gone`, to be given back when the lock is: that may take long.
+  /// Moves dropped entries to `gone`, to be destroyed after the lock is released, because that may take long.
   void shrink(std::size_t most, std::list<Entry>& gone) {
     while (held > most) {
       held -= entries.back().bytes;

@@ -1,5 +1,5 @@
-// What a process has made once of parameters and images, so that neither the next scene nor another value of a key makes it again. No bit
-// hangs on it: a maker sees what its recipe names, and nothing else.
+// Values that a process has made once from parameters and images, so that the next scene, or another value of a key, need not make them
+// again. They do not affect results: a maker reads only what its recipe names.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@
 
 namespace rainref::cache {
 
-/// Bytes of prepared things that this process holds from here on, of all kinds together; 0, as at the start: none. Those that were used
-/// longest ago go first; who uses one holds it.
+/// Sets the number of bytes of all prepared values that this process keeps; 0, the initial value: none. The least recently used are dropped
+/// first; users of a value keep it alive.
 void remember(std::size_t most_bytes);
 bool remembers();
-/// Lets go of all that nobody uses.
+/// Drops all values that are not in use.
 void forget();
 
-/// How often each maker has made something, by its name.
+/// Number of calls of each maker, by its name.
 std::map<std::string, std::int64_t> times_made();
 
 inline std::size_t bytes_of(const Image& image) {
@@ -40,14 +40,14 @@ template <class T>
 requires requires(const T& x) { x.bytes(); }
 std::size_t bytes_of(const T& x) { return x.bytes(); }
 
-/// Null where there is none. Any thread may ask.
+/// Null if there is none. Thread-safe.
 std::shared_ptr<const void> find_prepared(const Recipe& recipe);
-/// The value, which was made now, or the one that another thread made meanwhile.
+/// Returns the value made now, or the one that another thread made meanwhile.
 std::shared_ptr<const void> keep_prepared(const Recipe& recipe, std::shared_ptr<const void> value, std::size_t bytes);
 
-/// What make(by, reads...) gives, or gave before for the same reads. `what` names the maker, and no other one, and goes with one T. `by`:
-/// who does the work, of which no bit depends. The maker is a function, which holds nothing of its own: what it reads is in `reads`. An
-/// image is shared (Image::share).
+/// Returns make(by, reads...), or its earlier result for the same reads. `what` is the unique name of the maker, and belongs to one T. `by`
+/// runs the work and must not affect the result. The maker is a function without state: it reads only `reads`. An image is shared
+/// (Image::share).
 template <class T, class By, class... Reads>
 std::shared_ptr<const T> prepared(std::string_view what, const By& by, T (*make)(const By&, const Reads&...),
                                   const std::type_identity_t<Reads>&... reads) {
@@ -56,7 +56,7 @@ std::shared_ptr<const T> prepared(std::string_view what, const By& by, T (*make)
     if constexpr (std::is_same_v<T, Image>) made->share();
     return made;
   };
-  if (!remembers()) return anew();  // no recipe: to hash pictures costs
+  if (!remembers()) return anew();  // without a recipe, because hashing pictures takes time
   Recipe recipe(what);
   (recipe.add_read(reads), ...);
   if (auto known = find_prepared(recipe)) return std::static_pointer_cast<const T>(std::move(known));

@@ -11,7 +11,7 @@
 namespace rainref::cache {
 namespace {
 
-/// The file of the mapping that holds an address, from lines "begin-end rights offset device inode path"; empty: none.
+/// The file of the mapping that contains an address, from lines "begin-end rights offset device inode path"; empty: none.
 std::string mapped_file(const void* address) {
   const auto wanted = reinterpret_cast<std::uintptr_t>(address);
   std::ifstream maps("/proc/self/maps");
@@ -27,7 +27,7 @@ std::string mapped_file(const void* address) {
   return {};
 }
 
-/// None where it cannot be read. Piece by piece: to touch as much memory as a program is long takes longer than to read it.
+/// None if it cannot be read. Reads piece by piece, because touching new memory of a program's size takes longer than reading it.
 std::optional<Hash128> hash_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return {};

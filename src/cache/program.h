@@ -1,4 +1,4 @@
-// Which program this is.
+// Identifies this program.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace rainref::cache {
 
-/// The hash of the file that holds this code, a program's or a shared library's: another build, another hash. None where the system
-/// does not say which file that is, or it cannot be read.
+/// The hash of the file that holds this code, a program or a shared library; every build has a different hash. None if the system does not
+/// name the file, or it cannot be read.
 std::optional<Hash128> program_hash();
 
 }  // namespace rainref::cache

@@ -1,4 +1,4 @@
-// What a made thing is made of, in bytes.
+// The inputs of a made value, as bytes.
 #pragma once
 
 #include <bit>
@@ -15,17 +15,17 @@
 
 namespace rainref::cache {
 
-/// All that something depends on: who makes it, and what that reads.
+/// Everything that a value depends on: its maker, and what that reads.
 class Recipe {
  public:
-  /// what: names the maker, and no other one.
+  /// what: the unique name of the maker.
   explicit Recipe(std::string_view what) : text_(what) { text_.push_back('\0'); }
   Recipe& add(std::initializer_list<double> numbers);
   Recipe& add(std::uint64_t number);
-  /// An image, by the hash of its texels.
+  /// Adds an image by the hash of its texels.
   Recipe& add(const Image& image);
-  /// Anything: numbers and enumerators; texts and lists, with their length; a struct that has add_to(recipe); other structs by their bytes,
-  /// so that none may hold a pointer. A gap between members may at worst make two equal ones differ.
+  /// Adds a number, an enumerator, a text or list with its length, a struct that has add_to(recipe), or another struct by its bytes, which
+  /// must not hold a pointer. At worst, padding between members makes two equal structs differ.
   template <class T>
   Recipe& add_read(const T& x) {
     if constexpr (std::is_same_v<T, Image>)
@@ -43,7 +43,7 @@ class Recipe {
       add(static_cast<std::uint64_t>(text.size()));
       text_.append(text);
       return *this;
-    } else if constexpr (requires { T::length(), x[0]; }) {  // of GLM
+    } else if constexpr (requires { T::length(), x[0]; }) {  // a GLM vector
       for (int k = 0; k < T::length(); ++k) add_read(x[k]);
       return *this;
     } else if constexpr (std::ranges::sized_range<T>) {
@@ -70,7 +70,8 @@ struct MemberOf<Value Struct::*> {
   using Owner = Struct;
 };
 
-/// Of a struct these members, the others as in a new one: what a maker of `members` alone is given, so that it cannot read others.
+/// A copy of a struct with only these members; the others have their defaults. A maker that depends on `members` alone receives this, so
+/// that it cannot read others.
 template <auto first, auto... members>
 struct Only {
   using Struct = typename MemberOf<decltype(first)>::Owner;

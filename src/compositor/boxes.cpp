@@ -12,7 +12,7 @@ struct Entry {
   bool is_met;
 };
 
-/// Reciprocals stay finite, so that nothing is infinity times zero.
+/// Reciprocals stay finite, to avoid infinity times zero.
 Entry enter(const Box& box, const Ray& ray) {
   double from = 0, to = 1e30;
   int axis = 0;

@@ -1,4 +1,4 @@
-// Solid boxes along the axes.
+// Solid axis-aligned boxes.
 #pragma once
 
 #include <vector>

@@ -41,7 +41,7 @@ CapWater::CapWater(const Pane& pane, std::vector<CapBase> caps, double contact_a
     first_ = {0, 0};
     return;
   }
-  // As many buckets as caps, about.
+  // About one bucket per cap.
   side_ = std::max({root(width_ * length_ / static_cast<double>(caps_.size())), width_ / 4096, length_ / 4096});
   columns_ = static_cast<int>(width_ / side_) + 1;
   rows_ = static_cast<int>(length_ / side_) + 1;

@@ -1,5 +1,4 @@
-// Water on a flat pane that is spherical caps, and a layer given by heights where that stands higher: one body, without walls
-// inside.
+// Water on a flat pane: spherical caps, and a layer given by heights where that is higher. Together they are one body without inner walls.
 #pragma once
 
 #include <memory>
@@ -14,13 +13,13 @@ struct CapBase {
   double x, y, radius;
 };
 
-/// Which of its parts the water's surface is, over each place of the pane. Immutable.
+/// Selects the water surface over each position of the pane. Immutable.
 class CapWater {
  public:
-  static constexpr std::uint32_t dry = ~std::uint32_t{0}, layer = dry - 1;  ///< owners that are no cap
+  static constexpr std::uint32_t dry = ~std::uint32_t{0}, layer = dry - 1;  ///< owners other than caps
 
-  /// The pane is flat with perpendicular edges; contact angle in (0, 90) degrees; radii positive. `height`, if there is one, lies
-  /// on the part of the pane from (x, y) = low on that is `extent` wide and high [m].
+  /// The pane is flat with perpendicular edges; contact angle in (0, 90) degrees; radii positive. `height`, if given, covers the part of
+  /// the pane from (x, y) = low on that is `extent` wide and high [m].
   struct Layer {
     std::shared_ptr<const WaterLayer> height;
     double low[2], extent[2];
@@ -32,10 +31,10 @@ class CapWater {
   const Layer& height() const { return height_; }
   std::uint32_t caps() const { return static_cast<std::uint32_t>(caps_.size()); }
   const CapBase& base(std::uint32_t cap) const { return caps_[cap]; }
-  /// Of the sphere that the cap is part of: its radius, and its centre's lift, which is not positive.
+  /// Radius of the sphere of a cap, and the lift of its centre, which is not positive.
   double sphere(std::uint32_t cap) const { return caps_[cap].radius / sine_; }
   double centre_lift(std::uint32_t cap) const { return -caps_[cap].radius * (cosine_ / sine_); }
-  /// What stands highest over (x, y) [m from the corner]: the cap of the lowest number of equal ones; `layer`; or `dry`.
+  /// The highest surface over (x, y) [m from the corner]: a cap, the lowest number if equal; `layer`; or `dry`.
   std::uint32_t owner(double x, double y) const;
   bool is_wet(double u, double v) const { return owner(u * width_, v * length_) != dry; }
   double width() const { return width_; }
@@ -49,10 +48,10 @@ class CapWater {
   Layer height_;
   double width_, length_, sine_, cosine_, side_ = 1;
   int columns_ = 1, rows_ = 1;
-  std::vector<std::uint32_t> first_, listed_;  // caps that may stand over a bucket: listed_[first_[b]] to listed_[first_[b + 1]]
+  std::vector<std::uint32_t> first_, listed_;  // caps that may cover a bucket: listed_[first_[b]] to listed_[first_[b + 1]]
 };
 
-/// The caps' part of the surface, met exactly: part = cap.
+/// The caps' part of the surface, intersected exactly: part = cap.
 class CapSurface : public Surface {
  public:
   explicit CapSurface(std::shared_ptr<const CapWater> water) : water_(std::move(water)) {}
@@ -66,7 +65,7 @@ class CapSurface : public Surface {
   std::shared_ptr<const CapWater> water_;
 };
 
-/// Adds inner face, outer face, the water's surfaces and the rim.
+/// Adds inner face, outer face, the surfaces of the water, and the rim.
 void add_cap_pane(Scene& scene, std::shared_ptr<const CapWater> water, std::shared_ptr<const Opaque> rim,
                   const parallel::Executor& executor, const PaneMedia& media);
 

@@ -1,4 +1,4 @@
-// Numbers of many places or rays component by component, as lanes take them.
+// Numbers of many positions or rays component by component, as lanes read them.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,15 @@ struct VecArraysOf {
   void put(std::size_t i, const glm::dvec3& v) const {
     for (int k = 0; k < 3; ++k) component[k][i] = v[k];
   }
-  /// Those from the i-th on.
+  /// The vectors from the i-th on.
   VecArraysOf from(std::size_t i) const { return {{component[0] + i, component[1] + i, component[2] + i}}; }
   operator VecArraysOf<const T>() const { return {{component[0], component[1], component[2]}}; }
 };
 using VecArrays = VecArraysOf<const double>;
 using VecArraysOut = VecArraysOf<double>;
 
-/// As many as the widest vector of doubles has. Arrays that lanes take are readable and writable up to the next multiple of
-/// it; what stands there counts for nothing.
+/// Lanes of the widest vector of doubles. Arrays for lanes are readable and writable up to the next multiple of it; the extra values are
+/// unused.
 inline constexpr std::size_t most_lanes = 8;
 inline constexpr std::size_t whole_lanes(std::size_t count) { return (count + most_lanes - 1) / most_lanes * most_lanes; }
 
@@ -32,7 +32,7 @@ inline constexpr std::size_t whole_lanes(std::size_t count) { return (count + mo
 template <int columns>
 class Columns {
  public:
-  /// Room for `count` numbers in each array. What they held is lost where that takes a new block.
+  /// Makes room for `count` numbers in each array. The contents are lost if that needs a new block.
   void make_room(std::size_t count) {
     if (count <= capacity_) return;
     capacity_ = whole_lanes(count);
@@ -45,7 +45,7 @@ class Columns {
   VecArrays vectors(int first) const { return {{(*this)[first], (*this)[first + 1], (*this)[first + 2]}}; }
 
  private:
-  // More than the capacity, so that columns do not fall on the same lines of a cache.
+  // More than the capacity, so that the columns use different cache sets.
   std::size_t stride() const { return capacity_ + 2 * most_lanes; }
   std::size_t capacity_ = 0;
   std::vector<double> room_;

@@ -1,4 +1,4 @@
-// What differs between Embree 3 and 4: the folder of the headers, and how a query is handed over.
+// Differences between Embree 3 and 4: the folder of the headers, and how a query is passed.
 #pragma once
 
 #include <type_traits>
@@ -19,7 +19,7 @@ using RayHit = std::conditional_t<width == 1, RTCRayHit,
 
 #if RAINREF_EMBREE == 3
 
-/// Callbacks find their own query by the address of this, its base.
+/// Callbacks find their query from the address of this base.
 struct Query {
   RTCIntersectContext context;
   Query() { rtcInitIntersectContext(&context); }
@@ -44,7 +44,7 @@ inline Query& query_of(RTCRayQueryContext* context) { return *reinterpret_cast<Q
 
 #endif
 
-/// Lanes with valid[i] == -1 are traced; with one ray there is no such array.
+/// Lanes with valid[i] == -1 are traced; for a single ray there is no such array.
 template <int width>
 void intersect([[maybe_unused]] const int* valid, RTCScene scene, Query& query, RayHit<width>& rays) {
   if constexpr (width == 1)

@@ -22,13 +22,13 @@ StreetEnvironment::StreetEnvironment(const scene::Scenery& street, const Vec& of
 
 namespace {
 
-// A hollow of the scene lies under the street's road, which would hide everything from there.
+// A scene's hollow below the street's road would be hidden by the road, so its points are raised above it.
 Vec above_road(const Vec& p) { return {p.x, p.y < 0.001 ? 0.001 : p.y, p.z}; }
 
 }  // namespace
 
 void StreetEnvironment::radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const {
-  // Room for the blurred ones, kept by each thread for its next call.
+  // Memory for the blurred rays, kept by each thread for its next call.
   static thread_local Columns<7> blurred;
   static thread_local std::vector<std::size_t> which;
   static thread_local std::vector<Vec> seen;

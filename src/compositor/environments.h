@@ -7,14 +7,14 @@
 
 namespace rainref::compositor {
 
-/// Turns directions about the vertical axis, as shade's env_rotation: a direction of azimuth a is looked up at a - angle.
+/// Rotates directions about the vertical axis, like shade's env_rotation: a direction of azimuth a is looked up at a - angle.
 struct Rotation {
   double cosine = 1, sine = 0;
   explicit Rotation(double angle = 0);
   Vec apply(const Vec& d) const { return {cosine * d.x + sine * d.z, d.y, cosine * d.z - sine * d.x}; }
 };
 
-/// The radiance of a latitude/longitude or cube texture with mips, linear, looked up as passes do, in double.
+/// The radiance of a latitude/longitude or cube texture with mips, linear, looked up as in the passes, in double.
 class PictureEnvironment : public Environment {
  public:
   /// The texture must outlive this.
@@ -27,8 +27,8 @@ class PictureEnvironment : public Environment {
   Rotation rotation_;
 };
 
-/// A street: a sharp ray is one of its own from where it begins, `offset` [m] being the place of the
-/// scene's origin in the street; a blurred one is looked up in the panorama.
+/// A street. A sharp ray is traced from its own origin; `offset` [m] is the position of the scene's origin in the street. A blurred ray is
+/// looked up in the panorama.
 class StreetEnvironment : public Environment {
  public:
   /// Street and panorama (latitude/longitude with mips, linear) must outlive this.

@@ -4,7 +4,7 @@
 
 namespace rainref::compositor {
 
-/// Rewrites a slot for a ray that floats cannot hold near enough as it stands.
+/// Rewrites a slot for a ray that floats cannot represent accurately enough as it is.
 void put_extraordinary_ray(const Ray& ray, const SceneExtent& extent, int slot, FloatPacket& out);
 
 }  // namespace rainref::compositor

@@ -1,4 +1,4 @@
-// Rays that start far outside the scene, or whose directions are very long or short; kernels_float_rays.cpp does the rest.
+// Rays that start far outside the scene, or with very long or short directions; kernels_float_rays.cpp handles the rest.
 #include "compositor/float_rays.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ double scale_for(double x) {
   return scale;
 }
 
-/// Where the ray enters the box, at nearest or later; false when it does not.
+/// The entry of the ray into the box, at nearest or later; false if there is none.
 bool entry_of(const Ray& ray, const Box& box, double& entry) {
   double from = ray.nearest, to = ray.farthest;
   for (int k = 0; k < 3; ++k) {

@@ -30,7 +30,8 @@ void set_margins(const HeightfieldView& field, double cell_height, HeightfieldTi
   const double columns = tile.x1 - tile.x0, rows = tile.y1 - tile.y0, longest = std::max(columns, rows) + 2;
   const double spread = std::max(tile.high - tile.low, 0x1p-8 * cell_height);
   tile.margin = 1e-6 * (tile.high - tile.low) + 1e-9 * (cell_height + std::max(magnitude(tile.low), magnitude(tile.high)));
-  // Some four roundings of the ray's height, which came down from `far`, and of its place, whose numbers are those of the whole field.
+  // About four roundings of the ray's height, which came down from `far`, and of its position, whose numbers have the size of the whole
+  // field.
   constexpr double far = 0x1p14;
   tile.roundings = 0x1p-48 * ((far + field.columns + field.rows) * tile.steepest + far * cell_height +
                               std::max(magnitude(tile.low), magnitude(tile.high)));
@@ -47,7 +48,7 @@ void set_margins(const HeightfieldView& field, double cell_height, HeightfieldTi
   f.high = static_cast<float>(tile.high - from_middle + most_doubt);
   f.beside = static_cast<float>(0x1p-18 * longest);
   f.longest = static_cast<float>(longest);
-  f.away = longest <= 0x1p20 ? static_cast<float>(4 * longest) : -1;  // cells of a larger tile have no exact numbers
+  f.away = longest <= 0x1p20 ? static_cast<float>(4 * longest) : -1;  // in a larger tile floats do not represent the cells exactly
   f.tall = static_cast<float>(2 * spread);
   f.far_beside = static_cast<float>(far);
   f.far_above = static_cast<float>(far * cell_height);

@@ -1,4 +1,4 @@
-// A sheet of heights over a parallelogram: water, or the drops on a flat pane.
+// A heightfield over a parallelogram: water, or the drops on a flat pane.
 #pragma once
 
 #include <span>
@@ -17,12 +17,11 @@ struct HeightfieldFrame {
   Vec origin, edge_u, edge_v, axis;
 };
 
-/// Cells of two triangles each, with the diagonal from vertex (x + 1, y) to (x, y + 1); a ray meets the sheet from both
-/// sides. No ray passes between two cells; the sheet is open at its border. Exact as far as a ray's origin lies within
-/// 10^6 cells of the sheet.
+/// Cells of two triangles each, with the diagonal from vertex (x + 1, y) to (x, y + 1); a ray meets the sheet from both sides. No ray
+/// passes between two cells; the sheet is open at its border. Exact as far as a ray's origin lies within 10^6 cells of the sheet.
 ///
-/// A hit's part is 2 (y columns + x) + upper, where the upper triangle holds vertex (x + 1, y + 1); its u and v in [0, 1]
-/// count from vertex (x, y) along u and v. Of a sheet that a ray meets several times, the first crossing counts.
+/// A hit's part is 2 (y columns + x) + upper, where the upper triangle holds vertex (x + 1, y + 1); its u and v in [0, 1] count from vertex
+/// (x, y) along u and v. If a ray crosses the sheet several times, the first crossing counts.
 class Heightfield final : public Surface {
  public:
   /// A flat sheet of height 0. Throws Error(usage) unless columns and rows are positive, their product is below 2^30, the
@@ -43,11 +42,11 @@ class Heightfield final : public Surface {
     double x, y;
   };
   Place place(const Hit& hit) const;
-  /// The unit normal of the sheet through slopes in cells (height for each column, each row), on the outside.
+  /// The unit normal for slopes in cells (height per column, per row), on the outside.
   Vec normal_of_slopes(double slope_x, double slope_y) const;
-  /// Normals of the vertices by central differences, interpolated to the hit and made unit.
+  /// Normals of the vertices by central differences, interpolated to the hit and normalized.
   Vec smooth_normal(const Hit& hit) const;
-  /// The same of `count` hits, which go on to whole lanes, repeating the last one.
+  /// The same for `count` hits, padded to whole lanes by repeating the last one.
   void smooth_normals(std::size_t count, const Hit* hits, const VecArraysOut& normals) const {
     interpolated_normals(view_, count, hits, normals);
   }
@@ -64,11 +63,11 @@ class Heightfield final : public Surface {
   HeightfieldFrame frame_;
   int columns_, rows_;
   double cell_height_;      ///< longer side of a cell, in units of the axis
-  std::size_t first_cell_;  ///< of highest_, which has cells to spare on both sides
+  std::size_t first_cell_;  ///< of highest_, which has spare cells on both sides
   int blocks_across_, blocks_down_;
-  zeroed::Array<float> memory_;  ///< of the next three: one block, so that a few large pages hold it, and not a small one each row
-  std::span<float> heights_, pairs_, highest_;  ///< as HeightfieldView has them
-  std::vector<float> blocks_, nearby_;          ///< of each block alone its highest; of the blocks around it
+  zeroed::Array<float> memory_;  ///< one block for the next three, so that a few large pages hold it instead of one small page per row
+  std::span<float> heights_, pairs_, highest_;  ///< see HeightfieldView
+  std::vector<float> blocks_, nearby_;          ///< maximum of each block alone, and with the blocks around it
   std::vector<HeightfieldTile> tiles_;
   HeightfieldView view_;
   std::uint64_t revision_ = 0;

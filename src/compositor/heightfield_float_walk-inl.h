@@ -1,31 +1,31 @@
-// A walk in floats, 16 rays to a vector of 64 bytes, that says of a ray: certainly missed, a guess of the triangle that it hits, or
-// nothing. A guess is then tried in doubles, and whoever is left walks in doubles (heightfield_walk-inl.h). The answer is always
-// the definition's. Text only, for one target.
+// A walk in floats, with 16 rays in a vector of 64 bytes. For each ray it returns that it certainly misses, a guess of the triangle that it
+// hits, or nothing. A guess is then checked in doubles, and the remaining rays walk in doubles (heightfield_walk-inl.h). The result is
+// always that of the definition. Text only, for one target.
 //
-// Why a miss is a miss. Let A be the cells that the ray goes within the tile, along the axis along which it goes faster; positions
-// count from the cell in which it enters, so all of them are below A + 2. Nine roundings (of the first position, the direction, the
-// reciprocal, three of the wall's time, three of the place along the wall) move what floats call the ray at time t by less than
-// 10 eps (A + 2) from where it is, eps = 2^-24; delta = 16 eps (A + 2) is taken. Of the sheet, heights a distance delta apart differ by 2
-// steepest delta at most, and where two triangles' planes go on beyond their edge by 4 steepest delta. Heights themselves are wrong by less
-// than 16 eps spread. So if at every edge that the ray crosses in floats it is farther from the sheet than
+// Proof that a miss is correct. Let A be the number of cells that the ray passes within the tile, along its faster axis. Positions are
+// relative to the cell in which it enters, so all of them are below A + 2. Nine roundings (of the first position, the direction, the
+// reciprocal, three of the wall's time, three of the place along the wall) move the float position of the ray at time t by less than 10 eps
+// (A + 2), eps = 2^-24; we use delta = 16 eps (A + 2). Heights of the sheet at a distance delta differ by at most 2 steepest delta, and if
+// the planes of two triangles are extended beyond their edge by at most 4 steepest delta. Heights themselves have an error below 16 eps
+// spread. So if at every edge that the ray crosses in floats it is farther from the sheet than
 //   doubt = 8 steepest delta + 16 eps spread + twice the tile's margin
-// and always on the same side, then it is on that side at every edge that it crosses by the definition, though these may be others
-// where it passes a corner or runs along an edge: between two edges the distance is linear, and the true ray is delta away.
+// and always on the same side, then it is on that side at every edge that it crosses by the definition. These edges may differ near a
+// corner or along an edge, but between two edges the distance is linear, and the true ray is at most delta away.
 //
-// A ray that leaves the tile by a wall may do so later than floats say, and go on inside along the wall: by some delta over its
-// speed across the wall. What its height above the sheet may change in that time is added to `doubt`. So it is where a ray enters by a
-// wall, for floats begin before that.
+// A ray may leave the tile through a wall later than in floats, and continue inside along the wall for about delta divided by its speed
+// across the wall. The possible change of its height above the sheet in that time is added to `doubt`. The same holds for a ray that enters
+// through a wall, because floats begin before that.
 //
-// Why a guess that was tried is the hit. It is the first triangle that floats cannot rule out, entered at a point where they are
-// certain of the side (g > doubt, or the start). The true ray leaves that side on the triangle's plane at time h, and is within the
-// triangle then: that is tried. Before h it may cross other edges than floats saw, outside of the triangle, but at a share s of the
-// way from h back to the entry it is at most s delta outside (at h it is inside), where the sheet differs from the plane by less than
-// 8 steepest s delta, and g is at least s doubt there. So no edge before h sees another side. Inside means by so much that doubles
-// see the side too: rates of the distances to the edges are at most |dx| + |dy|.
+// Proof that a checked guess is the hit. It is the first triangle that floats cannot rule out, entered at a point where the side is certain
+// (g > doubt, or the start). The check ensures that the true ray leaves that side on the triangle's plane at time h, and is within the
+// triangle then. Before h it may cross other edges than in floats, outside the triangle. But at a share s of the way from h back to the
+// entry it is at most s delta outside (at h it is inside), where the sheet differs from the plane by less than 8 steepest s delta, and g is
+// at least s doubt there. So the side does not change at any edge before h. The check requires a margin inside the triangle that is large
+// enough for doubles: rates of the distances to the edges are at most |dx| + |dy|.
 //
-// Where rays begin: through the slab's top they are above, through its bottom below. The slab is wider by `doubt` than the heights, so
-// this holds too where a ray comes through a corner of the slab: one that falls so much more steeply than the sheet that it does not
-// hold cannot come up through the sheet in that cell.
+// Start of a ray: it is above if it enters through the slab's top, and below if it enters through its bottom. The slab extends the heights
+// by `doubt`, so this also holds for a ray through a corner of the slab: a ray steep enough to violate it cannot come up through the sheet
+// in that cell.
 namespace float_walk {
 
 using D = FloatTag;
@@ -39,20 +39,20 @@ HWY_INLINE HWY_ATTR V times_plus(V a, V b, V c) { return hn::Add(hn::Mul(a, b), 
 HWY_INLINE HWY_ATTR V narrow(const Pair& a) {
   return hn::Combine(D(), hn::DemoteTo(NarrowTag(), a.upper.v), hn::DemoteTo(NarrowTag(), a.lower.v));
 }
-/// Of one that is not negative: -0 does not matter here.
+/// For a nonnegative number; -0 does not matter here.
 HWY_INLINE HWY_ATTR Pair floor_of(const Pair& a) { return {hn::Floor(a.lower.v), hn::Floor(a.upper.v)}; }
 HWY_INLINE HWY_ATTR V within_unit(V x) { return hn::Min(hn::Max(x, hn::Zero(D())), all(1)); }
 HWY_INLINE HWY_ATTR V without_zero(V x) { return hn::IfThenElse(hn::Lt(hn::Abs(x), all(1e-30f)), all(1e-30f), x); }
-/// Of a whole number of magnitude below 2^22.
+/// For a whole number of magnitude below 2^22.
 HWY_INLINE HWY_ATTR VI integer(V a) {
-  const V large = all(0x1.8p23f);  // after whose addition the last bit is worth 1
+  const V large = all(0x1.8p23f);  // adding it makes the last bit worth 1
   return hn::Sub(hn::BitCast(DI(), hn::Add(a, large)), hn::BitCast(DI(), large));
 }
 HWY_INLINE HWY_ATTR bool any(M mask) { return !hn::AllFalse(D(), mask); }
-/// What floats say of the lanes asked, a bit for each; of lanes in neither set nothing.
+/// Result of the floats for the requested lanes, as bit masks; lanes in neither mask are undecided.
 struct Outcome {
   std::uint32_t missed = 0;
-  std::uint32_t guessed = 0, upper = 0;  ///< upper: of those guessed, the triangle with the fourth vertex
+  std::uint32_t guessed = 0, upper = 0;  ///< upper: the guessed lanes whose triangle contains the fourth vertex
   V i, j;                                ///< cells guessed, from the tile's first
   V h00, h10, h01, h11;                  ///< the heights of their corners
   HWY_INLINE HWY_ATTR Outcome() {}
@@ -76,7 +76,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   V far_x = hn::IfThenElseZero(right, columns), near_x = hn::Sub(columns, far_x);
   V far_y = hn::IfThenElseZero(up, rows), near_y = hn::Sub(rows, far_y);
 
-  // Places and times count from one near where the ray enters, and from the cell there: small numbers.
+  // Positions and times are relative to a point near the ray's entry and its cell, so that the numbers are small.
   const V side_by_origin = hn::Max(hn::Mul(hn::Sub(near_x, float_ox), ix), hn::Mul(hn::Sub(near_y, float_oy), iy));
   const V slab_by_origin = hn::Mul(hn::Sub(hn::IfThenElse(falls, high, low), float_oh), ih);
   const Pair start = to_double(hn::Min(hn::Max(hn::Max(side_by_origin, slab_by_origin), narrow(r.nearest)), all(1e30f)));
@@ -88,7 +88,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   const V px = narrow(x - cell_x), py = narrow(y - cell_y), ph = narrow(oh + start * r.dh);
   const V nearest = narrow(r.nearest - start), farthest = hn::Min(narrow(minimum(r.farthest, limit) - start), all(1e30f));
 
-  // Of numbers that are too large, or none, floats say nothing; nor where the doubles' own roundings show.
+  // Numbers that are too large or NaN leave a lane undecided, as does a ray for which the roundings of doubles matter.
   const M active = float_mask_of_bits(lanes), nowhere = hn::AndNot(active, active);
   const M ordinary = hn::And(
       hn::And(hn::Le(hn::Max(hn::Abs(float_ox), hn::Abs(float_oy)), all(f.far_beside)), hn::Le(hn::Abs(float_oh), all(f.far_above))),
@@ -116,7 +116,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   const V leaving = hn::Sub(leaves, end);
   const V doubt = times_plus(leaving, faster, times_plus(cells, all(f.doubt_for_cell), all(f.doubt)));
 
-  // A ray that falls from high above the blocks around it goes on to where it comes down to their highest vertex, or leaves them.
+  // A ray that falls from high above the surrounding blocks continues to the height of their highest vertex, or to their border.
   V t = hn::IfThenElseZero(walks, begin);
   const V block_time = hn::Mul(hn::Min(abs_ix, abs_iy), all(block_cells - 0.1f));
   for (M leaps = hn::And(hn::And(walks, falls), hn::Gt(hn::Sub(end, t), block_time)); any(leaps);) {
@@ -132,7 +132,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
     leaps = hn::And(leaps, hn::And(hn::Ge(t, beyond), hn::Lt(t, end)));
   }
 
-  // The cell, from that of px and py; its walls ahead; the number of its first vertex.
+  // The cell relative to that of px and py; its walls ahead; the index of its first vertex.
   const V first_x = hn::Neg(fx), first_y = hn::Neg(fy);
   const V here_x = hn::IfThenElseZero(walks, times_plus(t, dx, px)), here_y = hn::IfThenElseZero(walks, times_plus(t, dy, py));
   const V i0 = hn::Floor(hn::Max(first_x, hn::Min(here_x, hn::Add(first_x, hn::Sub(columns, one)))));
@@ -166,9 +166,9 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
   }
 
   const V lowered = hn::Sub(ph, doubt);
-  bool fetched = any(waiting);  // which are all in the cells whose corners were fetched above
+  bool fetched = any(waiting);  // all in the cells whose corners were fetched above
   for (;;) {
-    // Of a ray that passes a cell that it might have hit, the next two are asked too.
+    // A ray that passes a cell that it might have hit also tests the next two.
     for (int cell = 0; cell < 3 && any(waiting); ++cell) {
       if (!fetched) corners(field.pairs, at, h00, h10, h01, h11);
       fetched = false;
@@ -185,7 +185,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
       const V along_diagonal = within_unit(hn::Sub(times_plus(diagonal, dx, px), i));
       const V diagonal_gap = hn::Xor(side, hn::Sub(times_plus(diagonal, dh, ph), times_plus(along_diagonal, hn::Sub(g10, g01), g01)));
       const M crosses = hn::And(hn::Lt(t, diagonal), hn::Lt(diagonal, exit)), is_clear_there = hn::Gt(diagonal_gap, doubt);
-      // Stays as it is when a ray has stopped, whose cell and time do, and whose corners are fetched again with those of the others.
+      // Unchanged for a stopped ray, whose cell and time stay; its corners are fetched again with those of the others.
       in_second = hn::Or(hn::And(crosses, is_clear_there), hn::Le(diagonal, t));
       const M passes = hn::AndNot(hn::AndNot(is_clear_there, crosses), hn::And(waiting, hn::Gt(exit_gap, doubt)));
       guessed = hn::Or(guessed, hn::AndNot(passes, waiting));
@@ -199,8 +199,8 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
     walking = hn::Or(walking, waiting);
     waiting = nowhere;
     if (!any(walking)) break;
-    // Every ray walks to a cell that it may hit; there it waits for the others. A ray runs a few cells ahead of the answer
-    // whether it may go there, so that the fetches of several cells overlap.
+    // Each ray walks to a cell that it may hit, and waits there for the others. A ray runs a few cells ahead of the check, so that the
+    // fetches of several cells overlap.
     do {
       V ahead_kx = kx, ahead_ky = ky, ahead_h = hn::Mul(t, dh);
       VI ahead_at = at;
@@ -211,7 +211,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
         const M is_clear = hn::Gt(hn::Add(hn::Min(ahead_h, exit_h), lowered), hn::Sub(top, middle));
         waiting = hn::Or(waiting, hn::AndNot(is_clear, walking));
         walking = hn::And(walking, hn::And(is_clear, hn::Lt(exit, end)));
-        // Through a corner a ray goes by way of the cell beside it: one more to ask.
+        // A ray through a corner passes through the cell beside it, which is tested too.
         const M moves_x = hn::Lt(tx, ty);
         ahead_kx = hn::IfThenElse(moves_x, hn::Add(ahead_kx, step_x), ahead_kx);
         ahead_ky = hn::IfThenElse(moves_x, ahead_ky, hn::Add(ahead_ky, step_y));
@@ -225,7 +225,7 @@ HWY_INLINE HWY_ATTR void walk(const HeightfieldView& field, const HeightfieldTil
     } while (any(walking));
     if (!any(waiting)) break;
   }
-  // A ray that was stopped stays in its cell, whose corners were fetched with those of the rays that went on.
+  // A stopped ray stays in its cell, whose corners were fetched with those of the continuing rays.
   out.missed |= bits_of(hn::AndNot(hn::Or(guessed, unsure), walks));
   out.guessed = bits_of(guessed);
   out.upper = bits_of(hn::AndNot(hn::Xor(in_second, to_upper), guessed));

@@ -1,12 +1,12 @@
-// Normals of a heightfield, written once over a number N of doubles. Text only; needs math/vocabulary-inl.h and a fetch from
-// floats before it. Vertices and cells are named by whole x and y.
+// Normals of a heightfield, written once for any number type N of doubles. Text only; include math/vocabulary-inl.h and a fetch from floats
+// before it. Vertices and cells have whole x and y.
 
 template <class N>
 RAINREF_FN Vec3<N> made_unit(const Vec3<N>& a) {
   const N size = length(a);
   return Vec3<N>{a.x / size, a.y / size, a.z / size};
 }
-/// The unit normal of the sheet through slopes in cells (height for each column, each row).
+/// The unit normal for slopes in cells (height per column, per row).
 template <class N>
 RAINREF_FN Vec3<N> normal_of_slopes(const HeightfieldView& field, N slope_x, N slope_y) {
   const auto row = [&](int k) RAINREF_LAMBDA { return Vec3<N>{N(field.to_grid[k][0]), N(field.to_grid[k][1]), N(field.to_grid[k][2])}; };
@@ -17,7 +17,7 @@ RAINREF_FN N height_of_vertex(const HeightfieldView& field, typename N::Int x, t
   return fetch(field.heights, y * N::uniform_int(static_cast<int>(field.columns) + 1) + x, N());
 }
 
-/// Of the triangle of cell (x, y) that `upper` names: 1 on the side of the fourth vertex, else 0.
+/// Normal of the triangle of cell (x, y) selected by `upper`: 1 for the side of the fourth vertex, else 0.
 template <class N>
 RAINREF_FN Vec3<N> facet_normal(const HeightfieldView& field, typename N::Int x, typename N::Int y, typename N::Int upper) {
   const auto along = y + upper, across = x + upper;
@@ -25,7 +25,7 @@ RAINREF_FN Vec3<N> facet_normal(const HeightfieldView& field, typename N::Int x,
                           height_of_vertex<N>(field, across, y + 1) - height_of_vertex<N>(field, across, y));
 }
 
-/// Of a vertex, by central differences.
+/// Normal of a vertex, by central differences.
 template <class N>
 RAINREF_FN Vec3<N> vertex_normal(const HeightfieldView& field, typename N::Int x, typename N::Int y) {
   const auto none = N::uniform_int(0);
@@ -35,7 +35,7 @@ RAINREF_FN Vec3<N> vertex_normal(const HeightfieldView& field, typename N::Int x
   const N slope_y = (height_of_vertex<N>(field, x, north) - height_of_vertex<N>(field, x, south)) / (to_number(north) - to_number(south));
   return normal_of_slopes(field, slope_x, slope_y);
 }
-/// Those of the vertices of cell (x, y), interpolated to (u, v) in it and made unit.
+/// Vertex normals of cell (x, y), interpolated to (u, v) in it and normalized.
 template <class N>
 RAINREF_FN Vec3<N> interpolated_normal(const HeightfieldView& field, typename N::Int x, typename N::Int y, N u, N v) {
   const N one(1.0);

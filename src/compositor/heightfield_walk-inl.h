@@ -1,16 +1,15 @@
-// Where rays meet a heightfield, written once over a number R of doubles: one ray, or several side by side. Text only.
+// Intersects rays with a heightfield, written once for any number type R of doubles: one ray, or several side by side. Text only.
 //
-// The definition of a hit. In the grid, vertices stand at whole x and y; a cell is two triangles with the diagonal from
-// (1, 0) to (0, 1). The ray is at wall k at time (k - o) (1 / d): one expression, a pure and monotone function of k, so
-// cells [latest entry, earliest exit) cover the ray without gaps, and a tie is a step through the corner. At each edge
-// or diagonal that the ray crosses, g = height of the ray - height of the edge, by an expression that is the same for
-// both neighbours: a change of the sign of g cannot fall between them. The first change is the hit. Its t comes from the
-// plane of the triangle, held within the triangle's cell by the times of its walls.
-// Whatever skips cells (their highest vertex, the tile's slab, a nearer hit) only leaves out intervals in which g has no
-// change of sign, or that begin after the nearer hit. So the answer does not depend on tiles, lanes or what else is met.
+// Definition of a hit. In the grid, vertices are at whole x and y; a cell is two triangles with the diagonal from (1, 0) to (0, 1). The ray
+// is at wall k at time (k - o) (1 / d): one expression, a pure and monotone function of k, so cells [latest entry, earliest exit) cover the
+// ray without gaps, and a tie is a step through the corner. At each edge or diagonal that the ray crosses, g = height of the ray - height
+// of the edge, by an expression that is the same for both neighbours: a change of the sign of g cannot fall between them. The first change
+// is the hit. Its t comes from the plane of the triangle, clamped to the times at the walls of the triangle's cell.
+// Tests that skip cells (their highest vertex, the tile's slab, a nearer hit) only leave out intervals in which g does not change its sign,
+// or that begin after the nearer hit. So the result does not depend on tiles, lanes or other surfaces.
 //
-// Needs of R: + - * /, comparisons to R::Mask, & | ^ of masks and without(a, b) (a and not b), select, R::any, whole(a) (the floor of a,
-// for |a| < 2^31), gather(p, i) (p[i], widened), corners(pairs, i, ...) (of the cell after vertex i), minimum and maximum.
+// Requirements for R: + - * /, comparisons to R::Mask, & | ^ of masks and without(a, b) (a and not b), select, R::any, whole(a) (the floor
+// of a, for |a| < 2^31), gather(p, i) (p[i], widened), corners(pairs, i, ...) (of the cell after vertex i), minimum and maximum.
 
 /// A ray in the grid's axes: x and y in cells, h along the axis.
 template <class R>
@@ -18,7 +17,7 @@ struct GridRay {
   R ox, oy, oh, dx, dy, dh, nearest, farthest;
 };
 
-/// Directions along a wall become almost so: a reciprocal stays finite, and 1e-30 cells for each unit of t are nothing.
+/// Moves directions along a wall slightly off it, so that a reciprocal stays finite; 1e-30 cells per unit of t do not matter.
 template <class R>
 RAINREF_FN R without_zero(R d) {
   return select(abs(d) < R(1e-30), R(1e-30), d);
@@ -29,7 +28,7 @@ RAINREF_FN R within_unit(R x) {
   return maximum(R(0.0), minimum(R(1.0), x));
 }
 
-/// is_level: HeightfieldView::is_level, known while compiling.
+/// is_level: HeightfieldView::is_level, known at compile time.
 template <bool is_level, class R>
 RAINREF_FN GridRay<R> to_grid(const HeightfieldView& field, const R (&origin)[3], const R (&direction)[3], R nearest, R farthest) {
   const R x = origin[0] - R(field.origin[0]), y = origin[1] - R(field.origin[1]), z = origin[2] - R(field.origin[2]);
@@ -55,7 +54,7 @@ RAINREF_FN GridRay<R> to_grid(const HeightfieldView& field, const R (&origin)[3]
   }
 }
 
-/// The wall of the cell that holds time t, on the side where the ray leaves it: walls are at times (k - o) inverse.
+/// The wall through which the ray leaves the cell that contains time t; walls are at times (k - o) inverse.
 template <class R>
 RAINREF_FN R leaving_wall(R t, R o, R d, R inverse, R ahead, R step, double first, double last) {
   const R k = whole(maximum(R(first), minimum(R(last), o + t * d))) + ahead;
@@ -63,7 +62,7 @@ RAINREF_FN R leaving_wall(R t, R o, R d, R inverse, R ahead, R step, double firs
   return select(late, k + step, select(early, k - step, k));
 }
 
-/// When the ray is on the plane of a triangle of cell (i, j); and how fast it comes closer to it, in height.
+/// Time at which the ray is on the plane of a triangle of cell (i, j), and its speed toward it, in height.
 template <class R>
 RAINREF_FN R meet_plane(const GridRay<R>& r, R i, R j, R upper, typename R::Mask is_upper, R h00, R h10, R h01, R h11, R& closing) {
   const R base = select(is_upper, h11, h00), slope_x = select(is_upper, h11 - h01, h10 - h00),
@@ -74,8 +73,8 @@ RAINREF_FN R meet_plane(const GridRay<R>& r, R i, R j, R upper, typename R::Mask
   return (R(0.0) - gap) / without_zero(closing);
 }
 
-/// Meets the tile with the rays in `active`; `limit` is the nearest hit known. Gives the mask of rays that hit before or
-/// at the limit, and for those t, the part, and the place in the cell.
+/// Intersects the tile with the rays in `active`; `limit` is the nearest known hit. Returns the mask of rays that hit before or at the
+/// limit, with t, the part, and the position in the cell.
 template <class R>
 RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const HeightfieldTile& tile, const GridRay<R>& r, R limit,
                                        typename R::Mask active, R& hit_t, R& hit_part, R& hit_u, R& hit_v) {
@@ -86,11 +85,11 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   const R ahead_x = select(right, one, zero), ahead_y = select(up, one, zero);
   const R step_x = select(right, one, R(-1.0)), step_y = select(up, one, R(-1.0));
 
-  // The interval within the tile, and what of it lies in the slab of heights.
+  // The interval within the tile, and the part of it in the slab of heights.
   const R x_in = (select(right, R(tile.x0), R(tile.x1)) - r.ox) * ix, x_out = (select(right, R(tile.x1), R(tile.x0)) - r.ox) * ix;
   const R y_in = (select(up, R(tile.y0), R(tile.y1)) - r.oy) * iy, y_out = (select(up, R(tile.y1), R(tile.y0)) - r.oy) * iy;
   const R begin = maximum(maximum(x_in, y_in), r.nearest);
-  // Up to and with the limit: what begins at it may still win by its number.
+  // Up to and including the limit: a hit at the limit may still win by its number.
   const R last = minimum(r.farthest, limit) * R(1 + 0x1p-50) + R(0x1p-1000);
   const R ih = one / without_zero(r.dh);
   const R slab_a = (R(tile.low - tile.margin) - r.oh) * ih, slab_b = (R(tile.high + tile.margin) - r.oh) * ih;
@@ -102,21 +101,21 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   if (!R::any(active)) return found;
   t = select(active, t, begin);
 
-  // Rays that are not active stand in the tile's first cell: what they fetch must be there.
+  // Inactive rays use the tile's first cell, because the data that they fetch must exist.
   R kx = select(active, leaving_wall(t, r.ox, r.dx, ix, ahead_x, step_x, tile.x0, tile.x1 - 1), R(tile.x0) + ahead_x);
   R ky = select(active, leaving_wall(t, r.oy, r.dy, iy, ahead_y, step_y, tile.y0, tile.y1 - 1), R(tile.y0) + ahead_y);
   const R sum_o = r.ox + r.oy, sum_d = without_zero(r.dx + r.dy), is = one / sum_d;
   const Mask to_upper = sum_d > zero;
 
   const auto difference = [&](R at, R a, R b, R f) RAINREF_LAMBDA { return (r.oh + at * r.dh) - (a * (one - f) + b * f); };
-  // g at time `at`, on the wall x (a to b along y), the wall y (c to d along x), or in the corner that f says.
+  // g at time `at`, on the wall x (a to b along y), the wall y (c to d along x), or in the corner given by f.
   const auto at_wall = [&](R at, Mask on_x, Mask on_y, R i, R j, R a, R b, R c, R d, R f) RAINREF_LAMBDA {
     const R along = within_unit(select(on_y, r.ox, r.oy) + at * select(on_y, r.dx, r.dy) - select(on_y, i, j));
     return difference(at, select(on_y, c, a), select(on_y, d, b), select(on_x | on_y, along, f));
   };
 
-  // The side on which the ray begins. One that comes through the slab's top or bottom is above or below; one through a
-  // side of the tile has the sign at that wall; one that starts here compares itself with its triangle.
+  // The side on which the ray begins. A ray through the slab's top or bottom is above or below. A ray through a side of the tile has the
+  // sign at that wall. A ray that starts here is compared with its triangle.
   Mask above = falls;
   const Mask unknown = active & (t <= begin);
   if (R::any(unknown)) {
@@ -136,8 +135,8 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
   Mask walking = without(active, unknown), waiting = unknown, found_upper = nowhere;
   while (R::any(walking | waiting)) {
-    // Every ray walks to a cell that it may hit; there it waits for the others. A ray runs a few cells ahead of the answer
-    // whether it may go there, so that the fetches of several cells overlap.
+    // Each ray walks to a cell that it may hit, and waits there for the others. A ray runs a few cells ahead of the check, so that the
+    // fetches of several cells overlap.
     while (R::any(walking)) {
       R ahead_kx = kx, ahead_ky = ky, ahead_t = t;
       _Pragma("GCC unroll 4") for (int cell = 0; cell < cells_ahead; ++cell) {
@@ -155,7 +154,7 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
       }
     }
     if (!R::any(waiting)) break;
-    // A ray that passes a cell that it might have hit may well hit the next one, so that is met without being asked.
+    // A ray that passes a cell that it might have hit often hits the next one, so that one is intersected without a check.
     int cells_met = 0;
     do {
       const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
@@ -182,7 +181,7 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   }
   if (!R::any(found)) return found;
 
-  // A ray that hit stays in its cell, whose heights were fetched with those of the rays that went on.
+  // A ray that hit stays in its cell, whose heights were fetched with those of the continuing rays.
   const R hit_i = kx - ahead_x, hit_j = ky - ahead_y, hit_upper = select(found_upper, one, zero);
   R closing = zero;
   const R on_plane = meet_plane(r, hit_i, hit_j, hit_upper, found_upper, h00, h10, h01, h11, closing);

@@ -1,4 +1,4 @@
-// Hits of a sheet of cells in lanes of doubles. Re-included for every target.
+// Hits of a heightfield in lanes of doubles. Re-included for every target.
 #if defined(RAINREF_COMPOSITOR_HIT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_COMPOSITOR_HIT_LANES_INL_H_
 #undef RAINREF_COMPOSITOR_HIT_LANES_INL_H_
@@ -11,9 +11,9 @@
 
 RAINREF_TARGET_BEGIN(compositor)
 
-/// Of as many hits as a vector has lanes.
+/// The cells of a vector of hits.
 struct CellLanes {
-  DoubleLanes::Int x, y, upper;  ///< of the part: 2 (y columns + x) + upper
+  DoubleLanes::Int x, y, upper;  ///< decoded part: 2 (y columns + x) + upper
   DoubleLanes u, v;
   HWY_INLINE HWY_ATTR CellLanes(const Hit* hits, int columns) {
     using N = DoubleLanes;
@@ -23,7 +23,7 @@ struct CellLanes {
     const auto apart = hn::ShiftLeft<2>(hn::Iota(hn::RebindToSigned<N::D>(), 0));
     u = hn::GatherIndex(N::D(), &hits->u, apart);
     v = hn::GatherIndex(N::D(), &hits->v, apart);
-    // Parts are below 2^31, where the rounded quotient has the whole part of the true one.
+    // Parts are below 2^31, where the rounded quotient has the integer part of the exact one.
     const N::Int cell(hn::ShiftRight<1>(parts));
     y = to_int(floor(to_number(cell) / N(static_cast<double>(columns))));
     x = cell + y * -columns;

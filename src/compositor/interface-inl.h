@@ -1,33 +1,32 @@
-// What a smooth interface between two media does to a ray, written once over a number N of doubles. Text only; needs
+// Reflection and refraction at a smooth interface between two media, written once for any number type N of doubles. Text only; include
 // math/optics-inl.h before it.
 
-/// The two rays that an interface makes of one; directions unit.
+/// The two rays that result at an interface; directions are unit vectors.
 template <class N>
 struct SplitOf {
   Vec3<N> reflected, refracted;  ///< refracted is zero beyond the critical angle
-  N reflectance;                 ///< Fresnel's, of unpolarized light, in [0, 1]; 1 beyond the critical angle
+  N reflectance;                 ///< Fresnel's, for unpolarized light, in [0, 1]; 1 beyond the critical angle
 };
-/// d and n are unit, n against d; ior_from is on the ray's side. Within a few roundings.
+/// d and n are unit, n against d; ior_from is on the ray's side. Accurate to a few roundings.
 template <class N>
 RAINREF_FN SplitOf<N> split(const Vec3<N>& d, const Vec3<N>& n, N ior_from, N ior_to) {
   const Vec3<N> bent = refract(d, n, ior_from / ior_to);
   const N zero(0.0), one(1.0);
   const auto is_zero = [&](N x) RAINREF_LAMBDA { return (x <= zero) & (x >= zero); };
   const auto beyond_critical = is_zero(bent.x) & is_zero(bent.y) & is_zero(bent.z);
-  // Fresnel's equations are the same both ways; the text wants them seen from the thinner medium.
+  // Fresnel's equations are symmetric; the text needs them from the thinner medium.
   const auto from_thinner = ior_from <= ior_to;
   const N cosine = select(from_thinner, -dot(n, d), -dot(n, bent)), ratio = select(from_thinner, ior_to / ior_from, ior_from / ior_to);
   return {reflect(d, n), bent, select(beyond_critical, one, fresnel_dielectric(cosine, ratio))};
 }
 
-/// The rays, and the normal that decided, against the ray.
+/// The rays, and the normal that was used, against the ray.
 template <class N>
 struct CrossingOf {
   SplitOf<N> rays;
   Vec3<N> normal;
 };
-/// facing and smooth are unit, facing against the ray. Where the smooth normal would send a ray through the facet, facing
-/// decides.
+/// facing and smooth are unit, facing against the ray. If the smooth normal would send a ray through the facet, facing is used.
 template <class N>
 RAINREF_FN CrossingOf<N> cross_facet(const Vec3<N>& d, const Vec3<N>& facing, const Vec3<N>& smooth, N ior_from, N ior_to) {
   const N zero(0.0);

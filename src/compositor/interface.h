@@ -1,4 +1,4 @@
-// What a smooth interface between two media does to one ray.
+// Reflection and refraction of one ray at a smooth interface between two media.
 #pragma once
 
 #include "compositor/optics.h"
@@ -14,21 +14,21 @@ namespace scalar {
 #undef RAINREF_LAMBDA
 }  // namespace scalar
 
-/// The two rays that an interface makes of one; directions unit.
+/// The two rays that result at an interface; directions are unit vectors.
 struct Split {
   Vec reflected, refracted;  ///< refracted is zero beyond the critical angle
-  double reflectance;        ///< Fresnel's, of unpolarized light, in [0, 1]; 1 beyond the critical angle
+  double reflectance;        ///< Fresnel's, for unpolarized light, in [0, 1]; 1 beyond the critical angle
 };
 inline Split split_of(const scalar::SplitOf<scalar::Number>& s) {
   return {scalar::vec(s.reflected), scalar::vec(s.refracted), s.reflectance.v};
 }
-/// direction and normal are unit, the normal against the ray; ior_from is on the ray's side. Within a few roundings.
+/// direction and normal are unit, the normal against the ray; ior_from is on the ray's side. Accurate to a few roundings.
 inline Split split(const Vec& direction, const Vec& normal, double ior_from, double ior_to) {
   using namespace scalar;
   return split_of(scalar::split(number(direction), number(normal), Number(ior_from), Number(ior_to)));
 }
 
-/// What a material that is an interface does to the ray that met it, and the normal that decided, against the ray.
+/// The rays that result from a ray at an interface, and the normal that was used, against the ray.
 struct Crossing {
   Split rays;
   Vec normal;

@@ -17,7 +17,7 @@ std::uint32_t MeetBox(const Vec& low, const Vec& high, std::uint32_t self, std::
     if (here == 0) continue;
     R from(0.0), to(1e30);
     for (int k = 0; k < 3; ++k) {
-      // A reciprocal stays finite, so that nothing is infinity times zero.
+      // Reciprocals stay finite, to avoid infinity times zero.
       const R d = load_slots(packet.direction[k] + slot), o = load_slots(packet.origin[k] + slot);
       const LaneMask still = abs(d) < R(1e-30);
       const R inverse = select(still, R(1e30), R(1.0) / select(still, R(1.0), d));

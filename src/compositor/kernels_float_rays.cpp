@@ -1,4 +1,4 @@
-// Rays to floats, several at once; compiled once for each SIMD target.
+// Converts several rays to floats at once; compiled once for each SIMD target.
 #include <algorithm>
 #include <limits>
 
@@ -14,7 +14,7 @@ RAINREF_TARGET_BEGIN(compositor)
 using R = Real64Lanes;
 constexpr int n = lane_width;
 
-/// Component by component, what lies ray by ray; as many as a vector has lanes.
+/// Transposes a vector of rays to separate components.
 HWY_INLINE HWY_ATTR void transpose(const double* const* rays, double* const* components, int slot) {
 #if HWY_TARGET == HWY_AVX3
   const R::D d;
@@ -57,7 +57,7 @@ std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket
   const NarrowTag narrow;
   const R zero(0.0), slack(extent.slack()), largest(largest_float);
   std::uint32_t ordinary = 0;
-  // Two hits to a vector of 64 bytes; a narrower one holds a part of the pattern.
+  // Two hits per vector of 64 bytes; a narrower vector holds a part of the pattern.
   const Hit none[2];
   static_assert(sizeof none % sizeof(zero.v) == 0);
   _Pragma("GCC unroll 8") for (std::size_t i = 0; i < Packet::slots * sizeof(Hit); i += sizeof(zero.v)) {
@@ -68,7 +68,7 @@ std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket
     hn::StoreU(R(std::numeric_limits<double>::infinity()).v, d, packet.distance + slot);
     const auto rounded = [&](const double* p) HWY_ATTR { return hn::DemoteTo(narrow, hn::LoadU(d, p + slot)); };
     const auto put = [&](R x, float* p) HWY_ATTR { hn::StoreU(hn::DemoteTo(narrow, x.v), narrow, p + slot); };
-    // Of the rounded numbers, which may be wrong by a millionth: far less than what the margins have to spare. Sums keep a NaN.
+    // Uses the rounded numbers, whose error of a millionth is far below the spare margins. Sums keep a NaN.
     auto reach = hn::Zero(narrow), length = reach, sum = reach;
     _Pragma("GCC unroll 3") for (int k = 0; k < 3; ++k) {
       const auto o = rounded(packet.origin[k]), direction = rounded(packet.direction[k]);
@@ -93,7 +93,7 @@ using LaneSlots = hn::RebindToSigned<FloatTag>;
 constexpr int lanes_at_once = static_cast<int>(hn::MaxLanes(LaneSlots()));
 static_assert(lanes_at_once <= Packet::slots);
 
-/// Whether that many lanes from i on are there and have neighbouring slots: Embree cuts packets up, and keeps the order.
+/// Whether that many lanes exist from i on and have neighbouring slots: Embree divides packets but keeps the order.
 HWY_INLINE HWY_ATTR bool are_neighbours(const EmbreeLanes& lanes, int i) {
   const LaneSlots d;
   return i + lanes_at_once <= lanes.count && hn::AllTrue(d, hn::Eq(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i)),
@@ -111,7 +111,7 @@ std::uint32_t SlotsOf(const EmbreeLanes& lanes) {
   return slots;
 }
 
-/// What Embree may take for the ends of the rays in `slot` and the next ones.
+/// Ends of Embree's intervals for the rays in `slot` and the next ones.
 HWY_INLINE HWY_ATTR hn::Vec<NarrowTag> ends(const Packet& packet, const FloatPacket& floats, double slack, int slot) {
   const R largest(largest_float);
   R t = load_slots(packet.distance + slot);
@@ -153,7 +153,7 @@ void make_floats(const FloatRayKernels& kernels, int count, const SceneExtent& e
   out.moved = false;
   for_each_lane(out.enters & ~kernels.round(packet, extent, out),
                 [&](std::uint32_t slot) { put_extraordinary_ray(packet.ray(slot), extent, static_cast<int>(slot), out); });
-  // Where Embree cuts a packet up, it takes no notice of which rays are valid, and leaves out those that end before they begin.
+  // When Embree divides a packet it ignores which rays are valid, but leaves out those that end before they begin.
   for_each_lane(~out.enters & ((1u << Packet::slots) - 1),
                 [&](std::uint32_t slot) { out.farthest[slot] = -std::numeric_limits<float>::infinity(); });
 }

@@ -9,15 +9,14 @@
 
 RAINREF_TARGET_BEGIN(compositor)
 
-/// + 0 makes the zero positive: targets disagree on the sign of floor(-0).
+/// + 0 makes the zero positive, because targets differ in the sign of floor(-0).
 HWY_INLINE Real64Lanes whole(Real64Lanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(Real64Lanes::D())); }
 HWY_INLINE Real64Lanes gather(const float* p, Real64Lanes index) {
   const hn::Rebind<std::int32_t, Real64Lanes::D> di;
   return widen(hn::GatherIndex(NarrowTag(), p, hn::DemoteTo(di, index.v)));
 }
 
-// Two vectors side by side: a step of the walk is one chain of dependent operations, and two of them keep the processor
-// busy where one would not.
+// Two vectors side by side: a step of the walk is one chain of dependent operations, and two chains keep the processor busy.
 using Pair = Real64Pair<Real64Lanes>;
 HWY_INLINE Pair::Mask operator&(const Pair::Mask& a, const Pair::Mask& b) { return {a.lower & b.lower, a.upper & b.upper}; }
 HWY_INLINE Pair::Mask operator|(const Pair::Mask& a, const Pair::Mask& b) { return {a.lower | b.lower, a.upper | b.upper}; }
@@ -46,7 +45,7 @@ HWY_INLINE HWY_ATTR hn::Vec<D> every_fourth(D d, const float* p, const std::uint
     return hn::Combine(d, every_fourth(half, p, at + hn::MaxLanes(half)), every_fourth(half, p, at));
   }
 }
-/// The corners of cells, which lie four in a row: as many loads as lanes, and blocks of vectors transposed.
+/// The corners of cells, four in a row: one load per lane, then blocks of vectors transposed.
 HWY_INLINE HWY_ATTR void corners(const float* pairs, hn::Vec<hn::RebindToSigned<FloatTag> > index, FloatLanes& h00, FloatLanes& h10,
                                  FloatLanes& h01, FloatLanes& h11) {
   const FloatTag d;
@@ -97,7 +96,7 @@ HWY_INLINE HWY_ATTR std::uint32_t take_pair_hits(const Pair::Mask& hit, const Pa
          take_hits(hit.upper, t.upper, part.upper, u.upper, v.upper, self, slot + lane_width, packet);
 }
 
-/// Not inlined: where floats decide almost all rays, the registers are theirs.
+/// Not inlined, so that the float walk, which decides almost all rays, gets the registers.
 HWY_NOINLINE HWY_ATTR std::uint32_t walk_in_doubles(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, int slot,
                                                     std::uint32_t lanes, Packet& packet) {
   const GridRay<Pair> ray = load_ray<false>(field, packet, slot);
@@ -116,7 +115,7 @@ HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView&, const H
 #else
 #include "compositor/heightfield_float_walk-inl.h"
 
-/// Decides what floats can of `lanes`, and takes it out of them.
+/// Decides the `lanes` that floats can decide, and removes them.
 template <bool is_level>
 HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, int slot,
                                                  std::uint32_t& lanes, Packet& packet) {
@@ -135,7 +134,7 @@ HWY_INLINE HWY_ATTR std::uint32_t walk_in_floats(const HeightfieldView& field, c
                                 to_double(outcome.h11), closing);
   const R u = within_unit(ray.ox + t * ray.dx - i), v = within_unit(ray.oy + t * ray.dy - j);
   const R part = (j * R(field.columns) + i) * R(2.0) + upper;
-  // So far inside the triangle that at its edges the ray is farther from the plane than the roundings of the walk in doubles.
+  // Far enough inside the triangle that at its edges the ray's distance from the plane exceeds the roundings of the walk in doubles.
   const R w = select(is_upper, one - u, u), z = select(is_upper, one - v, v), inner = minimum(minimum(w, z), one - (w + z));
   const R::Mask inside = (inner > R(0x1p-24)) & (inner * abs(closing) > (abs(ray.dx) + abs(ray.dy)) * R(tile.roundings)) &
                          (t > ray.nearest) & pair_mask(outcome.guessed);

@@ -1,4 +1,4 @@
-// What bounds the heights of a heightfield's cells; compiled once for each SIMD target.
+// Bounds of the heights of a heightfield's cells; compiled once for each SIMD target.
 #include <algorithm>
 #include <limits>
 

@@ -18,7 +18,7 @@ using N = DoubleLanes;
 using Vec3N = Vec3<N>;
 constexpr std::size_t n = static_cast<std::size_t>(N::size());
 
-/// Of the rays that lanes are to take, which mostly lie side by side.
+/// For the rays assigned to lanes, which are mostly neighbours.
 struct Which {
   const std::uint32_t* list;
   bool is_run;
@@ -88,7 +88,7 @@ void Arrive(const RayList& list, const Hit* hits, const Medium& medium, ArrivalC
   }
 }
 
-/// A ray from where another arrived. It sees nothing nearer than the spacing of numbers there.
+/// A ray from the hit of another. It ignores hits nearer than the spacing of numbers there.
 HWY_INLINE HWY_ATTR void start(const ArrivalColumns& from, std::size_t i, const Vec3N& direction, const Vec3N& weight, N blur,
                                RayColumns& to, std::size_t at) {
   const Vec3N point = load(from.point(), i);
@@ -134,7 +134,7 @@ void LeaveFinishes(std::size_t count, const ArrivalColumns& from, const Finishes
       put(nothing, first + i, mirrored.weight());
       continue;
     }
-    // A bump's normal may turn the ray into the surface that it mirrors: it is turned out again.
+    // A bump's normal may turn the reflected ray into the surface; it is turned out again.
     const Vec3N turned = reflect(direction, about);
     const Vec3N out = select(dot(turned, facing) < zero, reflect(turned, facing), turned);
     start(from, i, out, select(mirrors, weight * mirror, nothing), N::load(finishes.blur + i), mirrored, first + i);

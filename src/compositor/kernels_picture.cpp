@@ -24,7 +24,7 @@ void AddSample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums&
     }
     add(seen.film(), sums.film());
     add(seen.mask(), sums.mask());
-    const N t = hn::GatherIndex(N::D(), &seen.hits()[i].t, apart);  // endless where nothing was met
+    const N t = hn::GatherIndex(N::D(), &seen.hits()[i].t, apart);  // infinite if nothing was hit
     hn::StoreU((so_far(sums.met(), zero) + select(t < endless, one, zero)).v, N::D(), sums.met() + i);
     hn::StoreU(min(so_far(sums.depth(), N(static_cast<double>(far))), t).v, N::D(), sums.depth() + i);
   }

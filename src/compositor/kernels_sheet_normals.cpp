@@ -1,4 +1,4 @@
-// Normals of sheets; compiled once for each SIMD target.
+// Normals of heightfields; compiled once for each SIMD target.
 #include "compositor/sheet_normals.h"
 
 #define RAINREF_KERNELS "compositor/kernels_sheet_normals.cpp"

@@ -1,4 +1,4 @@
-// The double evaluation of the optics that every pass uses: the same text, no second formula.
+// The optics of all passes, evaluated in double from the same text.
 #pragma once
 
 #include "compositor/surface.h"

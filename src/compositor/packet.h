@@ -1,4 +1,4 @@
-// A few rays side by side, as Embree hands them to a surface.
+// A few rays side by side, as Embree passes them to a surface.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace rainref::compositor {
 
-/// Up to 16 rays component by component, each in a slot of its own, and their first hits so far. Every array has 16 values,
-/// all of which may be read, and hits written; slots without a ray repeat the last one.
+/// Up to 16 rays component by component, each in its own slot, and their first hits so far. Every array has 16 values, which may all be
+/// read, and the hits written; slots without a ray repeat the last one.
 struct Packet {
   static constexpr int slots = 16;
 
   const double *origin[3], *direction[3], *nearest, *farthest;
   Hit* first;
-  alignas(64) double distance[slots];  ///< of the first hits: their t again, side by side
+  alignas(64) double distance[slots];  ///< copy of the first hits' t, contiguous
 
   void set_first(std::uint32_t slot, const Hit& hit) {
     first[slot] = hit;
@@ -28,7 +28,7 @@ struct Packet {
   }
 };
 
-/// Room for the components of a packet that does not lie in arrays already.
+/// Storage for the components of a packet that are not already in arrays.
 struct PacketRoom {
   alignas(64) double component[8][Packet::slots];
   void lend_to(Packet& packet) const {

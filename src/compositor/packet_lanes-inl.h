@@ -1,4 +1,4 @@
-// What kernels over packets share: masks, the slots of a packet in vectors, hits given back. Re-included for every target.
+// Shared parts of kernels over packets: masks, vectors of slots, and storing of hits. Re-included for every target.
 #if defined(RAINREF_COMPOSITOR_PACKET_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_COMPOSITOR_PACKET_LANES_INL_H_
 #undef RAINREF_COMPOSITOR_PACKET_LANES_INL_H_
@@ -22,7 +22,7 @@ HWY_INLINE LaneMask operator^(LaneMask a, LaneMask b) { return {hn::Xor(a.m, b.m
 /// a and not b.
 HWY_INLINE LaneMask without(LaneMask a, LaneMask b) { return {hn::AndNot(b.m, a.m)}; }
 
-// b < a ? b : a and a < b ? b : a, which MINPD and MAXPD compute exactly, signed zeros included; see Lanes.
+// b < a ? b : a and a < b ? b : a, which MINPD and MAXPD compute exactly, including signed zeros; see Lanes.
 #if HWY_TARGET <= HWY_SSSE3 && HWY_ARCH_X86
 HWY_INLINE Real64Lanes minimum(Real64Lanes a, Real64Lanes b) { return hn::Min(b.v, a.v); }
 HWY_INLINE Real64Lanes maximum(Real64Lanes a, Real64Lanes b) { return hn::Max(b.v, a.v); }
@@ -44,7 +44,7 @@ HWY_INLINE HWY_ATTR std::uint32_t bits_of(LaneMask mask) {
   hn::StoreMaskBits(Real64Lanes::D(), mask.m, bytes);
   return bytes[0];
 }
-/// The same for vectors of floats, of up to 16 lanes.
+/// The same for vectors of floats, with up to 16 lanes.
 HWY_INLINE HWY_ATTR hn::Mask<FloatTag> float_mask_of_bits(std::uint32_t bits) {
   static_assert(std::endian::native == std::endian::little);
   std::uint8_t bytes[8] = {};
@@ -58,8 +58,8 @@ HWY_INLINE HWY_ATTR std::uint32_t bits_of(hn::Mask<FloatTag> mask) {
   std::memcpy(&bits, bytes, sizeof bits);
   return bits;
 }
-/// Hits of the lanes in `hit`, for the slots from `slot` on: puts those first that precede what is there, and gives their
-/// slots. Parts are whole numbers below 2^32.
+/// Hits of the lanes in `hit`, for the slots from `slot` on: stores those that precede the current first hits, and returns their slots.
+/// Parts are whole numbers below 2^32.
 HWY_INLINE HWY_ATTR std::uint32_t take_hits(LaneMask hit, Real64Lanes t, Real64Lanes part, Real64Lanes u, Real64Lanes v, std::uint32_t self,
                                             int slot, Packet& packet) {
   if (!Real64Lanes::any(hit)) return 0;

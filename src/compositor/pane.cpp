@@ -63,7 +63,7 @@ Vec Pane::point(double u, double v, double lift) const {
 Vec Pane::tilted(double u, double rise_u, double rise_v) const {
   if (is_flat()) return unit(normal_ - rise_u * dual_u_ - rise_v * dual_v_);
   const Vec n = normal(u);
-  const Vec tangent = cross(along_, n);  // unit, along the arc; its sense is set by what follows
+  const Vec tangent = cross(along_, n);  // unit, along the arc; the sign is set below
   const double sense = dot(tangent, across_) < 0 ? -1 : 1;
   return unit(n - (sense * rise_u / (2 * half_angle_ * shape_.radius)) * tangent - (rise_v / length_) * along_);
 }
@@ -95,7 +95,7 @@ int Pane::crossings(const Ray& ray, double lift, PanePoint (&points)[2]) const {
   const double a = dx * dx + dy * dy, b = ox * dx + oy * dy, c = ox * ox + oy * oy - r * r;
   const double discriminant = b * b - a * c;
   if (!(discriminant > 0 && a > 0)) return 0;
-  // The root whose terms add, and the other by their product: no digits cancel.
+  // One root from terms of equal sign, the other from the product of the roots, which avoids cancellation.
   const double q = b < 0 ? root(discriminant) - b : -root(discriminant) - b;
   const double t0 = q / a, t1 = q == 0 ? t0 : c / q;
   int count = 0;
@@ -114,7 +114,7 @@ Box Pane::bounds(double low, double high) const {
     }
   }
   if (is_flat()) return box;
-  // The arc lies within its chord's box grown by the sagitta, and that is below half the chord.
+  // The arc lies within its chord's box enlarged by the sagitta, which is below half the chord.
   const double sagitta = shape_.radius + high - dot(point(0, 0, low) - axis_, normal_);
   box.low -= Vec(sagitta);
   box.high += Vec(sagitta);
@@ -136,7 +136,7 @@ Vec PaneRim::wall_normal(std::uint32_t part) const {
   const double u = part == 0 ? 0.0 : part == 1 ? 1.0 : 0.5;
   const Vec n = pane_.normal(u);
   const PaneShape& shape = pane_.shape();
-  // Out of the pane: away from its middle.
+  // Outward: away from the pane's centre.
   const Vec wall = part < 2 ? cross(n, shape.e_v) : pane_.is_flat() ? cross(n, shape.e_u) : shape.e_v;
   const Vec away = part < 2 ? (part == 0 ? -shape.e_u : shape.e_u) : (part == 2 ? -shape.e_v : shape.e_v);
   return unit(dot(wall, away) < 0 ? -wall : wall);

@@ -1,33 +1,33 @@
-// A pane of glass of real thickness: its outer face, flat, sheared or bent, and coordinates (u, v) on it.
+// A pane of glass with thickness: its outer face, flat, sheared or bent, and coordinates (u, v) on it.
 #pragma once
 
 #include "compositor/surface.h"
 
 namespace rainref::compositor {
 
-/// What the caller says of a pane. The outer face at (u, v) in [0, 1]^2 is corner + u e_u + v e_v where it is flat.
+/// Shape of a pane. If it is flat, the outer face at (u, v) in [0, 1]^2 is corner + u e_u + v e_v.
 struct PaneShape {
   Vec corner, e_u, e_v;     ///< [m]
   Vec outside;              ///< any direction that leaves the pane through its outer face
   double thickness = 5e-3;  ///< [m], > 0
-  /// 0: flat. Else the outer face is part of a cylinder of this radius [m] through the edges u = 0 and u = 1, convex
-  /// outward; u is proportional to the length of arc. The inner face is concentric.
+  /// 0: flat. Else the outer face is part of a cylinder of this radius [m] through the edges u = 0 and u = 1, convex outward; u is
+  /// proportional to arc length. The inner face is concentric.
   double radius = 0;
 };
 
-/// Where a line meets a face.
+/// Intersection of a line with a face.
 struct PanePoint {
   double t, u, v;
 };
-/// A point by the pane: its foot (u, v) on the outer face and its height over it [m].
+/// A point near the pane: its foot (u, v) on the outer face and its height over it [m].
 struct PaneCoordinates {
   double u, v, lift;
 };
 
 class Pane {
  public:
-  /// Throws Error(usage) when the corners span no plane, `outside` lies in it, the thickness is not positive, or a bent
-  /// pane's edges are not perpendicular (to 1e-9) or its radius is below half its chord or its thickness.
+  /// Throws Error(usage) if the corners span no plane, `outside` lies in it, the thickness is not positive, or if a bent pane's edges are
+  /// not perpendicular (to 1e-9) or its radius is below half its chord or its thickness.
   explicit Pane(const PaneShape& shape);
 
   const PaneShape& shape() const { return shape_; }
@@ -37,13 +37,13 @@ class Pane {
   PaneCoordinates coordinates(const Vec& p) const;
   /// Unit, outward.
   Vec normal(double u) const;
-  /// The outward normal of a surface over the face that rises by rise_u for a unit of u and by rise_v for one of v [m]:
-  /// n - grad h, made unit, with grad h the tangent vector whose products with the tangents of u and v are the rises.
+  /// The unit outward normal of a surface over the face that rises by rise_u per unit of u and by rise_v per unit of v [m]: n - grad h,
+  /// normalized, with grad h the tangent vector whose products with the tangents of u and v are the rises.
   Vec tilted(double u, double rise_u, double rise_v) const;
-  /// Crossings of the ray's whole line with the face at `lift`, in the order of t, whatever the limits of the ray; u and v may
-  /// lie beyond the pane. Returns how many: 0 to 1 of a flat face, 0 to 2 of a bent one.
+  /// Intersections of the ray's infinite line with the face at `lift`, in the order of t, ignoring the limits of the ray; u and v may lie
+  /// beyond the pane. Returns their number: 0 or 1 for a flat face, 0 to 2 for a bent one.
   int crossings(const Ray& ray, double lift, PanePoint (&points)[2]) const;
-  /// Holds the faces of all lifts from low to high.
+  /// Bounds of the faces of all lifts from low to high.
   Box bounds(double low, double high) const;
 
  private:
@@ -66,7 +66,7 @@ class PaneFace : public Surface {
   Vec normal(const Ray&, const Hit& hit) const override { return pane_.normal(hit.u); }
 
  protected:
-  /// Whether the face exists at (u, v), which lie on the pane.
+  /// Whether the face exists at (u, v), a point of the pane.
   virtual bool is_there(double, double) const { return true; }
 
  private:
@@ -74,8 +74,8 @@ class PaneFace : public Surface {
   double lift_;
 };
 
-/// What holds the pane: a wall around it, from its inner face to `height` metres outward of its outer one, so that no light
-/// leaves through its rim. Part = u 0, u 1, v 0, v 1.
+/// The frame of the pane: a wall around it, from its inner face to `height` metres outward of its outer face, so that no light leaves
+/// through its edges. Part = u 0, u 1, v 0, v 1.
 class PaneRim : public Surface {
  public:
   PaneRim(const Pane& pane, double height) : pane_(pane), height_(height) {}

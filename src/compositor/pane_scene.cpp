@@ -19,7 +19,7 @@ void add_pane(Scene& scene, const Pane& pane, std::shared_ptr<const WaterLayer> 
       scene.add(std::make_shared<SlopedWater>(pane, water), surface);
     }
   }
-  // Water ends on the pane, so the rim need not stand higher than what a dry texel's surface would.
+  // Water ends on the pane, so the rim need not be higher than the surface over a dry texel would be.
   scene.add(std::make_shared<PaneRim>(pane, 2 * WaterLayer::clearance), Material::of(std::move(rim)));
 }
 

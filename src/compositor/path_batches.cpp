@@ -21,7 +21,7 @@ void PathBatches::sort(std::span<const Path> paths, std::span<const Hit> hits) {
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t surface = hits[i].surface;
     const Medium* const medium = surface == Hit::none ? nullptr : paths[i].medium;
-    if (!batches_[batch].is(surface, medium)) batch = find(surface, medium);  // neighbours mostly share theirs
+    if (!batches_[batch].is(surface, medium)) batch = find(surface, medium);  // neighbours mostly share a batch
     ++batches_[batch].count;
     slot_[i] = batch;
   }

@@ -1,4 +1,4 @@
-// Rays of one generation sorted by what they met, for treatment in lanes.
+// Rays of one generation sorted by the surface that they hit, for evaluation in lanes.
 #pragma once
 
 #include <span>
@@ -8,25 +8,25 @@
 
 namespace rainref::compositor {
 
-/// What a ray on its way is to its pixel, beside its numbers.
+/// The state of a ray besides its numbers.
 struct Path {
   const Medium* medium = nullptr;
   std::uint32_t pixel = 0;
   std::uint32_t left = Hit::none;  ///< the surface where it began
-  bool left_outside = false;       ///< and on which side of it
+  bool left_outside = false;       ///< and the side of it
   bool is_straight = true;         ///< refracted and never reflected so far
 };
 
-/// A vector that keeps its room, so that growing again costs nothing.
+/// A vector that keeps its capacity, so that growing again is free.
 template <class T>
 void make_room(std::vector<T>& v, std::size_t count) {
   if (v.size() < count) v.resize(count);
 }
 
-/// Batches lie one after the other in slots, each from a whole vector on; slots between them repeat the ray before them.
+/// Batches are stored one after the other in slots, each starting at a whole vector; slots between them repeat the previous ray.
 class PathBatches {
  public:
-  /// Rays that met one surface within one medium; or those that met none (medium null).
+  /// Rays that hit one surface within one medium; or rays that hit nothing (medium null).
   struct Batch {
     std::uint32_t surface;
     const Medium* medium;
@@ -35,7 +35,7 @@ class PathBatches {
   };
 
   void sort(std::span<const Path> paths, std::span<const Hit> hits);
-  /// The first are the rays that met nothing.
+  /// The first batch holds the rays that hit nothing.
   std::span<const Batch> batches() const { return {batches_.data(), used_}; }
   std::size_t slots() const { return slots_; }
   /// By slot: the ray, and its hit.

@@ -12,9 +12,9 @@
 namespace rainref::compositor {
 namespace {
 
-constexpr int tile_width = 64, tile_height = 4;  // a tile's rays stay in the cache
+constexpr int tile_width = 64, tile_height = 4;  // so that a tile's rays stay in the cache
 
-/// What a tile needs, kept by each thread for its next one.
+/// Memory for a tile, kept by each thread for its next one.
 struct Room {
   Columns<8> rays;
   SeenColumns seen;
@@ -64,7 +64,7 @@ Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width
     }
     const double share = 1.0 / static_cast<double>(pattern.size());  // a power of two: exact
     for (int row = 0; row < rows; ++row) {
-      // All floats of the row, then one conversion for each image.
+      // Converts the whole row to floats, then once for each image.
       float beauty[4 * tile_width], normal[4 * tile_width], film[tile_width], mask[tile_width], depth[tile_width];
       static_assert(tile_width % most_lanes == 0);
       const int y = tile.y0 + row;

@@ -1,11 +1,11 @@
-// Sums over the samples of pixels, and pixels as images store them, in lanes of doubles.
+// Sums over the samples of pixels, and conversion of pixels to stored form, in lanes of doubles.
 #pragma once
 
 #include "compositor/picture.h"
 
 namespace rainref::compositor {
 
-/// Sums over the samples of each pixel of a tile. Arrays go on to whole lanes.
+/// Sums over the samples of each pixel of a tile. Arrays are padded to whole lanes.
 class SampleSums {
  public:
   void make_room(std::size_t pixels) { columns_.make_room(pixels); }
@@ -13,17 +13,17 @@ class SampleSums {
   VecArraysOut normal() { return columns_.vectors(3); }
   double* film() { return columns_[6]; }
   double* mask() { return columns_[7]; }
-  double* met() { return columns_[8]; }    ///< how many met a surface
-  double* depth() { return columns_[9]; }  ///< not a sum: the least
+  double* met() { return columns_[8]; }    ///< number of samples that hit a surface
+  double* depth() { return columns_[9]; }  ///< not a sum: the minimum
 
  private:
   Columns<10> columns_;
 };
 
-/// Adds a sample of each pixel, to nothing if it is the first.
+/// Adds a sample of each pixel; the first one replaces the sums.
 void add_sample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums& sums);
-/// `pixels` of them from the first on, each sum multiplied by `share`, as floats: four channels for beauty and normal. Whole lanes are
-/// written.
+/// Converts `pixels` pixels from the first on to floats, with each sum multiplied by `share`: four channels for beauty and normal. Writes
+/// whole lanes.
 void develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask,
              float* depth);
 

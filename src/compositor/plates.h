@@ -1,4 +1,4 @@
-// Flat pieces: parallelograms and ellipses.
+// Flat shapes: parallelograms and ellipses.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,10 @@ struct Plate {
   Vec origin, edge_u, edge_v;
 };
 
-/// One part, and one primitive, for each plate; met from both sides. Borders belong to the plates, but plates side by side
-/// are not watertight between them.
+/// One part, and one primitive, for each plate; hit from both sides. Borders belong to the plates, but adjacent plates are not watertight.
 class Plates final : public Surface {
  public:
-  /// Throws Error(usage) when a plate's edges are parallel or zero.
+  /// Throws Error(usage) if a plate's edges are parallel or zero.
   explicit Plates(std::vector<Plate> plates);
 
   std::uint32_t primitives() const override { return static_cast<std::uint32_t>(plates_.size()); }

@@ -1,11 +1,11 @@
-// Rays on their way through a scene, and where they arrived, component by component.
+// Rays in a scene and their hits, component by component.
 #pragma once
 
 #include "compositor/columns.h"
 
 namespace rainref::compositor {
 
-/// Rays, and what each is worth to its pixel.
+/// Rays, and their weights in the pixels.
 class RayColumns {
  public:
   static constexpr int count = 12;
@@ -14,7 +14,7 @@ class RayColumns {
   VecArraysOut direction() { return columns_.vectors(3); }
   VecArraysOut weight() { return columns_.vectors(6); }  ///< share of its radiance in the pixel
   double* nearest() { return columns_[9]; }
-  double* travelled() { return columns_[10]; }  ///< [m] of the rays before it, from the eye
+  double* travelled() { return columns_[10]; }  ///< [m] of the previous rays, from the eye
   double* blur() { return columns_[11]; }
   VecArrays origin() const { return columns_.vectors(0); }
   VecArrays direction() const { return columns_.vectors(3); }
@@ -29,17 +29,17 @@ class RayColumns {
   Columns<count> columns_;
 };
 
-/// Places where rays met one surface, each with its ray's.
+/// Hits of rays on one surface, each with its ray.
 class ArrivalColumns {
  public:
   void make_room(std::size_t places) { columns_.make_room(places); }
   VecArraysOut point() { return columns_.vectors(0); }
   VecArraysOut direction() { return columns_.vectors(3); }  ///< unit
   VecArraysOut normal() { return columns_.vectors(6); }     ///< geometric, on the surface's outside
-  VecArraysOut weight() { return columns_.vectors(9); }     ///< what the medium has left of it
+  VecArraysOut weight() { return columns_.vectors(9); }     ///< the weight after absorption in the medium
   double* distance() { return columns_[12]; }               ///< [m] from the eye
-  double* path() { return columns_[13]; }                   ///< [m] from where the ray began
-  double* facing() { return columns_[14]; }                 ///< direction . normal: below 0 the ray comes from outside
+  double* path() { return columns_[13]; }                   ///< [m] from the origin of the ray
+  double* facing() { return columns_[14]; }                 ///< direction . normal: negative if the ray comes from outside
   double* blur() { return columns_[15]; }
   VecArrays point() const { return columns_.vectors(0); }
   VecArrays direction() const { return columns_.vectors(3); }

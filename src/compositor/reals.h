@@ -1,4 +1,4 @@
-// Functions of doubles by operations that IEEE 754 rounds correctly, and by comparisons: no library's.
+// Functions of doubles made of operations that IEEE 754 rounds correctly, and of comparisons, without a library.
 #pragma once
 
 namespace rainref::compositor {

@@ -1,6 +1,6 @@
-// What rays see: surfaces with materials, and the surroundings.
+// A scene for rays: surfaces with materials, and the surroundings.
 //
-// A ray's radiance here is basic radiance, L / n^2, which does not change where light passes from one medium to another.
+// The radiance of a ray is basic radiance, L / n^2, which does not change when light passes from one medium to another.
 #pragma once
 
 #include <functional>
@@ -16,27 +16,27 @@
 
 namespace rainref::compositor {
 
-/// What fills the space between surfaces. After s metres light L has become t L + (1 - t) glow, t = exp(-extinction s).
+/// The medium between surfaces. After s metres light L has become t L + (1 - t) glow, t = exp(-extinction s).
 struct Medium {
   double ior = 1;           ///< index of refraction, at least 1
-  Vec extinction{0, 0, 0};  ///< of red, green and blue [1/m]
-  Vec glow{0, 0, 0};        ///< radiance of an endless path: what turbid water or fog scatters toward the eye
-  bool is_film = false;     ///< its paths count as `film`
+  Vec extinction{0, 0, 0};  ///< for red, green and blue [1/m]
+  Vec glow{0, 0, 0};        ///< radiance of an infinite path: light that turbid water or fog scatters toward the eye
+  bool is_film = false;     ///< its paths count in `film`
 };
 inline Medium air() { return {}; }
 inline Medium water(double ior = water_refractive_index) { return {ior, {0, 0, 0}, {0, 0, 0}, true}; }
 inline Medium glass(double ior = 1.52) { return {ior, {0, 0, 0}, {0, 0, 0}, false}; }
 
-/// A place where a ray met a surface.
+/// A hit of a ray on a surface.
 struct Place {
   Vec point;        ///< [m]
   Vec direction;    ///< of the ray, unit
-  Vec normal;       ///< unit, geometric, on the side that the surface calls its outside
-  double distance;  ///< [m] along the ray and the rays before it, from the eye
+  Vec normal;       ///< unit, geometric, on the outside of the surface
+  double distance;  ///< [m] along the ray and the previous rays, from the eye
   Hit hit;
 };
 
-/// Places component by component. Arrays go on to whole lanes, hits repeating the last one.
+/// Places component by component. Arrays are padded to whole lanes; the last hit is repeated.
 struct Places {
   std::size_t count;
   VecArrays point, direction, normal;
@@ -45,17 +45,17 @@ struct Places {
   std::size_t size() const { return count; }
   Place operator[](std::size_t i) const { return {point[i], direction[i], normal[i], distance[i], hits[i]}; }
 };
-/// Normals of the places, unit; as a Surface's, whole lanes may be written.
+/// Unit normals of the places; as for a Surface, whole lanes may be written.
 using NormalsOf = std::function<void(const Places& places, const VecArraysOut& normals)>;
-/// By a function of one place.
+/// From a function of one place.
 NormalsOf normals_of(std::function<Vec(const Place&)> normal);
 
-/// What leaves an opaque surface toward the ray: its own light, and a mirror image of what lies along one more ray.
+/// Light from an opaque surface toward the ray: its own, and the reflection of one more ray.
 struct Finish {
   Vec radiance{0, 0, 0};       ///< emitted, or scattered by a diffuse surface
-  Vec mirror{0, 0, 0};         ///< share of the mirrored ray's radiance; 0: there is none
-  Vec mirror_normal{0, 0, 0};  ///< unit, about which the ray is mirrored
-  double blur = 0;             ///< mip level at which the mirrored surroundings are looked up
+  Vec mirror{0, 0, 0};         ///< share of the reflected ray's radiance; 0: no reflected ray
+  Vec mirror_normal{0, 0, 0};  ///< unit normal of the reflection
+  double blur = 0;             ///< mip level of the lookup of the reflected surroundings
 };
 /// Finishes component by component; whole lanes may be written.
 struct Finishes {
@@ -71,17 +71,17 @@ struct Finishes {
 class Opaque {
  public:
   virtual ~Opaque() = default;
-  /// The i-th of `finishes` becomes that of places[i]. From several threads at once; a pure function of each place.
+  /// Sets the i-th of `finishes` to that of places[i]. Thread-safe; a pure function of each place.
   virtual void finish(const Places& places, const Finishes& finishes) const = 0;
 };
 
-/// How a surface treats light. Without `opaque` it is a smooth interface between two media: which lies on which side is
-/// said here and nowhere else.
+/// How a surface treats light. Without `opaque` it is a smooth interface between two media; only this struct says which medium is on which
+/// side.
 struct Material {
   std::shared_ptr<const Opaque> opaque;
-  Medium outside, inside;  ///< on the side of the geometric normal, and on the other
-  /// The smooth normals of an interface that is made of facets, unit, near Place::normal; null: the geometric ones. Where one
-  /// would send a ray through the wrong side of the facet, the geometric one serves.
+  Medium outside, inside;  ///< on the side of the geometric normal, and on the other side
+  /// The unit smooth normals of an interface that is made of facets, near Place::normal; null: the geometric normals. If a smooth normal
+  /// would send a ray through the wrong side of the facet, the geometric one is used.
   NormalsOf smooth_normals;
   bool is_masked = false;  ///< the channel `mask` is 1 where the eye sees this surface, or looks through it
 
@@ -101,17 +101,17 @@ struct Material {
 /// The smooth normal at one place of a material that has them.
 Vec smooth_normal(const Material& material, const Place& place);
 
-/// An opaque finish by a function of one place.
+/// An opaque finish from a function of one place.
 std::shared_ptr<const Opaque> opaque_of(std::function<Finish(const Place&)> finish);
-/// Shines alike from both sides in every direction; mirrors nothing.
+/// Emits equally from both sides in every direction; reflects nothing.
 std::shared_ptr<const Opaque> emitter(const Vec& radiance);
 
-/// A ray that left everything behind.
+/// A ray that left the scene.
 struct EscapedRay {
   Vec origin, direction;  ///< direction unit
-  double blur = 0;        ///< mip level: 0 sharp, each level twice as wide
+  double blur = 0;        ///< mip level: 0 sharp; each level is twice as blurred
 };
-/// Escaped rays component by component. Arrays go on to whole lanes, repeating the last one.
+/// Escaped rays component by component. Arrays are padded to whole lanes by repeating the last one.
 struct EscapedRays {
   std::size_t count;
   VecArrays origin, direction;
@@ -122,10 +122,10 @@ struct EscapedRays {
 class Environment {
  public:
   virtual ~Environment() = default;
-  /// radiance[i] is what arrives along ray i. From several threads at once; a pure function of each ray.
+  /// Sets radiance[i] to the light that arrives along ray i. Thread-safe; a pure function of each ray.
   virtual void radiance(const EscapedRays& escaped_rays, std::span<Vec> radiance) const = 0;
 };
-/// Surroundings by a function of one escaped ray.
+/// Surroundings from a function of one escaped ray.
 std::shared_ptr<const Environment> environment_of(std::function<Vec(const EscapedRay&)> radiance);
 
 /// Surfaces with their materials, within surroundings.
@@ -133,18 +133,18 @@ class Scene {
  public:
   explicit Scene(const TracerOptions& options = {}) : tracer_(options) {}
 
-  /// Gives the surface's number.
+  /// Returns the surface's number.
   std::uint32_t add(std::shared_ptr<const Surface> surface, Material material);
   void set_environment(std::shared_ptr<const Environment> environment) { environment_ = std::move(environment); }
   /// The medium at the eye.
   void set_eye(const Medium& medium) { eye_ = medium; }
-  /// Before the first ray, and after surfaces were added or altered.
+  /// Call before the first ray, and after surfaces were added or changed.
   void commit() { tracer_.commit(); }
 
   const Tracer& tracer() const { return tracer_; }
   std::uint32_t surfaces() const { return static_cast<std::uint32_t>(materials_.size()); }
   const Material& material(std::uint32_t surface) const { return materials_[surface]; }
-  /// Throws Error(internal) when none was set.
+  /// Throws Error(internal) if none was set.
   const Environment& environment() const;
   const Medium& eye() const { return eye_; }
 

@@ -1,6 +1,5 @@
-// One generation of rays after the other. Rays lie component by component, and those that met one surface within one medium are
-// treated together, in lanes. What reaches a pixel is added up in the order of the paths, whatever the order in which it
-// was found out.
+// Traces one generation of rays after the other. Rays are stored component by component; those that hit one surface within one medium are
+// treated together, in lanes. Light of a pixel is added up in the order of the paths, whatever the order of evaluation.
 #include "compositor/shading.h"
 
 #include <cmath>
@@ -12,7 +11,7 @@
 namespace rainref::compositor {
 namespace {
 
-/// The spacing of numbers as large as the ray's origin, along the ray.
+/// The spacing of numbers of the size of the ray's origin, along the ray.
 double resolution(const Vec& origin, double length) {
   return 0x1p-52 * std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z), 1e-3}) / length;
 }
@@ -79,7 +78,7 @@ class Generations {
   ShadingRoom& room_;
   Rays *now_, *next_;
   int depth_ = 1;
-  const double* length_ = nullptr;  // of directions; null where they are unit
+  const double* length_ = nullptr;  // of directions; null if they are unit vectors
 
   RayArrays arrays() const {
     const VecArrays o = now_->columns.origin(), d = now_->columns.direction();
@@ -92,7 +91,7 @@ class Generations {
     return {now_->columns, length_, {room_.batches.ray() + batch.begin, batch.count}};
   }
 
-  /// A hit of the surface that the ray left, from the side where the ray is not.
+  /// True for a hit of the surface that the ray left, from the side on which the ray cannot be.
   bool contradicts(std::size_t i, const Hit& hit) const {
     const Path& path = now_->paths[i];
     if (!hit.is_surface() || hit.surface != path.left) return false;
@@ -110,7 +109,7 @@ class Generations {
     for (std::size_t i = 0; depth_ > 1 && i < n; ++i) {
       if (contradicts(i, hits[i])) again.push_back(static_cast<std::uint32_t>(i));
     }
-    // Behind a contradicted hit by the resolution of the origin, doubled from one such hit to the next.
+    // Continues behind a contradicted hit, by the resolution of the origin, doubled for each such hit.
     double step = 1;
     for (int round = 0; round < 40 && !again.empty(); ++round, step *= 2) {
       room_.rays_again.resize(again.size());
@@ -182,8 +181,8 @@ class Generations {
     if (!material.opaque) go_on(batch, 1);
   }
 
-  /// The children of a batch that are worth it join the next generation; the others see the surroundings. Those that are not
-  /// refracted lie there already.
+  /// The children of a batch with enough weight join the next generation; the others see the surroundings. Children that are not refracted
+  /// are already stored there.
   void go_on(const PathBatches::Batch& batch, std::size_t which) {
     const std::size_t first = next_->count, n = batch.count, begin = which == 0 ? first : 0;
     const RayColumns& from = which == 0 ? next_->columns : room_.refracted;
@@ -235,7 +234,7 @@ class Generations {
                                   std::span(room_.arrived).first(n));
   }
 
-  /// Each pixel's light, path by path, and the order of the next generation.
+  /// Adds up each pixel's light, path by path, and sets the order of the next generation.
   void add_up() {
     const std::size_t escaped = room_.batches.batches().front().count;
     const VecArrays weight = now_->columns.weight(), added = room_.terms.vectors(0), sent = room_.terms.vectors(3);
@@ -264,7 +263,7 @@ class Generations {
   }
 };
 
-/// Not inlined, or every access would look the thread's room up again.
+/// Not inlined, because otherwise every access would look up the thread's memory again.
 [[gnu::noinline]] ShadingRoom& room_of_thread() {
   static thread_local ShadingRoom room;
   return room;

@@ -1,4 +1,4 @@
-// The one path of light that interfaces bend and do not mirror: what a drop shows, as a direction.
+// The path of light that is refracted but never reflected at interfaces: the direction that a drop shows.
 #pragma once
 
 #include "compositor/scene.h"
@@ -7,12 +7,12 @@ namespace rainref::compositor {
 
 struct StraightPath {
   enum class End : std::uint8_t {
-    out,       ///< left everything behind
-    mirrored,  ///< met an interface beyond the critical angle
-    stopped,   ///< met an opaque surface, or more than `most` interfaces
+    out,       ///< left the scene
+    mirrored,  ///< hit an interface beyond the critical angle
+    stopped,   ///< hit an opaque surface, or more than `most` interfaces
   } end = End::stopped;
   Vec origin{0, 0, 0}, direction{0, 0, 0};  ///< of the last ray; the direction is unit
-  int interfaces = 0;                       ///< passed
+  int interfaces = 0;                       ///< number passed
 };
 
 /// Follows the ray as `shade` follows its refracted rays.

@@ -1,4 +1,4 @@
-// What rays can meet, and the one definition of which hit is first.
+// Surfaces that rays can hit, and the definition of the first hit.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace rainref::compositor {
 
-/// A point [m] or a direction, in the scene's own axes.
+/// A point [m] or a direction, in the scene's axes.
 using Vec = glm::dvec3;
 
-/// origin + t direction; the direction is finite and not zero, but need not be a unit vector. Hits outside
-/// [nearest, farthest] are not seen; nearest >= 0.
+/// origin + t direction; the direction is finite and not zero, but need not be a unit vector. Hits outside [nearest, farthest] are ignored;
+/// nearest >= 0.
 struct Ray {
   Vec origin, direction;
   double nearest = 0, farthest = std::numeric_limits<double>::infinity();
@@ -29,17 +29,17 @@ struct RayArrays {
   }
 };
 
-/// Where a ray meets a surface.
+/// A hit of a ray on a surface.
 struct Hit {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   double t = std::numeric_limits<double>::infinity();
   std::uint32_t surface = none;  ///< number of the surface, in the order in which they were added
-  std::uint32_t part = none;     ///< triangle, solid, ... as the surface counts them; not the primitive that Embree culls
-  double u = 0, v = 0;           ///< where on the part, as the surface defines it
+  std::uint32_t part = none;     ///< triangle, solid, ... in the surface's numbering; not the primitive that Embree culls
+  double u = 0, v = 0;           ///< position on the part, as the surface defines it
   bool is_surface() const { return surface != none; }
 };
 
-/// Hits are ordered by distance, then by surface, then by part: the first one does not depend on who found it or when.
+/// Hits are ordered by distance, then by surface, then by part, so the first one does not depend on how it was found.
 inline bool precedes(const Hit& a, const Hit& b) {
   return a.t != b.t ? a.t < b.t : a.surface != b.surface ? a.surface < b.surface : a.part < b.part;
 }
@@ -50,29 +50,29 @@ struct Box {
 
 struct Packet;
 
-/// A surface, cut into primitives that Embree culls by their boxes. Immutable while rays are traced.
+/// A surface, divided into primitives that Embree culls by their bounds. Immutable while rays are traced.
 class Surface {
  public:
   virtual ~Surface() = default;
-  /// Changes whenever bounds or primitives do, so that Tracer::commit knows what to take notice of.
+  /// Changes whenever bounds or primitives do, so that Tracer::commit knows what to update.
   virtual std::uint64_t revision() const { return 0; }
   virtual std::uint32_t primitives() const = 0;
-  /// Holds everything of a primitive that a ray can meet; the tracer adds the margin that Embree's float boxes need.
+  /// Contains everything of a primitive that a ray can hit; the tracer adds the margin that Embree's float boxes need.
   virtual Box bounds(std::uint32_t primitive) const = 0;
-  /// Every hit of the primitive within the ray's limits is compared with `first` and takes its place if it precedes it.
-  /// `self` is this surface's number. Only operations of the determinism contract, in double.
+  /// Replaces `first` by every hit of the primitive within the ray's limits that precedes it. `self` is this surface's number. Uses only
+  /// operations of the determinism contract, in double.
   virtual void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const = 0;
-  /// The same for every slot in the bit set `lanes`, to the same bits; gives the slots whose first hit changed. Surfaces
-  /// that gain by it override it.
+  /// The same for every slot in the bit set `lanes`, with the same bits; returns the slots whose first hit changed. Surfaces with a faster
+  /// version override it.
   virtual std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const;
-  /// The geometric normal at a hit: unit, on the side that the surface calls its outside.
+  /// The geometric normal at a hit: unit, on the outside of the surface.
   virtual Vec normal(const Ray& ray, const Hit& hit) const = 0;
-  /// The same of many, to the same bits: normals[k] is that of rays[which[k]] at hits[k]. Hits and `which` go on to whole
-  /// lanes, repeating the last one. Surfaces that gain by it override it.
+  /// The same for many hits, with the same bits: normals[k] is that of rays[which[k]] at hits[k]. Hits and `which` are padded to whole
+  /// lanes by repeating the last one. Surfaces with a faster version override it.
   virtual void normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const;
 };
 
-/// The first hit among all surfaces, found by asking every primitive of each: the oracle of the tests for what a Tracer finds.
+/// The first hit among all surfaces, found by testing every primitive: the oracle of the tests for Tracer.
 Hit first_hit_of_all(std::span<const std::shared_ptr<const Surface>> surfaces, const Ray& ray);
 
 }  // namespace rainref::compositor

@@ -1,5 +1,5 @@
-// First hits of rays among many surfaces. Embree finds the candidates, the surfaces decide: the answer has the same bits
-// for every Embree ISA, number of threads, packet width and build of the hierarchy.
+// First hits of rays among many surfaces. Embree finds the candidates and the surfaces decide, so the result has the same bits for every
+// Embree ISA, number of threads, packet width and hierarchy.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,29 @@
 
 namespace rainref::compositor {
 
-/// None of these changes a bit of any answer.
+/// None of these changes a result.
 struct TracerOptions {
-  std::string embree_config;  ///< as rtcNewDevice takes it, for example "isa=sse2,threads=2"
-  int packet_width = 16;      ///< rays that Embree takes at once: 1, 4, 8 or 16
+  std::string embree_config;  ///< for rtcNewDevice, for example "isa=sse2,threads=2"
+  int packet_width = 16;      ///< rays per Embree query: 1, 4, 8 or 16
   bool robust = true;         ///< Embree's robust traversal
 };
 
 class Tracer {
  public:
-  /// Throws Error(usage) when Embree does not take the configuration or the width is none of the four.
+  /// Throws Error(usage) if Embree rejects the configuration or the width is not one of the four.
   explicit Tracer(const TracerOptions& options = {});
   ~Tracer();
   Tracer(Tracer&&) noexcept;
 
-  /// Numbers count from 0 in this order. The surface may be altered between frames; `commit` takes notice.
+  /// Surfaces are numbered from 0 in this order. A surface may change between frames; `commit` updates it.
   std::uint32_t add(std::shared_ptr<const Surface> surface);
   const Surface& surface(std::uint32_t number) const;
-  /// Before the first ray, and after surfaces were added or altered. Cheap for those that did not change.
+  /// Call before the first ray, and after surfaces were added or changed. Cheap for unchanged ones.
   void commit();
 
-  /// hits[i] is the first hit of rays[i]. Any number of rays; may be called from several threads at once.
+  /// Sets hits[i] to the first hit of rays[i]. Any number of rays; thread-safe.
   void first_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
-  /// The same of as many rays as hits that lie component by component, which spares the tracer from spreading them.
+  /// The same for hits.size() rays stored component by component, which saves the tracer their conversion.
   void first_hits(const RayArrays& rays, std::span<Hit> hits) const;
 
  private:

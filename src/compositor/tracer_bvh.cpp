@@ -1,5 +1,5 @@
-// Without Embree: boxes in a binary tree of our own, one ray after the other, all in double. The same bits, for the surfaces decide;
-// slower.
+// Tracer without Embree: a binary tree of boxes, one ray at a time, all in double. It gives the same bits, because the surfaces decide, but
+// is slower.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ struct Primitive {
   std::uint32_t surface, number;
 };
 
-/// Of the primitives from `first` on, `count` of them; an inner node has none, its left child behind it and the right one at `first`.
+/// `count` primitives from `first` on. An inner node has none; its left child follows it and the right one is at `first`.
 struct Node {
   Box box;
   std::uint32_t first = 0, count = 0;
@@ -32,7 +32,7 @@ void include(Box& box, const Box& other) {
 }
 
 constexpr std::uint32_t leaf_size = 2;
-constexpr int deepest = 64;  // more than halving 2^32 primitives takes
+constexpr int deepest = 64;  // more than halving 2^32 primitives needs
 
 void build(std::vector<Primitive>& primitives, std::uint32_t begin, std::uint32_t end, std::vector<Node>& nodes) {
   const std::size_t self = nodes.size();
@@ -55,8 +55,8 @@ void build(std::vector<Primitive>& primitives, std::uint32_t begin, std::uint32_
   build(primitives, middle, end, nodes);
 }
 
-/// A ray as boxes are asked for it. They are taken larger by a margin far above what the surfaces and this arithmetic round: a box too
-/// many changes no answer.
+/// A ray for tests of boxes. Boxes are enlarged by a margin far above the roundings of the surfaces and of this arithmetic; a surplus box
+/// does not change the result.
 struct Feeler {
   double origin[3], inverse[3], nearest, farthest, margin;
 
@@ -72,7 +72,7 @@ struct Feeler {
     double enter = nearest, leave = std::min(farthest, limit);
     for (int k = 0; k < 3; ++k) {
       const double low = box.low[k] - margin - origin[k], high = box.high[k] + margin - origin[k];
-      if (std::isinf(inverse[k])) {  // along the faces: between them, or not at all
+      if (std::isinf(inverse[k])) {  // parallel to the faces: between them, or outside
         if (low > 0 || high < 0) return false;
         continue;
       }
@@ -88,10 +88,10 @@ struct Feeler {
 
 struct Tracer::State {
   std::vector<std::shared_ptr<const Surface>> surfaces;
-  std::vector<std::uint64_t> revisions;  ///< of those that the tree holds
+  std::vector<std::uint64_t> revisions;  ///< of the surfaces in the tree
   std::vector<Primitive> primitives;
   std::vector<Node> nodes;
-  double largest = 0;  ///< coordinate of a box
+  double largest = 0;  ///< largest coordinate of a box
 
   Hit first_hit(const Ray& ray) const {
     Hit first;

@@ -17,8 +17,8 @@ namespace rainref::compositor {
 
 namespace {
 
-/// What Embree's callbacks know of a surface. Boxes are kept in a table: Embree runs the bounds callback with subnormals
-/// flushed, so nothing may be computed there.
+/// Data of a surface for Embree's callbacks. Boxes are kept in a table, because Embree runs the bounds callback with subnormals flushed, so
+/// nothing may be computed there.
 struct Entry {
   std::shared_ptr<const Surface> surface;
   std::uint32_t number = 0;
@@ -41,7 +41,7 @@ void bounds_from_table(const RTCBoundsFunctionArguments* a) {
   *a->bounds_o = static_cast<const Entry*>(a->geometryUserPtr)->padded[a->primID];
 }
 
-/// Embree hands over a packet whole or in pieces of N lanes, component by component; a lane's id is its slot.
+/// Embree passes a packet whole or in parts of N lanes, component by component; a lane's id is its slot.
 void find_first(const RTCIntersectFunctionNArguments* a) {
   RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
   const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
@@ -69,7 +69,7 @@ void lend(const Arrays& arrays, FloatPacket& floats) {
   floats.farthest = arrays[7];
 }
 
-/// What is the same for all packets; Embree writes none of it, because the surfaces keep the hits, nor reads what is left.
+/// Data that are the same for all packets. Embree does not write them, because the surfaces keep the hits, and does not read the rest.
 template <int width>
 void prepare(embree::RayHit<width>& rays) {
   if constexpr (width == 1) {
@@ -87,14 +87,14 @@ void prepare(embree::RayHit<width>& rays) {
   }
 }
 
-/// A packet at a time. take(begin, count, packet) lends the packet the components of its rays.
+/// One packet at a time. take(begin, count, packet) lends the components of its rays to the packet.
 template <int width, class Take>
 void trace(RTCScene scene, const SceneExtent& extent, const Take& take, std::span<Hit> hits) {
   PacketQuery query;
   query.slack = extent.slack();
   alignas(64) embree::RayHit<width> rays;
   prepare<width>(rays);
-  // Floats are made 16 at a time: where Embree takes them, if it takes as many.
+  // Floats are made 16 at a time; in Embree's own memory if it takes 16 rays.
   constexpr bool is_whole = width == Packet::slots;
   const Arrays to = arrays_of<width>(rays);
   [[maybe_unused]] float room[to.size()][Packet::slots];
@@ -103,7 +103,7 @@ void trace(RTCScene scene, const SceneExtent& extent, const Take& take, std::spa
   else
     lend({room[0], room[1], room[2], room[3], room[4], room[5], room[6], room[7]}, query.floats);
   alignas(64) int valid[width];
-  std::uint32_t traced = (1u << width) - 1;  // the slots that `valid` names
+  std::uint32_t traced = (1u << width) - 1;  // the slots marked by `valid`
   std::fill(valid, valid + width, -1);
   const auto trace_packet = [&](std::size_t begin, int count, Hit* first) {
     Packet& packet = query.packet;
@@ -132,14 +132,14 @@ void trace(RTCScene scene, const SceneExtent& extent, const Take& take, std::spa
   }
 }
 
-/// Of rays one after the other.
+/// For rays stored one after the other.
 auto spreading(std::span<const Ray> rays, PacketRoom& room) {
   return [rays, &room, spread = float_ray_kernels().spread](std::size_t begin, int count, Packet& packet) {
     spread(rays.data() + begin, count, room);
     room.lend_to(packet);
   };
 }
-/// Of rays in arrays: they lie there already, but for the last packet, which is filled up with its last ray.
+/// For rays in arrays, which are used in place, except for the last packet, which is padded with its last ray.
 auto lending(const RayArrays& rays, PacketRoom& room) {
   const std::array<const double*, 8> from{rays.origin[0],    rays.origin[1],    rays.origin[2], rays.direction[0],
                                           rays.direction[1], rays.direction[2], rays.nearest,   rays.farthest};
@@ -161,7 +161,7 @@ auto lending(const RayArrays& rays, PacketRoom& room) {
   };
 }
 
-// The thread sanitizer does not see how the threads of Embree, which are oneTBB's, wait for each other: with it one thread builds.
+// The thread sanitizer does not see how the threads of Embree, which are oneTBB's, synchronize; so with it one thread builds.
 #if defined(__SANITIZE_THREAD__)
 const std::string building_threads = "threads=1,";
 #else
@@ -172,7 +172,7 @@ const std::string building_threads;
   throw Error(ExitCode::usage, fmt::format("compositor.embree_config = \"{}\": {}", config, why));
 }
 
-/// Embree takes an instruction set that it does not know for its default, without a word.
+/// Embree silently replaces an unknown instruction set by its default.
 void check_isa(const std::string& config) {
   static const std::vector<std::string> known{"sse", "sse2", "sse3", "ssse3", "sse4.1", "sse4.2", "avx", "avxi", "avx2", "avx512", "neon"};
   for (std::size_t at = config.find("isa="); at != std::string::npos; at = config.find("isa=", at + 4)) {
@@ -279,7 +279,7 @@ void Tracer::commit() {
     }
     if (!entry->boxes.empty()) include(extent.box, entry->all);
   }
-  // A power of two, or every ripple would change the margin, and with it all boxes.
+  // A power of two, because otherwise every ripple would change the margin, and with it all boxes.
   if (extent.box.low.x <= extent.box.high.x) {
     double largest = 0;
     for (int k = 0; k < 3; ++k) largest = std::max({largest, -extent.box.low[k], extent.box.high[k]});

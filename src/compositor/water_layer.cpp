@@ -107,8 +107,8 @@ bool DisplacedWater::is_there(const Ray& ray, const Hit& hit) const {
 
 void DisplacedWater::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const {
   Ray rest = ray;
-  // A dry cell is level, so the ray crosses the sheet there once; behind it another cell may be wet. The step behind the
-  // crossing starts at a rounding of t and grows, for the walk's own rounding may find the same crossing again.
+  // A dry cell is level, so the ray crosses the sheet there once; behind it another cell may be wet. The step behind the crossing starts at
+  // a rounding of t and grows, because the walk's own rounding may find the same crossing again.
   for (double step = 0x1p-52; step < 1; step *= 2) {
     Hit hit = first;
     field_.meet(self, primitive, rest, hit);

@@ -1,8 +1,8 @@
-// Water on the outer face of a pane: its height over the face as a texture says it, and the surfaces that it makes.
+// Water on the outer face of a pane: its height over the face from a texture, and its surfaces.
 //
-// Where a cell between four texel centres has any water, the face is an interface of glass and water and the water's surface
-// one of water and air; elsewhere the face is glass and air, and there is no other surface. The water's surface stands
-// `clearance` over its height, so that no ray starts on two surfaces at once.
+// If a cell between four texel centres has any water, the face is an interface of glass and water, and the water's surface one of water and
+// air. Elsewhere the face is an interface of glass and air, and there is no other surface. The water's surface is `clearance` above its
+// height, so that no ray starts on two surfaces at once.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ class WaterLayer {
  public:
   static constexpr double clearance = 1e-7;  ///< [m]
 
-  /// height: r16f or r32f [mm], as pass splat leaves it. Negative heights count as none; the outermost texels are dry, so that
-  /// water ends on the pane. Throws Error(usage) for another format or fewer than 3 texels a side.
+  /// height: r16f or r32f [mm], the output of pass splat. Negative heights count as none; the outermost texels are dry, so that water ends
+  /// on the pane. Throws Error(usage) for another format or fewer than 3 texels a side.
   explicit WaterLayer(const Image& height);
 
   int width() const { return width_; }
@@ -32,7 +32,7 @@ class WaterLayer {
   /// Row by row [m].
   const std::vector<float>& metres() const { return metres_; }
   double highest() const { return highest_; }  ///< [m]
-  /// Whether there is water in the cell that holds (u, v).
+  /// Whether there is water in the cell that contains (u, v).
   bool is_wet(double u, double v) const;
   /// The same of the cell between texels (i, j) and (i + 1, j + 1), 0 <= i < width - 1, 0 <= j < height - 1.
   bool is_wet_cell(int i, int j) const {
@@ -45,7 +45,7 @@ class WaterLayer {
   Rise rise(double u, double v) const;
   /// Bilinear between texel centres [m], 0 outside them.
   double at(double u, double v) const;
-  /// How high the facets of DisplacedWater stand over the face [m]; -1 where it is dry.
+  /// Height of the facets of DisplacedWater over the face [m]; -1 where it is dry.
   double surface(double u, double v) const;
 
  private:
@@ -56,7 +56,7 @@ class WaterLayer {
   std::vector<std::uint8_t> wet_;  // cell (i, j) between texels i and i + 1, j and j + 1
 };
 
-/// The outer face of the pane where it is dry, or where it is wet.
+/// The dry or the wet part of the pane's outer face.
 class OuterFace : public PaneFace {
  public:
   OuterFace(const Pane& pane, std::shared_ptr<const WaterLayer> water, bool wet) : PaneFace(pane, 0), water_(std::move(water)), wet_(wet) {}
@@ -69,9 +69,9 @@ class OuterFace : public PaneFace {
   bool wet_;
 };
 
-/// The water's surface on any pane, bent ones too: met at the clearance over the face, with the normal of the height's slope
-/// there, or the face's where the slope turns away from the ray. Light leaves it as far from where it should as the water is
-/// high, times the tangent of its angle to the normal; what the surface mirrors sideways does not meet it again.
+/// The water's surface on any pane, including bent ones: intersected at the clearance over the face, with the normal of the height's slope
+/// there, or the face's normal if the slope turns away from the ray. Light leaves it displaced by up to the water's height times the
+/// tangent of its angle to the normal; light reflected sideways does not hit the surface again.
 class SlopedWater : public PaneFace {
  public:
   SlopedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water)
@@ -85,11 +85,11 @@ class SlopedWater : public PaneFace {
   std::shared_ptr<const WaterLayer> water_;
 };
 
-/// The water's surface on a flat pane as it is: a heightfield of the texels over the face, without its dry cells.
+/// The actual water surface on a flat pane: a heightfield of the texels over the face, without its dry cells.
 class DisplacedWater : public Surface {
  public:
-  /// Where is_hidden holds of a place (a pure function), something else stands higher and the water is not there. Throws
-  /// Error(usage) when the pane is bent.
+  /// If is_hidden (a pure function) is true for a position, something else is higher and there is no water there. Throws Error(usage) for a
+  /// bent pane.
   DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor,
                  std::function<bool(const Vec&)> is_hidden = {});
   std::uint32_t primitives() const override { return field_.primitives(); }
@@ -108,7 +108,7 @@ class DisplacedWater : public Surface {
   Heightfield field_;
 };
 
-/// The smooth normal of the water's surface over the foot of a place: by the rise of the height there.
+/// The smooth normal of the water's surface over the foot of a place, from the slope of the height there.
 std::function<Vec(const Place&)> water_normal(const Pane& pane, std::shared_ptr<const WaterLayer> water);
 
 }  // namespace rainref::compositor

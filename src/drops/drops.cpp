@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t alignment = 64;
 constexpr int fields = 7;
-constexpr std::int64_t padding_slots = 64;  // a vector, and more, beyond the last slot
+constexpr std::int64_t padding_slots = 64;  // more than a vector after the last slot
 
-// An odd number of cache lines, so that the seven streams do not fall into the same sets of the caches.
+// An odd number of cache lines, so that the seven streams use different cache sets.
 std::size_t stride_bytes(std::int64_t capacity) {
   const std::size_t lines = (static_cast<std::size_t>(capacity + padding_slots) * sizeof(float) + alignment - 1) / alignment;
   return (lines | 1) * alignment;
@@ -87,14 +87,14 @@ std::int64_t DropArrays::water_in(std::int64_t begin, std::int64_t end) const {
   return sum;
 }
 std::int64_t DropArrays::water(const parallel::Executor& executor) const {
-  std::atomic<std::int64_t> sum{0};  // whole numbers: in any order
+  std::atomic<std::int64_t> sum{0};  // integers, so the order does not matter
   executor.for_range(extent_, chunk_of(extent_),
                      [&](std::int64_t begin, std::int64_t end) { sum.fetch_add(water_in(begin, end), std::memory_order_relaxed); });
   return sum;
 }
 
 void DropArrays::gather(std::vector<Drop>& out, const parallel::Executor& executor) const {
-  // Each chunk counts its drops, then writes them behind those of the chunks before it.
+  // Each chunk counts its drops, then writes them after those of the previous chunks.
   const std::int64_t chunk = chunk_of(extent_);
   std::vector<std::size_t> first(static_cast<std::size_t>((extent_ + chunk - 1) / chunk) + 1, 0);
   const std::span<const float> lives = life();
@@ -121,7 +121,7 @@ void DropArrays::list_state(state::Items& items) {
   const auto slots =
       std::make_shared<state::Length>(state::Length{static_cast<std::uint64_t>(extent_), static_cast<std::uint64_t>(capacity_),
                                                     [this](std::uint64_t extent) { empty(static_cast<std::int64_t>(extent)); }});
-  // Wider than any drop comes to, and so that the next steps stay finite.
+  // Wider than any drop reaches, and such that the next steps stay finite.
   constexpr state::Range motion{-1e6, 1e6}, mass{0, most_mass}, life{-1e9, 1e9};
   constexpr const char* names[] = {"u", "v", "velocity_u", "velocity_v", "mass", "life", "id"};
   for (int field = 0; field < fields; ++field)

@@ -14,40 +14,40 @@
 
 namespace rainref::drops {
 
-/// Slots of one chunk of work, by their number alone, so that results and sums do not depend on the number of threads: enough chunks for
-/// many threads, none so small that handing it out costs more than its work. Of a vector's width at least.
+/// Number of slots in one chunk of work. It depends on the number of slots alone, so that results and sums do not depend on the number of
+/// threads. It gives enough chunks for many threads, each large enough to be worth scheduling, and at least a vector.
 constexpr std::int64_t chunk_of(std::int64_t slots) { return std::clamp<std::int64_t>((slots / 64 + 511) / 512 * 512, 512, 16384); }
 
-/// What became of the water, in whole mass units. as-published counts drops instead.
-/// spawned - evaporated - removed - film = what the live drops hold, exactly.
+/// Totals of the water, in whole mass units. as-published counts drops instead.
+/// spawned - evaporated - removed - film = water in the live drops, exactly.
 struct MassBalance {
-  std::int64_t spawned = 0;     ///< arrived, whether or not a slot was free
+  std::int64_t spawned = 0;     ///< arrived, even without a free slot
   std::int64_t evaporated = 0;  ///< from drops and film
   std::int64_t removed = 0;     ///< ran off the glass, ended with its drop, or found no room
-  std::int64_t to_film = 0;     ///< from drops to film, less what came back or dried
+  std::int64_t to_film = 0;     ///< from drops to film, minus what returned or dried
   MassBalance& operator+=(const MassBalance& other);
   bool operator==(const MassBalance&) const = default;
 };
 
-/// Slot i lives where life()[i] > 0. The spans cover the slots up to extent(); a kernel may read, and write back
-/// unchanged, a whole vector beyond their ends.
+/// Slot i holds a live drop if life()[i] > 0. The spans cover the slots up to extent(); a kernel may read, and write back unchanged, a
+/// whole vector beyond their ends.
 class DropArrays {
  public:
   DropArrays() = default;
-  /// capacity in [1, most_slots]. Throws Error(usage) otherwise, or when the memory cannot be had.
+  /// capacity in [1, most_slots]. Throws Error(usage) otherwise, or if there is not enough memory.
   explicit DropArrays(std::int64_t capacity);
   static constexpr std::int64_t most_slots = 100'000'000;
   static std::size_t memory_bytes(std::int64_t capacity);
 
   std::int64_t capacity() const { return capacity_; }
-  /// Every live slot is below.
+  /// Every live slot is below this.
   std::int64_t extent() const { return extent_; }
 
   std::span<float> u() { return floats(0); }  ///< glass coordinates
   std::span<float> v() { return floats(1); }
   std::span<float> velocity_u() { return floats(2); }  ///< [1/s]
   std::span<float> velocity_v() { return floats(3); }
-  std::span<float> mass() { return floats(4); }  ///< as Drop::mass
+  std::span<float> mass() { return floats(4); }  ///< see Drop::mass
   std::span<float> life() { return floats(5); }  ///< [s]
   std::span<std::uint32_t> id() { return {reinterpret_cast<std::uint32_t*>(array(6)), static_cast<std::size_t>(extent_)}; }
   std::span<const float> u() const { return floats(0); }
@@ -60,32 +60,32 @@ class DropArrays {
     return {reinterpret_cast<const std::uint32_t*>(array(6)), static_cast<std::size_t>(extent_)};
   }
 
-  /// The same as pass::Host::Listed takes them: the floats of a Drop, in its order.
+  /// The same in the form of pass::Host::Listed: the floats of a Drop, in its order.
   std::vector<float*> columns() { return {array(0), array(1), array(2), array(3), array(4), array(5)}; }
 
-  /// The record of a slot, and back; set() needs i < extent().
+  /// Reads and writes the record of a slot; set() needs i < extent().
   Drop get(std::int64_t i) const;
   void set(std::int64_t i, const Drop& drop);
 
-  /// The id that the next drop gets. Ids count up by one for each arrival; after 2^32 of them they start over.
+  /// The id of the next drop. Each arrival raises it by one; after 2^32 arrivals it wraps.
   std::uint32_t next_id() const { return next_id_; }
-  /// Puts the records, in order, into the free slots, lowest first, and returns how many found one. Moves next_id() behind
-  /// the last record's id, placed or not.
+  /// Puts the records, in order, into the free slots, lowest first, and returns the number placed. Sets next_id() to one more than the last
+  /// record's id, placed or not.
   std::size_t place(std::span<const Drop> records);
 
   std::int64_t live() const;
   std::int64_t free_slots() const { return capacity_ - live(); }
-  /// Mass units that the live drops hold.
+  /// Mass units in the live drops.
   std::int64_t water() const { return water_in(0, extent_); }
   std::int64_t water(const parallel::Executor& executor) const;
   /// The records of the live drops, in slot order.
   void gather(std::vector<Drop>& out, const parallel::Executor& executor) const;
-  /// Makes these the only drops: record i in slot i, in the order given, dead ones too. Moves next_id() behind the
-  /// largest id. Throws Error(port_files) when there are more than slots, or a number in them is not finite.
+  /// Replaces all drops: record i goes into slot i, including dead ones. Sets next_id() to one more than the largest id. Throws
+  /// Error(port_files) if there are more records than slots, or a number in them is not finite.
   void assign(std::span<const Drop> records);
-  /// Every slot free, ids from 0.
+  /// Frees every slot; ids start at 0.
   void clear() { extent_ = 0, next_id_ = 0; }
-  /// The slots up to extent(), dead ones too, and next_id().
+  /// The slots up to extent(), including dead ones, and next_id().
   void list_state(state::Items& items);
 
  private:
@@ -93,7 +93,7 @@ class DropArrays {
     void operator()(std::byte* p) const;
   };
   std::int64_t water_in(std::int64_t begin, std::int64_t end) const;
-  /// So many slots, all of them free, and nothing beyond.
+  /// Sets the extent to this many slots, all free.
   void empty(std::int64_t extent);
   float* array(int field) const { return reinterpret_cast<float*>(memory_.get() + static_cast<std::size_t>(field) * stride_); }
   std::span<float> floats(int field) { return {array(field), static_cast<std::size_t>(extent_)}; }
@@ -101,7 +101,7 @@ class DropArrays {
 
   std::int64_t capacity_ = 0, extent_ = 0;
   std::uint32_t next_id_ = 0;
-  std::size_t stride_ = 0;  ///< bytes from one array to the next
+  std::size_t stride_ = 0;  ///< distance between arrays [byte]
   std::unique_ptr<std::byte, Free> memory_;
 };
 

@@ -34,7 +34,7 @@ Surroundings::Surroundings(const float (&frame)[3], const Drop& drop, double bas
   const double u = drop.position[0], v = drop.position[1], x_of_u = frame[0] * u, x_of_v = frame[1] * v;
   x = x_of_u + x_of_v;
   y = frame[2] * v;
-  // A radius is a power, known to 2^-14 at worst; a place a sum of two products, each within a few roundings of its own size.
+  // A radius is a power, accurate to 2^-14 at worst; a position is a sum of two products, each accurate to a few roundings of its size.
   radius = 1.01 * base + 0x1p-18 * (std::abs(x_of_u) + std::abs(x_of_v) + std::abs(y));
 }
 bool Surroundings::meets(const Surroundings& other) const {
@@ -106,7 +106,7 @@ class NecksOfDrops : public capture::KeyedModel {
     const auto s = state_of<N>(drops_[a]), t = state_of<N>(drops_[b]);
     return scalar::overlap(u_, s, t);
   }
-  /// The drop that this one ends in or whose chain it follows: none, where it stays.
+  /// The drop into which this one merges or whose chain it follows; none if it stays.
   template <class N>
   std::optional<std::size_t> larger_of(std::size_t i, const Places& others) const {
     std::optional<std::size_t> to;
@@ -132,8 +132,8 @@ class NecksOfDrops : public capture::KeyedModel {
   }
   template <class N>
   std::vector<std::byte> list() const {
-    // As in merge: a mistake alone brings drops together that are far apart. Each mistake that is tried asks all pairs again, which of 240
-    // drops takes the diagnosis a minute: of longer lists those nearby are asked, and a mistake that reaches far ones is not reproduced.
+    // As in merge: only a mistake merges drops that are far apart. Each tried mistake tests all pairs again, which takes the diagnosis a
+    // minute for 240 drops. In longer lists only nearby drops are tested, so a mistake that reaches far ones is not reproduced.
     constexpr std::size_t most_for_all_pairs = 128;
     const perturbed::Behaviour& how = perturbed::behaviour();
     const bool from_anywhere =

@@ -1,9 +1,8 @@
 // merge bound to captured cases.
 //
-// Drops that may touch, directly or through others, are one group: who merges with whom is decided within it, and each
-// pair whose touching is open gives two alternatives. What trails leave on the film is whole mass units, rounded down: with
-// thousands of them that is open for most drops, so it is no alternative but an interval of the drop's mass, and of the
-// texel's water. That both agree is not judged.
+// Drops that may touch, directly or through others, are one group: mergers are decided within it, and each pair whose touching is open
+// gives two alternatives. Trails leave whole mass units on the film, rounded down. With thousands of them this rounding is open for most
+// drops, so it is not an alternative but an interval of the drop's mass and of the texel's water. Agreement of the two is not judged.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,12 +30,12 @@ double mass_of(const scalar::DropState<N>& d) {
 }
 double mass_of(const State& d) { return d.mass.lo; }
 
-/// Whole numbers between which a whole number lies.
+/// Integers that bound an integer.
 struct MassRange {
   std::int64_t least = 0, most = 0;
 };
 struct PossibleDeposit {
-  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< texels where it may fall, the last ones included
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< texels where it may fall, including the last ones
   MassRange mass_units;
 };
 
@@ -73,7 +72,7 @@ class Merging {
     merge(all, touching_ones);
     return all;
   }
-  /// Of all groups, whoever touches whom: with a mistake in it that may be drops far apart.
+  /// All groups together, whichever drops touch; with a mistake, drops that are far apart may merge.
   template <class N>
   std::vector<Member<N>> merged_from_anywhere() const {
     std::vector<Member<N>> all;
@@ -92,7 +91,7 @@ class Merging {
   scalar::Trail<N> trail(const scalar::DropState<N>& d) const {
     return scalar::trail(u_, d);
   }
-  /// The trail without a decision about its rounding, its mass taken off `d`.
+  /// The trail without a decision about its rounding; its mass is subtracted from `d`.
   PossibleDeposit take_trail(State& d) const {
     const scalar::Trail<Enclosure> t = scalar::tail(u_, d);
     PossibleDeposit out;
@@ -121,7 +120,7 @@ class Merging {
  private:
   struct Group {
     std::vector<std::size_t> drops;                          ///< ascending
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< that may touch, by place in `drops`
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< pairs that may touch, as indices into `drops`
   };
 
   using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -146,7 +145,7 @@ class Merging {
     }
   }
 
-  /// Where a drop stands on the glass: a circle.
+  /// A drop's position on the glass, as a circle.
   template <class N>
   struct Base {
     N x, y, radius;
@@ -208,7 +207,7 @@ class Merging {
     for (const auto& [a, b] : pairs) groups_[number.at(root(a))].pairs.emplace_back(place[a], place[b]);
   }
 
-  // What merges lies between its parts, and its tail within the radius that all of them have together.
+  // A merged drop lies between its parts, and its tail within the sum of their radii.
   void find_texels() {
     over_.resize(film_->size());
     for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -228,7 +227,7 @@ class Merging {
       const double radius = 1.01 * scalar::base_radius(u_, Number(total)).v, shear = u_.frame[1] / u_.frame[2];
       const double reach_v = radius / u_.frame[2], reach_u = radius * (1 + (shear < 0 ? -shear : shear)) / u_.frame[0];
       const auto texel = [](double at, int size) { return whole_within(at * size, 0, size - 1); };
-      // A texel more on each side, for rounding.
+      // One more texel on each side, for rounding.
       const int x0 = std::max(0, texel(u0 - reach_u, u_.film[0]) - 1), x1 = std::min(u_.film[0] - 1, texel(u1 + reach_u, u_.film[0]) + 1);
       const int y0 = std::max(0, texel(v0 - reach_v, u_.film[1]) - 1), y1 = std::min(u_.film[1] - 1, texel(v1 + reach_v, u_.film[1]) + 1);
       for (int y = y0; y <= y1; ++y)
@@ -272,14 +271,14 @@ class MergedDrops : public capture::KeyedModel {
       }
     };
     constexpr std::size_t most_for_all_pairs = 512;
-    // A mistake alone brings drops together that are far apart; devices and what is counted look at what the pass looks at.
+    // Only a mistake merges drops that are far apart; devices and coverage test the same pairs as the pass.
     const perturbed::Behaviour& how = perturbed::behaviour();
     const bool is_mistaken = how.fault != perturbed::Fault::none || how.follows();
     if (std::is_same_v<N, Perturbed> && is_mistaken && m_.drops() <= most_for_all_pairs)
       add(m_.merged_from_anywhere<N>());
     else
       for (int group = 0; group < groups(); ++group) add(m_.merged<N>(group));
-    std::sort(out.begin(), out.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });  // by groups or not: one order
+    std::sort(out.begin(), out.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });  // the same order with and without groups
     return pass::bytes_of(out);
   }
   const Merging& m_;

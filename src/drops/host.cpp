@@ -15,7 +15,7 @@ namespace {
 constexpr double rest_speed = 1e-6;  // m/s: a millimetre in a quarter of an hour
 constexpr double golden_section = 0x1.3c6ef372fe95p-1;
 constexpr int classes = static_cast<int>(arrival_classes);
-constexpr int cells = 2000;  // of the integral over diameters: the table's corners bound its error to 1e-5
+constexpr int cells = 2000;  // for the integral over diameters; the corners of the table limit the error to 1e-5
 
 double volume_of_mass_unit() { return mass_unit / water_density; }
 Wetting wetting(const Settings& s) { return {s.advancing_deg * pi / 180, s.receding_deg * pi / 180}; }
@@ -37,11 +37,11 @@ double arrivals_of(const SizeCell& c, double normal_z, double normal_wind) {
 }
 double water_mass(double diameter_mm) { return water_density * pi / 6 * diameter_mm * diameter_mm * diameter_mm * 1e-9; }
 float mass_units_of(double diameter_mm) {
-  // Whole, at least 1, and a float has them all.
+  // A whole number, at least 1, and exact in float.
   const double mass_units = static_cast<double>(static_cast<std::int64_t>(water_mass(diameter_mm) / mass_unit + 0.5));
   return static_cast<float>(std::clamp(mass_units, 1.0, static_cast<double>(most_mass)));
 }
-/// Events of a rate in step n. Exact whenever rate * n is, because division is correctly rounded.
+/// Events of a rate in step n. Exact if rate * n is, because division is correctly rounded.
 std::int64_t events_in(double rate, std::int64_t n, double steps_per_second) {
   const auto until = [&](std::int64_t k) { return static_cast<std::int64_t>(rate * static_cast<double>(k) / steps_per_second); };
   return until(n + 1) - until(n);
@@ -65,7 +65,7 @@ IntegrateUniforms integrate_uniforms(const Settings& s, const PlaneFrame& frame,
     return u;
   }
   put(frame, u.frame);
-  // Each constant is that of a drop of one mass unit: the cube root of its mass is 1.
+  // Each constant is that of a drop of one mass unit, whose cube root is 1.
   const double volume = volume_of_mass_unit(), angle = wetting(s).mean();
   u.drag = static_cast<float>(sliding_drag(volume, s.mobility));
   u.wind_push = static_cast<float>(wind_acceleration(volume, angle, s.wind_drag, s.wind_exposure));
@@ -135,7 +135,7 @@ void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
     const random::PoissonTable table(plan_.mean / plan_.uniforms.parts);
     plan_.uniforms.first_count = table.first();
     for (const std::uint32_t t : table.thresholds()) plan_.thresholds.push_back({t});
-    // Class k stands for the drops around the quantile (k + 1/2) / classes.
+    // Class k represents the drops around the quantile (k + 1/2) / classes.
     const auto bound = [&] { return total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes); };
     double sum = 0, next = bound();
     for (const SizeCell& c : sizes_) {
@@ -144,7 +144,7 @@ void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
       for (; arrivals > 0 && static_cast<int>(plan_.masses.size()) < classes && sum >= next; next = bound())
         plan_.masses.push_back({mass_units_of(c.diameter)});
     }
-    // Where no drop arrives, the table is still one.
+    // If no drop arrives, the table is filled all the same.
     while (static_cast<int>(plan_.masses.size()) < classes)
       plan_.masses.push_back(plan_.masses.empty() ? SpawnMass{1} : plan_.masses.back());
   }

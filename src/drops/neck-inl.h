@@ -1,4 +1,4 @@
-// A neck as the passes compute with it. Text, for every number; after drop-inl.h, before the passes that need it.
+// A neck in the arithmetic of the passes. Text, for every number type; include it after drop-inl.h and before the passes that need it.
 
 /// The floats of the record Neck, in its order.
 template <class N>
@@ -22,7 +22,8 @@ RAINREF_FN NeckState<N> loaded_neck(const float* offset, const float& share, con
   n.left = N::load(&left);
   return n;
 }
-/// Radii of the two footprints over that of their drop: as they were where left is 1; both grow until the larger is the drop.
+/// Radii of the two footprints relative to that of their drop. At left = 1 they are the original radii; both grow until the larger one is
+/// the whole drop.
 template <class N>
 struct Footprints {
   N larger, smaller;

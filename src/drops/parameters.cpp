@@ -50,7 +50,7 @@ std::vector<MemberParameter<Settings>> members(const std::string& prefix) {
   };
 }
 
-/// What glass along which no wind blows has not.
+/// True for parameters that a glass without wind along it lacks.
 bool is_of_wind(const Parameter& p, const std::string& prefix) {
   return p.key == prefix + ".wind_exposure" || p.key == prefix + ".wind_drag";
 }

@@ -15,7 +15,7 @@ scene::UniformBlock Drop::layout() {
        member<&Drop::id>("1", "Its own for ever, ascending in the order of birth.")});
 }
 const std::vector<capture::FieldRange>& Drop::ranges(bool corrected) {
-  // The glass; one that is crossed in a second; twice the mass of an ordinary drop; its life.
+  // Position on the glass; crossing it in a second; twice the mass of a usual drop; its life.
   static const std::vector<capture::FieldRange> published{{"position", 0, 1}, {"velocity", -1, 1}, {"mass", 0, 2}, {"life", 0, 6}};
   // 2^16 mass units are 1.3 mg, a drop of 1.4 mm.
   static const std::vector<capture::FieldRange> correct{{"position", 0, 1}, {"velocity", -1, 1}, {"mass", 0, 0x1p16}, {"life", 0, 600}};
@@ -31,7 +31,7 @@ scene::UniformBlock GlassFrame::layout() {
        member<&GlassFrame::coriolis>("1/s", "corrected: specific force per velocity, rows u and v.")});
 }
 const std::vector<capture::FieldRange>& GlassFrame::ranges(bool) {
-  // On a glass of a metre: the acceleration of gravity, the wind of a drive at 72 km/h, a turn of one radian in a second.
+  // For a glass of a metre: the acceleration of gravity, the wind at 72 km/h, a turn of one radian per second.
   static const std::vector<capture::FieldRange> all{
       {"gravity", -10, 10}, {"wind", -20, 20}, {"acceleration", -10, 10}, {"spin", -1, 1}, {"coriolis", -2, 2}};
   return all;
@@ -45,7 +45,7 @@ scene::UniformBlock Neck::layout() {
        member<&Neck::id>("1", "Of the drop that they are.")});
 }
 const std::vector<capture::FieldRange>& Neck::ranges(bool) {
-  // Two that touch are apart by 2^(2/3) at most.
+  // The distance of two touching drops is at most 2^(2/3).
   static const std::vector<capture::FieldRange> all{{"offset", -1.6, 1.6}, {"share", 0, 0.5}, {"left", 0, 1}};
   return all;
 }

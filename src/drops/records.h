@@ -1,5 +1,5 @@
-// What the passes that move drops exchange as arrays of records: sizes are multiples of 16 bytes and every gap is a named
-// padding member, so that the bytes serve every GPU language.
+// Records that the passes of moving drops exchange. Sizes are multiples of 16 bytes and every gap is a named padding member, so that the
+// bytes are valid in every GPU language.
 #pragma once
 
 #include <cstdint>
@@ -21,24 +21,24 @@ struct Drop {
   std::uint32_t id;
   float padding0;
   static scene::UniformBlock layout();
-  /// What the floats ordinarily are: how wide a bound of them may be and still say something.
+  /// Usual ranges of the floats, used to decide when a bound is too wide to be useful.
   static const std::vector<capture::FieldRange>& ranges(bool corrected);
 };
 /// The mass unit: water [kg].
 constexpr double mass_unit = 2e-11;
-/// Mass units that one drop, or one texel of film, holds at most: up to here floats count without gaps.
+/// Largest number of mass units in one drop or one texel of film; up to here float represents all integers.
 constexpr float most_mass = 0x1p24f;
 
-/// The mass of one size class of arriving drops, as Drop::mass.
+/// The mass of one size class of arriving drops; see Drop::mass.
 struct SpawnMass {
   float mass;
 };
-/// A random word not below k thresholds draws first_count + k drops.
+/// A random word at or above k thresholds draws first_count + k drops.
 struct CountThreshold {
   std::uint32_t threshold;
 };
 
-/// What moves drops on a glass, in glass coordinates: the one output of windshield_frame.
+/// Forces on drops in glass coordinates: the only output of windshield_frame.
 struct GlassFrame {
   float gravity[2], wind[2];
   float acceleration[2];
@@ -50,7 +50,7 @@ struct GlassFrame {
   static const std::vector<capture::FieldRange>& ranges(bool corrected);
 };
 
-/// corrected: what is left of the outline of two drops that became one, which hysteresis pins for a while.
+/// corrected: the remaining outline of two merged drops, which hysteresis pins for a while.
 struct Neck {
   float offset[2], share, left;
   std::uint32_t id;

@@ -1,4 +1,4 @@
-// What a scene says of the drops, and the parameters that say it. An effect puts its own prefix before them.
+// Settings of the drops and their parameters. Each effect adds its own prefix to the keys.
 #pragma once
 
 #include <cstdint>
@@ -30,19 +30,19 @@ struct Settings {
   double margin = 0.02;
   double trail_thickness = 2e-6;  ///< [m]
   double film_drying = 1e-7;      ///< [m/s]
-  double neck_time = 0;           ///< merged drops: time in which their outline comes near to round by 1 - 1/e; 0: at once [s]
+  double neck_time = 0;           ///< merged drops: time in which their outline approaches a circle by 1 - 1/e; 0: at once [s]
 };
 
 /// The parameters: keys prefix.capacity, prefix.lifetime, …, and for corrected rain.rate and rain.smallest_drop.
 std::vector<scene::Parameter> parameters(const std::string& prefix);
-/// Those of a glass along which no wind blows, in an effect whose as-published has no such drops: of corrected alone.
+/// The parameters of a glass without wind along it, for an effect whose as-published variant has no such drops: corrected only.
 std::vector<scene::Parameter> still_parameters(const std::string& prefix);
-/// What corrected has of these, and nothing else.
+/// Only the corrected part of these.
 std::vector<scene::Parameter> corrected_only(std::vector<scene::Parameter> parameters);
-/// The settings of a scene whose effect has these parameters. Throws Error(usage), naming keys, where two of them
-/// contradict each other or the step is unstable.
+/// The settings of a scene whose effect has these parameters. Throws Error(usage) with the keys if two of them contradict each other or the
+/// step is unstable.
 Settings settings_from(const scene::Config& config, const std::string& prefix);
-/// The same with still_parameters, of a scene whose variant is corrected.
+/// The same with still_parameters, for a scene whose variant is corrected.
 Settings still_settings_from(const scene::Config& config, const std::string& prefix);
 
 }  // namespace rainref::drops

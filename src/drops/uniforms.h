@@ -1,12 +1,12 @@
-// Uniform blocks of the passes that move drops, byte for byte as a GPU takes them; see records.h for what they exchange.
+// Uniform blocks of the passes that move drops, in the layout of a GPU; see records.h for their records.
 #pragma once
 
 #include <cstdint>
 
 namespace rainref::drops {
 
-/// spawn. Arrival i of a step takes its place from the first two words of the hash of (seed, step, i), and its mass from
-/// the upper ten bits of the third.
+/// spawn. Arrival i of a step takes its position from the first two words of the hash of (seed, step, i), and its mass from the upper ten
+/// bits of the third.
 struct SpawnUniforms {
   std::uint32_t seed[2], step, parts;
   std::int32_t first_count, threshold_count;

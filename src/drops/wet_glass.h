@@ -1,5 +1,5 @@
-// The water on one glass and the passes that move it, each recorded: what the effects with drops share. An effect
-// sets the order of the passes and puts its own between them.
+// The water on one glass and the passes that move it, each recorded: the part shared by the effects with drops. An effect determines the
+// order of the passes and runs its own between them.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +17,27 @@ namespace rainref::drops {
 
 class WetGlass {
  public:
-  /// frame and area [m^2] of the glass; columns and rows of the film, which corrected has. The executor must outlive it.
+  /// frame and area [m^2] of the glass; columns and rows of the film, which only corrected has. The executor must outlive it.
   WetGlass(const Settings& settings, const PlaneFrame& frame, double area, double steps_per_second, int columns, int rows,
            const parallel::Executor& executor);
 
   // The passes of one step; n counts the steps before it.
   void spawn(const pass::Moment& now, const Exposure& exposure, std::int64_t n);
   void integrate(const pass::Moment& now, const GlassFrame& glass);
-  /// corrected: necks, where the settings have some, and merge.
+  /// corrected: necks, if the settings have some, and merge.
   void merge(const pass::Moment& now, std::int64_t n);
-  /// The pass of a frame. glass: of its last step; height: r16f, of the film's size.
+  /// The pass of a frame. glass: of the frame's last step; height: r16f, of the film's size.
   void splat(const pass::Moment& now, const SplatSettings& splat, const GlassFrame& glass, Image& height);
 
   /// The live drops as records, in slot order; valid until the next call or pass.
   RecordView list();
-  /// Mass units (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
+  /// Mass units (as-published: drops) that arrived and are neither on the glass nor recorded as gone: exactly 0.
   std::int64_t residual() const;
   void list_state(state::Items& items);
 
   DropArrays drops;
   Image film;                ///< corrected: r32f, whole mass units in a texel
-  MassBalance mass_balance;  ///< since the start
+  MassBalance mass_balance;  ///< totals since the start
 
  private:
   template <class P>

@@ -34,7 +34,7 @@ Depth make_depth(const Rows& rows, const Image& depth, const bool& is_distance, 
   return made;
 }
 
-/// A map of splashes: the tile, and as it is sampled.
+/// A map of splashes: the tile, and its decoded form for sampling.
 struct NoiseMap {
   Image image;
   TextureData texture;
@@ -63,7 +63,7 @@ struct EdgeSplash::State {
   Settings settings;
   const parallel::Executor& executor;
   bool corrected;
-  bool makes_crowns;  // anew for each frame
+  bool makes_crowns;  // makes them again for each frame
   int frame = 0;
   Image scene, layer;
   std::shared_ptr<const Depth> depth;
@@ -151,7 +151,7 @@ void EdgeSplash::show(const Inputs& inputs) {
                                              inputs.colour.width(), inputs.colour.height()));
   }
   const Rows rows = parallel::rows_of(s.executor);
-  // Of a film, whose pictures pass and are not worth remembering.
+  // Frames of a film are not cached, because their pictures are transient.
   Image scene = make_scene(rows, inputs.colour, inputs.colour_is_encoded), layer = prepare_layer(inputs.layer, inputs.colour);
   auto depth =
       std::make_shared<const Depth>(make_depth(rows, inputs.depth, inputs.depth_is_distance, inputs.colour, s.settings.depth, s.edges()));

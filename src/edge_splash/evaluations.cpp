@@ -16,13 +16,12 @@ using enclosed::Enclosure;
 using enclosed::Rearranged;
 
 // ---- splash, as published --------------------------------------------------------------------------------------------
-// Many decisions lead to few masks: where the scroll ends on a whole texel each coordinate of the noise may be one of two
-// texels, and in a flat place the angle is rounding alone. So an enclosure asks for the set of masks that the decisions can
-// give, and decides once, among these. So do rearrangements.
+// Many decisions lead to few masks: where the scroll ends on a whole texel each coordinate of the noise may be one of two texels, and in a
+// flat place the angle is only rounding. So enclosures and rearrangements compute the set of possible masks, and decide once among these.
 template <class N, std::size_t Count>
 class MaskSet {
  public:
-  /// body() gives masks of 0 and 1, and decides what it must.
+  /// body() returns masks of 0 and 1, and makes its decisions.
   template <class Body>
   explicit MaskSet(const Body& body) {
     enclosed::PathEnumeration paths;

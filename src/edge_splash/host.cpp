@@ -47,7 +47,7 @@ void require_size(const Image& image, const Image& colour, const char* key) {
                                            colour.height(), image.width(), image.height()));
 }
 
-// depth_of, with the floating-point state as it has to be.
+// depth_of, in the required floating-point state.
 double device_depth(const DepthRange& r, double distance) {
   const double reversed = r.near_plane * (r.far_plane - distance) / (distance * (r.far_plane - r.near_plane));
   return r.reversed ? reversed : 1 - reversed;
@@ -55,7 +55,7 @@ double device_depth(const DepthRange& r, double distance) {
 
 }  // namespace
 
-// Of a projection onto [near, far]: d (reversed) = near (far - z) / (z (far - near)), so 1 / z = d (1/near - 1/far) + 1/far.
+// For a projection onto [near, far]: d (reversed) = near (far - z) / (z (far - near)), so 1 / z = d (1/near - 1/far) + 1/far.
 double distance_of(const DepthRange& r, double depth) {
   const FloatingPointGuard guard;
   const double slope = 1 / r.near_plane - 1 / r.far_plane;
@@ -82,7 +82,7 @@ void check(const Settings& s) {
   }
   require_memory(fmt::format("run.size {}x{}", s.width, s.height), memory_bytes(s));
   if (s.up[0] == 0 && s.up[1] == 0 && s.up[2] == 0) throw Error(ExitCode::usage, "edge_splash.up: expected a direction, found [0, 0, 0]");
-  camera(s).basis();  // throws for a camera that looks nowhere
+  camera(s).basis();  // throws for an invalid camera
   camera(s).half_height();
 }
 
@@ -119,10 +119,10 @@ SplashUniforms splash_uniforms(const Settings& s, int frame, int noise_width, in
   const double slope = 1 / s.depth.near_plane - 1 / s.depth.far_plane;
   u.depth_scale = static_cast<float>(s.depth.reversed ? slope : -slope);
   u.depth_bias = static_cast<float>(s.depth.reversed ? 1 / s.depth.far_plane : 1 / s.depth.near_plane);
-  // A band is no narrower than a texel, and whole: the taps at its largest reach lie on texels.
+  // A band is at least a texel wide, and whole: the taps at its largest reach lie on texels.
   u.reach_min = static_cast<float>(std::max(1.0, std::floor(s.smallest_band * s.height + 0.5)));
   u.reach_max = std::max(u.reach_min, static_cast<float>(std::floor(s.largest_band * s.height + 0.5)));
-  // Sobel's sums of a step D are 4 D.
+  // Sobel's sums for a step D are 4 D.
   put_pair(4 * s.edge_step, 4 * s.edge_step * (1 + s.softness), &u.step_low, &u.step_high);
   put_pair(s.edge_bend, s.edge_bend * (1 + s.softness), &u.bend_low, &u.bend_high);
   const double cosine = cos_real(Real64(s.widest_angle_deg * pi / 180)).v;
@@ -131,7 +131,7 @@ SplashUniforms splash_uniforms(const Settings& s, int frame, int noise_width, in
   const double tiles = 1 / (s.noise_size * s.height);  // a texel of the noise is square
   u.noise_scale[0] = static_cast<float>(tiles * noise_height / noise_width);
   u.noise_scale[1] = static_cast<float>(tiles);
-  if (s.has_crowns) return u;  // they stay where they hit
+  if (s.has_crowns) return u;  // crowns stay where they hit
   u.noise_offset[0] = static_cast<float>(scrolled(-s.drop_velocity[0] / s.noise_size * noise_height / noise_width, frame, s.fps));
   u.noise_offset[1] = static_cast<float>(scrolled(-s.drop_velocity[1] / s.noise_size, frame, s.fps));
   return u;
@@ -171,10 +171,10 @@ Image prepare_scene(const Image& from, bool is_encoded, const Rows& rows) {
 Image prepare_depth(const Image& depth, bool is_distance, const Image& colour, const DepthRange& range, const Rows& rows) {
   require_size(depth, colour, "scene.depth_image");
   const double lowest = is_distance ? range.near_plane : 0, highest = is_distance ? range.far_plane : 1;
-  const float from_here = static_cast<float>(lowest), up_to = static_cast<float>(highest);  // distances come as floats
+  const float from_here = static_cast<float>(lowest), up_to = static_cast<float>(highest);  // distances are floats
   const int width = depth.width(), height = depth.height();
   Image to(Format::r32f, width, height);
-  std::vector<int> outside(static_cast<std::size_t>(height), width);  // the first column of each row that no depth may have
+  std::vector<int> outside(static_cast<std::size_t>(height), width);  // the first column of each row with an invalid depth
   rows(height, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       for (int x = 0; x < width; ++x) {

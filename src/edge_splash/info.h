@@ -1,4 +1,4 @@
-// edge_splash described to others.
+// The description of edge_splash.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace rainref::edge_splash {
 /// Passes, buffers and GPU layouts of edge_splash.
 const capture::EffectInfo& effect_info();
 
-/// splash and display, of both variants.
+/// Evaluations of splash and display, of both variants.
 const std::vector<capture::PassEvaluations>& evaluations();
 
 }  // namespace rainref::edge_splash

@@ -14,7 +14,7 @@
 namespace rainref::edge_splash {
 namespace {
 
-/// A camera may stand closer to something than the near plane, which would have cut it away.
+/// A camera may be closer to an object than the near plane, which would have clipped it.
 Image clipped(const int&, const Image& depth, const double& near_plane, const double& far_plane) {
   Image out = copy_of(depth);
   for (int y = 0; y < out.height(); ++y) {
@@ -61,7 +61,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   m.peak.then(memory(s));
   m.peak.release(inputs);
   if (effect::is_sequence(config.text("scene.image")) || effect::is_sequence(config.text("scene.depth_image")))
-    m.peak.pass(2 * inputs + image_bytes(m, Format::rgba32f));  // a picture as it is decoded, turned over, and as the pass takes it
+    m.peak.pass(2 * inputs + image_bytes(m, Format::rgba32f));  // a picture as decoded, flipped, and as input of the pass
   return m;
 }
 

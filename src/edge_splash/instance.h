@@ -1,4 +1,4 @@
-// Splashes at edges as a scene says it: opened, run and written like every effect.
+// The edge splashes of a scene, with the common interface of all effects.
 #pragma once
 
 #include "edge_splash/scene_pictures.h"
@@ -7,12 +7,12 @@
 
 namespace rainref::edge_splash {
 
-/// What the registry holds.
+/// Entry of the registry.
 effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<EdgeSplash> {
  public:
-  /// `pictures`: of frame 0, or made.
+  /// `pictures`: of frame 0, or generated.
   Instance(const Settings& settings, const Inputs& pictures, ScenePictures named, const parallel::Executor& executor);
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;

@@ -1,5 +1,5 @@
-// The noise map that needs no file: gradient noise (Ken Perlin, "Improving Noise", 2002: the fade 6 t^5 - 15 t^4 + 10 t^3)
-// whose lattice repeats, in double.
+// A noise map without a file: gradient noise (Ken Perlin, "Improving Noise", 2002: the fade 6 t^5 - 15 t^4 + 10 t^3) with a repeating
+// lattice, in double.
 #include <algorithm>
 
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr double gradients[8][2] = {{1, 0},  {diagonal, diagonal},   {0, 1},  {-
                                     {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}};
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
-/// In [-1, 1] or so; period `cells` in both coordinates, at least 0.
+/// In about [-1, 1]; period `cells` in both coordinates, at least 0.
 class Octave {
  public:
   Octave(std::uint64_t seed, std::uint32_t layer, int cells) : cells_(cells) {
@@ -66,7 +66,7 @@ Image make_noise(std::uint64_t seed, int side) {
 
 namespace {
 
-constexpr int slots = 1200;            // drops at a time
+constexpr int slots = 1200;            // drops at the same time
 constexpr double life = 0.25;          // of a crown [s]
 constexpr double largest = 8.0 / 512;  // radius of a grown crown [tile sides]
 constexpr int jets = 7;
@@ -74,7 +74,7 @@ constexpr int jets = 7;
 double share(std::uint32_t word) { return word * 0x1p-32; }
 double mixed(double a, double b, double t) { return a + (b - a) * t; }
 
-/// What a jet or a droplet shows: a capsule from (ax, ay) to (bx, by) [texel] whose radius goes from ra to rb; the larger value stays.
+/// A jet or a droplet: a capsule from (ax, ay) to (bx, by) [texel] with radii ra and rb at its ends; the larger value is kept.
 struct Capsule {
   double ax, ay, bx, by, ra, rb, value;
 
@@ -101,7 +101,7 @@ struct Capsule {
 Image make_crowns(std::uint64_t seed, double time, int side) {
   Image map(Format::r32f, side, side);
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
-    // Drops of a slot follow one another; slots are spread over the life of a crown.
+    // Drops of a slot follow one another; slots are staggered over the life of a crown.
     const double turn = time / life + static_cast<double>(slot) / slots, whole = std::floor(turn), age = turn - whole;
     const random::Block b = random::block(seed, random::Purpose::splash_crown, slot, static_cast<std::uint32_t>(whole));
     const double x = share(b[0]) * side, y = share(b[1]) * side, size = mixed(0.6, 1.0, share(b[2])) * largest * side;
@@ -110,7 +110,7 @@ Image make_crowns(std::uint64_t seed, double time, int side) {
     const random::Block jitter = random::block(seed, random::Purpose::splash_crown, slot + slots, static_cast<std::uint32_t>(whole));
     for (int j = 0; j < jets; ++j) {
       const double draw = share(jitter[static_cast<std::size_t>(j) % 4] << 8 * (j / 4));
-      const double aside = 2 * (j + mixed(0.3, 0.7, draw)) / jets - 1;  // -1 and 1: the crown's outline, where one looks along the wall
+      const double aside = 2 * (j + mixed(0.3, 0.7, draw)) / jets - 1;  // -1 and 1: the crown's outline, where the view is along the wall
       const double h = height * (0.7 + 0.4 * draw), tip_x = x + 1.15 * aside * radius, tip_y = y + h;
       Capsule{x + 0.75 * aside * radius, y, tip_x, tip_y, width, 0.5 * width, thin * (0.45 + 0.35 * aside * aside)}.draw(map);
       if (draw > 0.4) Capsule{tip_x, tip_y + 1.5 * width, tip_x, tip_y + 1.5 * width, 0.75 * width, 0.75 * width, thin}.draw(map);

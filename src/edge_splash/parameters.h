@@ -1,4 +1,4 @@
-// The scene parameters of edge_splash: declared once, for scenes, help, hashing and capture.
+// The scene parameters of edge_splash, declared once for scenes, help, hashing and capture.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 namespace rainref::edge_splash {
 
 std::span<const scene::Parameter> parameters();
-/// The settings of a scene. Image files and built-in pictures are the caller's to make.
+/// The settings of a scene. The caller makes image files and built-in pictures.
 Settings settings_from(const scene::Config& config);
 
 }  // namespace rainref::edge_splash

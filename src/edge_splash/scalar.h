@@ -1,4 +1,4 @@
-// The scalar evaluations of edge_splash: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// The scalar evaluations of edge_splash: Scalar, Enclosure and Perturbed. They have their own namespace, so that argument types of this
 // room do not pull them into the lanes.
 #pragma once
 

@@ -12,14 +12,14 @@ namespace rainref::edge_splash {
 
 class ScenePictures {
  public:
-  /// Looks at the files of sequences. Throws Error for pictures that scene.source wants and does not find, or does not use.
+  /// Checks the files of sequences. Throws Error for pictures that scene.source requires but the scene lacks, or that it does not use.
   ScenePictures(const scene::Config& config, effect::Inputs& files);
-  /// Which picture of each key a frame shows: colour, depth, layer.
+  /// Index of the shown picture for each key: colour, depth, layer.
   using Shown = std::array<std::int64_t, 3>;
   Shown shown_in(int frame) const;
-  /// Reads those that there are into colour, depth and layer. Single files are added to `files`.
+  /// Reads the existing ones into colour, depth and layer. Adds single files to `files`.
   void fill(int frame, Inputs& in, effect::Inputs& files) const;
-  /// `error`, which a frame's depth gave, with its file.
+  /// Returns `error`, which is about a frame's depth, with its file.
   Error about_depth(const Error& error, int frame) const;
 
  private:

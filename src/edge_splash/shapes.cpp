@@ -21,7 +21,7 @@ struct Hit {
   Vec normal{0, 0, 0}, albedo{0, 0, 0};
 };
 
-/// A box along the axes, or a rod: a cylinder with round ends.
+/// An axis-aligned box, or a rod: a cylinder with round ends.
 struct Solid {
   bool is_box;
   Vec a, b;       // corners of a box, ends of a rod
@@ -144,7 +144,7 @@ std::vector<Solid> solids() {
     rod(beside(z, -1.35) + Vec(0, 0.85, 0), beside(z - 0.75, -1.35) + Vec(0, 0.85, 0), 0.04, wood);
     rod(beside(z, -1.35) + Vec(0, 0.42, 0), beside(z - 0.75, -1.35) + Vec(0, 0.42, 0), 0.028, wood);
   }
-  // Ledges: slabs that stand out of the abyss.
+  // Ledges: slabs that rise out of the abyss.
   box({2.9, -9, -9.5}, {6.5, 0.15, -5.5}, stone);
   box({4.2, 0.15, -9.0}, {6.5, 0.75, -6.3}, stone);
   box({5.2, 0.75, -8.6}, {6.5, 1.45, -7.0}, stone);
@@ -154,7 +154,7 @@ std::vector<Solid> solids() {
   box({-8.6, 1.5, -13}, {-7.2, 2.6, -10.4}, stone);
   box({1.5, -9, -26}, {8, 1.0, -19}, stone);
   box({3.5, 1.0, -25}, {8, 2.4, -20}, stone);
-  // A cart that was left on the track.
+  // A cart on the track.
   const Vec cart = middle(-11);
   box(cart + Vec(-0.62, 0.30, -0.7), cart + Vec(0.62, 0.36, 0.7), wood);
   box(cart + Vec(-0.62, 0.36, 0.62), cart + Vec(0.62, 1.0, 0.7), wood);
@@ -164,7 +164,7 @@ std::vector<Solid> solids() {
   return all;
 }
 
-/// A solid and the ball around it, from the eye.
+/// A solid and its bounding sphere, relative to the eye.
 struct Seen {
   const Solid* solid;
   Vec to;  // its centre
@@ -177,7 +177,7 @@ Vec radiance(const std::vector<Seen>& near, const Vec& from, const Vec& way, dou
   *distance = hit.t;
   const Vec behind = sky(way);
   if (hit.t >= 1e30) return behind;
-  // Light comes from the whole sky above, and a wet surface mirrors it toward grazing eyes.
+  // Light comes from the whole sky above, and a wet surface reflects it toward grazing eyes.
   const double open = 0.5 + 0.5 * hit.normal.y, facing = std::clamp(-glm::dot(way, hit.normal), 0.0, 1.0), m = 1 - facing;
   const Vec mirrored = sky(way - 2 * glm::dot(way, hit.normal) * hit.normal);
   const double gloss = 0.02 + 0.55 * (m * m) * (m * m) * m * open;
@@ -198,7 +198,7 @@ struct Cone {
     }
     sine = root(1 - cosine * cosine) + 1e-6;
   }
-  /// Those of `all` that reach into it, in their order; which are left out changes no ray.
+  /// Copies the solids of `all` that reach into it, in order; leaving out the others changes no ray.
   void keep(const std::vector<Seen>& all, std::vector<Seen>& near) const {
     near.clear();
     for (const Seen& s : all) {

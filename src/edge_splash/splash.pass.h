@@ -97,16 +97,16 @@ RAINREF_FN N one_where(M mask) {
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
-/// A float cut to an integer as HLSL does: toward zero.
+/// Truncates a float to an integer, as HLSL does.
 template <class N>
 RAINREF_FN N truncated(N x) {
   return select(x < N(0.0f), -floor(-x), floor(x));
 }
-/// x - size trunc(x / size), the remainder that % of floats means: in (-size, size), with the sign of x.
+/// x - size trunc(x / size), the remainder of % for floats: in (-size, size), with the sign of x.
 template <class N>
 RAINREF_FN N remainder_of(N x, float size) {
   const N rest = x - N(size) * truncated(x / N(size)), zero(0.0f), whole(size);
-  // The quotient may round up to the integer that it lies below: the remainder would have the other sign.
+  // The quotient may be rounded up to the next integer; the remainder would then have the other sign.
   const N risen = select((x >= zero) & (rest < zero), rest + whole, rest);
   return select((x < zero) & (rest > zero), rest - whole, risen);
 }
@@ -114,7 +114,7 @@ template <class N>
 struct Gradient {
   N x, y;
 };
-/// The sums of the tap pattern to the letter: p0 is p6, p1 does not shrink with distance, all rows lie one offset too low.
+/// The sums of the tap pattern exactly as printed: p0 is p6, p1 does not shrink with distance, all rows are one offset too low.
 template <class N, class T>
 RAINREF_FN Gradient<N> gradient_as_published(const PublishedSplashUniforms& u, const T& depth, N x, N y) {
   const N thickness(static_cast<float>(u.thickness)), two(2.0f);
@@ -126,7 +126,7 @@ RAINREF_FN Gradient<N> gradient_as_published(const PublishedSplashUniforms& u, c
   const N p6 = texel_at<N>(depth, left, high), p7 = texel_at<N>(depth, x, high), p8 = texel_at<N>(depth, right, high);
   return {((((-p0 - p3 * two) - p6) + p2) + p5 * two) + p8, ((((-p0 - p1 * two) - p2) + p6) + p7 * two) + p8};
 }
-/// Masks are 0 or 1. These two functions are all that decides anything.
+/// Masks are 0 or 1. Only these two functions decide anything.
 template <class N>
 struct EdgeMasks {
   N edge, angle;
@@ -148,13 +148,13 @@ RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const 
                                         N x, N y) {
   const N zero(0.0f), thickness(static_cast<float>(u.thickness)), width(static_cast<float>(u.width)), height(static_cast<float>(u.height));
   const auto passed = (x + thickness >= width) | (y + thickness >= height) | (x - thickness < zero) | (y - thickness < zero);
-  // The edge is multiplied by the angle twice, which a mask of zeros and ones does not feel.
+  // The edge is multiplied by the angle twice, which does not matter for a mask of zeros and ones.
   const N weight = (((masks.edge * masks.angle) * masks.angle) * noise) * N(u.drop_color[3]);
   Splash<N> out;
   out.edge = select(passed, zero, masks.edge);
   out.angle = select(passed, zero, masks.angle);
   out.noise = select(passed, zero, noise);
-  // The target ARGB32 holds nothing outside [0, 1].
+  // The target ARGB32 cannot hold values outside [0, 1].
   for (int k = 0; k < 4; ++k)
     out.colour[k] = guard_below<N>(saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight))), "no colour is negative");
   return out;
@@ -168,12 +168,12 @@ RAINREF_FN Splash<N> splash_as_published(const PublishedSplashUniforms& u, const
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-// Of the distances z around the pixel, r = the band in pixels, held within [reach_min, reach_max]:
+// From the distances z around the pixel, with r = the band in pixels, clamped to [reach_min, reach_max]:
 //   g     = Sobel's sums of z over taps r apart: x to the right, y up
 //   edge  = |g| large  and  bend large,  bend = max(|q(up) + q(down) - 2 q|, |q(left) + q(right) - 2 q|) / q(nearest), q = 1 / z
 //   angle = cosine of g against up as the picture shows it here
-// q is affine over the picture of a plane, so a plane has no bend however steeply it recedes. At a step from zn to zf the
-// bend is 1 - zn / zf.
+// For a plane q is affine over the picture, so a plane has no bend however steeply it recedes. At a step from zn to zf the bend is 1 - zn /
+// zf.
 template <class N>
 struct Taps {
   N q[9];  ///< left to right, then bottom to top: [4] is the pixel
@@ -183,7 +183,7 @@ template <class N, class T>
 RAINREF_FN N inverse_distance(const SplashUniforms& u, const T& depth, N x, N y) {
   return texel_at<N>(depth, x, y) * N(u.depth_scale) + N(u.depth_bias);
 }
-/// The reach that belongs to a distance, in whole texels.
+/// The reach for a distance, in whole texels.
 template <class N>
 RAINREF_FN N reach_of(const SplashUniforms& u, N q) {
   return floor(clamp(N(u.reach) * q, N(u.reach_min), N(u.reach_max)) + N(0.5f));
@@ -206,7 +206,7 @@ RAINREF_FN N bend_of(const Taps<N>& t) {
 
 template <class N, class T>
 RAINREF_FN Taps<N> taps_corrected(const SplashUniforms& u, const T& depth, N x, N y) {
-  // The nearest surface that the band may belong to: it decides how wide the band is.
+  // The nearest surface that the band may belong to; it determines the width of the band.
   const N far(u.reach_max);
   const N q = inverse_distance(u, depth, x, y);
   const N beside = max(inverse_distance(u, depth, x - far, y), inverse_distance(u, depth, x + far, y));
@@ -234,7 +234,7 @@ RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, c
   const N magnitude = length(g.x, g.y);
   const N edge = smoothstep(u.step_low, u.step_high, magnitude) * smoothstep(u.bend_low, u.bend_high, bend_of(taps));
 
-  // The picture of the vertical through this pixel: the way that (X, Y) moves when the point moves up.
+  // The vertical through this pixel in the picture: the direction in which (X, Y) moves if the point moves up.
   const N plane_x = (x + half) * N(u.pixel[0]) - N(u.half_size[0]), plane_y = (y + half) * N(u.pixel[1]) - N(u.half_size[1]);
   const N up_x = N(u.up[0]) - plane_x * N(u.up[2]), up_y = N(u.up[1]) - plane_y * N(u.up[2]);
   const N facing = ((g.x * up_x + g.y * up_y) / max(magnitude, N(u.step_low))) / max(length(up_x, up_y), N(1e-4f));

@@ -1,5 +1,5 @@
-// What the passes of edge_splash take besides images. Sizes are multiples of 16 bytes, nothing straddles a 16-byte row, and
-// every gap is a named padding member, so the bytes serve every GPU language.
+// Uniform blocks of the passes of edge_splash. Sizes are multiples of 16 bytes, no member crosses a 16-byte row, and every gap is a named
+// padding member, so the bytes are valid in every GPU language.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ DropsLayer drops_layer(const Image& colour, Image background, const parallel::Ex
         const Half *seen = colour.row<Half>(y) + 4 * x, *behind = layer.background.row<Half>(y) + 4 * x;
         Half *drop = layer.drops.row<Half>(y) + 4 * x, *offset = layer.offset.row<Half>(y) + 2 * x;
         drop[3] = to_half(static_cast<float>(std::clamp(p.cover, 0.0, 1.0)), Rounding::rne);
-        const double cover = to_float(drop[3]);  // as who lays it over something reads it
+        const double cover = to_float(drop[3]);  // the stored value, which the compositing engine reads
         for (int k = 0; k < 3; ++k)
           drop[k] = to_half(static_cast<float>(to_float(seen[k]) - (1 - cover) * to_float(behind[k])), Rounding::rne);
         if (!(cover > 0)) continue;

@@ -1,4 +1,4 @@
-// All that rainref knows of an effect: what the registry holds, and what a new effect's room offers.
+// The description of an effect, which its room provides and the registry holds.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@
 
 namespace rainref::effect {
 
-/// A thing that a scene prepares, remembered by what it reads (cache/prepared.h).
+/// Data that a scene prepares, cached by what it reads (cache/prepared.h).
 struct Prepared {
-  std::string name;               ///< of its maker
-  std::vector<std::string> keys;  ///< of which another value makes it again
+  std::string name;               ///< name of the function that makes it
+  std::vector<std::string> keys;  ///< if one of these keys changes, it is made again
 };
-/// Keys, and more of them.
+/// Returns the concatenation of two lists of keys.
 inline std::vector<std::string> joined(std::vector<std::string> keys, const std::vector<std::string>& more) {
   keys.insert(keys.end(), more.begin(), more.end());
   return keys;
@@ -29,13 +29,13 @@ inline std::vector<std::string> joined(std::vector<std::string> keys, const std:
 struct Effect {
   std::string name;
   std::vector<std::string> variants;
-  std::span<const scene::Parameter> parameters;  ///< its own; what every scene may say comes on top
+  std::span<const scene::Parameter> parameters;  ///< the effect's own; the parameters common to all scenes are added
   const capture::EffectInfo* info;               ///< passes, buffers, layouts
-  /// What a scene takes: the effect, the pictures made for it.
+  /// Returns the memory of a scene: the effect, and the pictures generated for it.
   RunMemory (*memory)(const scene::Config& config);
-  /// Reads the scene's input files, which are added to `inputs`, and builds the effect. Throws Error naming key, expected and found.
+  /// Reads the scene's input files, adds them to `inputs`, and builds the effect. Throws Error with key, expected and found.
   std::unique_ptr<Instance> (*open)(const scene::Config& config, const parallel::Executor& executor, Inputs& inputs);
-  /// What it prepares.
+  /// Data that it prepares.
   std::vector<Prepared> prepared = {};
 };
 

@@ -39,7 +39,7 @@ Error NamedFile::placed(ExitCode code, const std::string& message) const {
 
 namespace {
 
-/// With the texels shared.
+/// A copy that shares the texels.
 image_io::Picture copy_of(const image_io::Picture& p) {
   return {p.image.shared(), p.channel_names, p.srgb_encoded, p.lossy, p.compression,
           p.decoded_hash,   p.file_width,    p.file_height,  p.taken, p.remarks};

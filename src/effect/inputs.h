@@ -15,51 +15,51 @@
 
 namespace rainref::effect {
 
-/// A file that a scene named, as it was decoded; or a sequence of them, of whose bytes the hash is.
+/// A decoded file that a scene names, or a sequence of files; the hash is of all their bytes.
 struct InputFile {
   std::string key, path, hash;
   bool lossy;
-  std::int64_t first = 0, count = 0;  ///< of a sequence: the number of the first file, and how many there are; 0: a single file
-  std::string channel = {};           ///< of one quantity: the file's channel that was taken
+  std::int64_t first = 0, count = 0;  ///< for a sequence: number of the first file, and number of files; 0: a single file
+  std::string channel = {};           ///< for a single quantity: the channel of the file that was read
 };
-/// All of them, and a sentence each about what is doubtful about them, and about what was chosen in reading them.
+/// All input files. Sentences about doubtful properties, and about choices made in reading them.
 struct Inputs {
   std::vector<InputFile> files;
   std::vector<std::string> warnings, notes;
-  scene::MakeScenery street = nullptr;  ///< makes what is seen where the scene names no picture: whoever opens a scene chooses it
+  scene::MakeScenery street = nullptr;  ///< makes the scene if no picture is named; set by the function that opens a scene
 };
-/// That street. Throws Error(usage) where there is none.
+/// Returns that street. Throws Error(usage) if there is none.
 std::shared_ptr<const scene::Scenery> street_of(const Inputs& inputs, const scene::SceneryOptions& options);
 
-/// Whether the value of this key names files: its last part ends in "image", or is "panorama" or "drive_cycle".
+/// True if the value of this key names files: its last part ends in "image", or is "panorama" or "drive_cycle".
 bool names_files(std::string_view key);
 
-/// What the picture files of a key are read for.
+/// The kind of content of this key's picture files.
 image_io::Content content_of(std::string_view key);
 
-/// A key whose value names files: what reading one of them takes of the scene.
+/// A key whose value names files, with the parts of the scene needed to read one of them.
 struct NamedFile {
   std::string key, name;
   scene::Origin origin;
   std::filesystem::path directory;
 
   NamedFile(const scene::Config& config, const std::string& key);
-  /// Where a file lies that the scene calls so: one that the scene names lies beside the scene, one from the command line where the user
-  /// stands.
+  /// Path of a file named by the scene or on the command line. If the scene names it, it is relative to the scene's folder; else to the
+  /// working directory.
   std::filesystem::path path_of(const std::string& file) const;
-  /// The error with place and key before its message.
+  /// Returns the error with place and key before its message.
   Error placed(ExitCode code, const std::string& message) const;
 };
 
-/// Reads the picture that `key` names, NPY or what image_io::read takes, and adds it to `inputs`. Throws Error
-/// naming the key where it cannot be read.
+/// Reads the picture that `key` names, as NPY or a format of image_io::read, and adds it to `inputs`. Throws Error with the key if it
+/// cannot be read.
 image_io::Picture read_input(const scene::Config& config, const std::string& key, Inputs& inputs);
-/// A picture file of that key, decoded.
+/// Decodes a picture file of that key.
 image_io::Picture read_picture(const NamedFile& named, const std::string& file);
-/// Adds the file, or the sequence of them that `file` says, with what was chosen in reading it.
+/// Adds the file, or the sequence that `file` describes, and the choices made in reading it.
 void add_input(const NamedFile& named, const image_io::Picture& picture, InputFile file, Inputs& inputs);
 
-/// Throws Error(usage) where `key` names a file although the value of the key `why` leaves no use for it.
+/// Throws Error(usage) if `key` names a file that is unused because of the value of the key `why`.
 void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why);
 
 }  // namespace rainref::effect

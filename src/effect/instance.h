@@ -1,4 +1,4 @@
-// A running effect, whichever it is.
+// A running effect of any kind.
 #pragma once
 
 #include <algorithm>
@@ -14,17 +14,17 @@
 
 namespace rainref::effect {
 
-/// What the effect's pass display makes of which picture, for a picture that is developed in another way.
+/// The input and settings of the effect's pass display, to develop a picture in another way.
 struct Display {
   enum class Code : std::uint8_t { srgb, power };  ///< IEC 61966-2-1, or the published power 0.4545
 
-  const Image* radiance = nullptr;  ///< linear, four channels of 16 or 32 bits, row 0 = bottom: what display reads
+  const Image* radiance = nullptr;  ///< linear, four channels of 16 or 32 bits, row 0 = bottom: the input of display
   double exposure = 0;              ///< EV
-  double vignette = 0;              ///< loss of light at a distance of the picture's width, or height, from its centre
+  double vignette = 0;              ///< loss of light at a distance of one picture width, or height, from the centre
   Code code = Code::srgb;
 };
 
-/// A picture of an effect that is no frame of it: a map that it baked.
+/// A picture that is no frame, such as a map that the effect baked.
 struct Map {
   const char* name;
   const Image* image;  ///< row 0 = bottom
@@ -33,34 +33,34 @@ struct Map {
 class Instance {
  public:
   virtual ~Instance() = default;
-  /// To the next frame: 0, 1, 2 ...
+  /// Simulates the next frame: 0, 1, 2 ...
   virtual void simulate(Recorder* recorder) = 0;
-  /// The frame that was simulated last.
+  /// Renders the last simulated frame.
   virtual void render(Recorder* recorder) = 0;
-  /// In place of render, where the picture is not wanted: what it leaves for later frames, whose pictures are the same.
+  /// Replaces render if the picture is not wanted: updates only what later frames need, so their pictures are the same.
   virtual void skip(Recorder* /*recorder*/) {}
-  /// Lists what is held between frames. Loading it gives a simulation that goes on with the same bits; pictures come with the next render.
+  /// Lists the state kept between frames. A simulation that loads it continues with the same bits; pictures come with the next render.
   virtual void list_state(state::Items& items) = 0;
   /// Frames simulated so far.
   virtual int frame() const = 0;
   /// The picture as display code, row 0 = bottom.
   virtual const Image& picture() const = 0;
-  /// How that picture came about; none where it is not a linear one's.
+  /// How display made the picture; none if the picture does not come from a linear one.
   virtual std::optional<Display> display() const { return std::nullopt; }
-  /// What the effect holds between frames, by the names of its EffectInfo: images with row 0 = bottom, and records. Valid until the next
-  /// call of a member that is not const.
+  /// The buffers that the effect keeps between frames, named as in its EffectInfo: images with row 0 = bottom, and records. Valid until the
+  /// next call of a non-const member.
   virtual std::vector<PassOutput> buffers() = 0;
-  /// What an EXR file of the frame holds, row 0 = bottom.
+  /// The layers of the frame's EXR file, row 0 = bottom.
   virtual std::vector<image_io::Layer> layers() const = 0;
-  /// Whether drops_layer() says something of this effect in this variant.
+  /// True if drops_layer() is available for this effect in this variant.
   virtual bool has_drops_layer() const { return false; }
-  /// The drops of the frame that was rendered last, by themselves.
+  /// The drops of the last rendered frame as a layer.
   virtual DropsLayer drops_layer(const parallel::Executor& /*executor*/) const { return {}; }
-  /// What goes into files of its own beside the first EXR.
+  /// Maps written to separate files beside the first EXR.
   virtual std::vector<Map> maps() const { return {}; }
 };
 
-/// T: a class of include/rainref; all of them have one shape.
+/// T: an effect class of include/rainref; all have the same interface.
 template <class T>
 class InstanceOf : public Instance {
  public:
@@ -77,7 +77,7 @@ class InstanceOf : public Instance {
  protected:
   template <class... Arguments>
   explicit InstanceOf(Arguments&&... arguments) : effect_(std::forward<Arguments>(arguments)...) {}
-  /// Hands the effect the pictures of the frame that is rendered next, where they are not those that it has.
+  /// Gives the effect the pictures of the frame to be rendered next, if they differ from the current ones.
   virtual void show_pictures_of(int /*frame*/) {}
   T& changed() { return effect_; }
 

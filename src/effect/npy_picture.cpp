@@ -62,7 +62,7 @@ Array array_of(const std::string& file, std::span<const std::byte> bytes) {
   try {
     header = capture::parse_npy_header(bytes, fmt::format("'{}'", file));
   } catch (const Error& e) {
-    throw Error(ExitCode::usage, e.what());  // a picture, not a port's file
+    throw Error(ExitCode::usage, e.what());  // the user's picture, not a port's file
   }
   const std::vector<std::size_t>& shape = header.shape;
   const std::size_t channels = shape.size() == 3 ? shape[2] : 1;
@@ -94,7 +94,7 @@ image_io::Picture described(const Array& a, image_io::Content content) {
 
 bool is_npy(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe would wait
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // opening a pipe would wait
   std::array<char, 6> start{};
   std::ifstream(path, std::ios::binary).read(start.data(), start.size());
   return std::memcmp(start.data(), "\x93NUMPY", start.size()) == 0;

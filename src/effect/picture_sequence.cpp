@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t most_pictures = 1'000'000;
 constexpr const char* keys_of_sequences[] = {"sequence.first", "sequence.count", "sequence.rate", "sequence.end"};
 
-/// A name in parts: what stands before the number, its width, whether zeros fill it, and what stands behind.
+/// A name in parts: the text before the number, its width, whether zeros fill it, and the text behind.
 struct Pattern {
   std::string before, after;
   int width = 0;
@@ -28,7 +28,7 @@ struct Pattern {
 struct Parsed {
   std::optional<Pattern> pattern;
   int numbers = 0;
-  bool has_others = false;  ///< a percent sign that is neither a number's nor doubled
+  bool has_others = false;  ///< a percent sign that neither belongs to a number nor is doubled
 };
 Parsed parsed(const std::string& name) {
   Parsed out;
@@ -110,7 +110,7 @@ PictureSource::PictureSource(const scene::Config& config, const std::string& key
   if (count_ == 0) {
     std::error_code ignored;
     while (count_ < most_pictures && std::filesystem::exists(named_.path_of(file_of(count_)), ignored)) ++count_;
-    count_ = std::max<std::int64_t>(count_, 1);  // whose absence look_at_files tells
+    count_ = std::max<std::int64_t>(count_, 1);  // look_at_files reports that there is none
   }
   if (beside != nullptr && beside->is_sequence() && beside->count_ != count_)
     throw named_.placed(ExitCode::usage,
@@ -163,7 +163,7 @@ void PictureSource::require_frames(int frames) const {
   }
 }
 
-// A quotient of whole numbers that is whole is exact, so that pictures change where they should at rates like 24 and 60.
+// A quotient of integers that is an integer is exact, so pictures change at the right frame for rates like 24 and 60.
 std::int64_t PictureSource::shown_in(int frame) const {
   if (!is_sequence()) return 0;
   const std::int64_t picture = rate_ > 0 ? static_cast<std::int64_t>(std::floor(frame * rate_ / fps_)) : frame;

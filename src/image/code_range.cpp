@@ -20,13 +20,13 @@ std::int64_t signed_magnitude(std::uint32_t bits, std::uint32_t sign) {
   return bits & sign ? -static_cast<std::int64_t>(bits & (sign - 1)) : static_cast<std::int64_t>(bits);
 }
 
-// The greatest code that a store of x may leave; the least is that of -x, negated.
+// The largest code that a store of x may write; the smallest is that of -x, negated.
 std::int64_t highest_half(float x, const StoreRules& rules) {
   const std::int64_t toward_zero = signed_magnitude(to_half(x, Rounding::rtz).bits, 0x8000u);
   std::int64_t code = toward_zero;
   if (rules.half == StoreRounding::rne) code = signed_magnitude(to_half(x).bits, 0x8000u);
   if (rules.half == StoreRounding::either && to_float(to_half(x, Rounding::rtz)) < x) ++code;
-  // Cutting never reaches infinity by itself; 2^16 is where the half after the largest would lie.
+  // Truncation never reaches infinity; 2^16 is where the half after the largest would be.
   if (rules.half == StoreRounding::rtz && x >= 0x1p16f) code = half_infinity;
   if (rules.half == StoreRounding::rtz && x <= -0x1p16f) code = -half_infinity;
   if (code >= half_infinity) return rules.half_overflow == StoreOverflow::max ? half_max : half_infinity;
@@ -36,7 +36,7 @@ std::int64_t highest_half(float x, const StoreRules& rules) {
 
 double ceil_of(double x) { return -floor_of(-x); }
 
-// Codes within ulp of the reals [low, high]; above half a code at most the neighbours.
+// Codes within ulp of the reals [low, high]; from half a code on at most the neighbours.
 CodeRange codes_near(double low, double high, double ulp) {
   const double first = std::max(ceil_of(low - ulp), floor_of(low)), last = std::min(floor_of(high + ulp), ceil_of(high));
   return {static_cast<std::int64_t>(std::clamp(first, 0.0, 255.0)), static_cast<std::int64_t>(std::clamp(last, 0.0, 255.0))};
@@ -44,7 +44,7 @@ CodeRange codes_near(double low, double high, double ulp) {
 
 float held(float x) { return x < 0 ? 0.0f : 1 < x ? 1.0f : x; }
 
-// 255 x, or the integer itself where x is the float nearest to code / 255.
+// 255 x, or the integer itself if x is the float nearest to code / 255.
 double scaled_unorm(float x) {
   const double scaled = 255.0 * x, nearest = floor_of(scaled + 0.5);
   return to_float(Unorm8{static_cast<std::uint8_t>(nearest)}) == x ? nearest : scaled;
@@ -54,7 +54,7 @@ CodeRange unorm_range(const Enclosure& v, const StoreRules& rules) {
   const float low = held(v.lo), high = held(v.hi);
   if (rules.unorm == Rounding::rtz) {
     const CodeRange cut{to_unorm8(low, Rounding::rtz).code, to_unorm8(high, Rounding::rtz).code};
-    // The reference rounds 255 x to a float first; a device may cut the exact product, or the float above it.
+    // The reference rounds 255 x to a float first; a device may truncate the exact product, or the float above it.
     return rules.unorm_ulp == 0 ? cut
                                 : CodeRange{static_cast<std::int64_t>(255.0 * low), static_cast<std::int64_t>(float_above(255.0 * high))};
   }
@@ -70,7 +70,7 @@ CodeRange srgb_range(const Enclosure& v, const StoreRules& rules) {
   const double low = 255 * encode_srgb(held(v.lo)), high = 255 * encode_srgb(held(v.hi));
   const auto nearest = [](double s) { return static_cast<std::int64_t>((s + 0x1p52) - 0x1p52); };
   const CodeRange out{nearest(low), nearest(high)};
-  // The two pieces of the curve meet to 1e-5 of a code.
+  // The two pieces of the curve agree to 1e-5 of a code.
   return rules.srgb_ulp == 0 ? out : codes_near(std::max(low - 1e-5, 0.0), high + 1e-5, rules.srgb_ulp);
 }
 

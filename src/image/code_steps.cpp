@@ -12,7 +12,7 @@ constexpr std::uint32_t one = std::bit_cast<std::uint32_t>(1.0f);
 }  // namespace
 
 CodeSteps::CodeSteps(const Codes& codes) {
-  // Floats from 0 on have the order of their bits.
+  // Nonnegative floats have the order of their bits.
   std::vector<std::uint32_t> ends(buckets + 1);
   for (int k = 0; k <= buckets; ++k) ends[static_cast<std::size_t>(k)] = k == 0 ? 0 : static_cast<std::uint32_t>(first + k) << shift;
   ends.back() = one + 1;
@@ -26,7 +26,7 @@ CodeSteps::CodeSteps(const Codes& codes) {
   for (int k = 0; k < buckets; ++k)
     if (begin[static_cast<std::size_t>(k) + 1] - begin[static_cast<std::size_t>(k)] > 1) return;
 
-  // The first number of each bucket whose code is not that of its smallest one, or the bucket's end; all buckets side by side.
+  // The first number of each bucket whose code differs from that of its smallest one, or the bucket's end; all buckets side by side.
   std::vector<std::uint32_t> low(ends.begin(), ends.end() - 1), high(ends.begin() + 1, ends.end());
   const auto middle = [&](std::size_t k) { return low[k] + (high[k] - low[k]) / 2; };
   for (int round = 0; round < 32; ++round) {

@@ -1,4 +1,4 @@
-// 8-bit codes of numbers in [0, 1] by table: a display function that never falls is known by the smallest number of each code.
+// 8-bit codes of numbers in [0, 1] by table. A non-decreasing display function is defined by the smallest number of each code.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,25 @@ namespace rainref {
 
 class CodeSteps {
  public:
-  /// What a bucket of numbers has: the code of its smallest one, and from `step` on one more.
+  /// A bucket of numbers: the code of its smallest number, and one more from `step` on.
   struct Bucket {
     float step;
     std::int32_t code;
   };
-  /// Buckets: the floats below 2^-12 (1 + 1/128), and from there 128 to an octave.
+  /// Buckets: the floats below 2^-12 (1 + 1/128), then 128 per octave.
   static constexpr int shift = 23 - 7, buckets = 12 * 128 + 1;
   static constexpr std::int32_t first = (127 - 12) << 7;  ///< bits >> shift of the first bucket
 
-  /// codes(x, code, count): the codes of count numbers.
+  /// codes(x, code, count) computes the codes of count numbers.
   using Codes = std::function<void(const float* x, std::uint8_t* code, int count)>;
 
   CodeSteps() = default;
-  /// Of a function that never falls and is 0 at 0.
+  /// For a non-decreasing function that is 0 at 0.
   explicit CodeSteps(const Codes& codes);
 
-  /// A bucket has room for one step: where the function climbs faster there is no table.
+  /// True if there is no table: a bucket holds one step, and the function climbs faster somewhere.
   bool empty() const { return buckets_.empty(); }
-  /// The bucket of x > 0, x <= 1, is number max(bits of x >> shift, first) - first.
+  /// For x in (0, 1] the bucket has number max(bits of x >> shift, first) - first.
   const Bucket* data() const { return buckets_.data(); }
   std::size_t bytes() const { return buckets_.size() * sizeof(Bucket); }
 

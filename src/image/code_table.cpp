@@ -7,7 +7,7 @@ namespace {
 
 constexpr int side = 256, texels_for_all = (65536 + 2) / 3, lines = (texels_for_all + side - 1) / side;
 
-/// Calls each(half bits, column, line, channel) for the places where the pass meets each half.
+/// Calls each(half bits, column, line, channel) for the position where the pass gets each half.
 template <class Each>
 void for_every_half(const Each& each) {
   for (std::uint32_t bits = 0; bits < 65536; ++bits) {

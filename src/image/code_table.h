@@ -1,5 +1,5 @@
-// A display pass by table. There are 65 536 halves, fewer than most pictures have values: a pass whose every code depends on one
-// stored half alone is evaluated once for each of them. A picture of fewer values goes through the pass itself.
+// A display pass by table. There are 65 536 halves, fewer than the values of most pictures. If every code depends on one stored half alone,
+// the pass is evaluated once for each half. A picture with fewer values runs the pass itself.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@ namespace rainref {
 
 class CodeTable {
  public:
-  /// The pass itself: rows [y0, y1) of an rgba16f image into an rgba8 one of its size. Red, green and blue must be treated
-  /// alike, whatever else the texel holds and wherever it lies. What it captures must live as long as the table.
+  /// The pass itself: rows [y0, y1) of an rgba16f image into an rgba8 image of the same size. It must treat red, green and blue alike,
+  /// independent of the other channels and of the position. Its captures must outlive the table.
   using Pass = std::function<void(const Image& colour, Image& picture, int y0, int y1)>;
 
   CodeTable() = default;
   /// For pictures of this size.
   CodeTable(int width, int height, Pass pass);
 
-  /// What the pass writes in rows [y0, y1); alpha is 1.
+  /// Writes rows [y0, y1) as the pass would; alpha is 1.
   void rows(const Image& colour, Image& picture, int y0, int y1) const;
 
  private:
   Pass pass_;
-  std::vector<std::uint8_t> code_;  ///< of each half; empty: too few texels
+  std::vector<std::uint8_t> code_;  ///< code of each half; empty: too few texels
 };
 
 }  // namespace rainref

@@ -1,10 +1,9 @@
-// Looking up radiance by direction, written once over a number N. Text only; needs sampling-inl.h before it.
+// Looks up radiance by direction, written once for any number type N. Text only; include sampling-inl.h before it.
 //
-// Latitude/longitude: u = 1/2 + atan2(z, x) / 2 pi, v = 1/2 + asin(y) / pi; row 0 (v = 0) looks straight down. Address
-// repeat in u, clamp in v; four channels.
-// Cube: six square faces above each other in one image, in the order +x -x +y -y +z -z, each oriented as graphics APIs
-// orient the faces of a cube map (s, t from the table below, t = 0 at the face's first row). Lookups stay inside the
-// face: no filtering over its edges.
+// Latitude/longitude: u = 1/2 + atan2(z, x) / 2 pi, v = 1/2 + asin(y) / pi; row 0 (v = 0) looks straight down. Address repeat in u, clamp
+// in v; four channels.
+// Cube: six square faces above each other in one image, in the order +x -x +y -y +z -z, each oriented as graphics APIs orient the faces of
+// a cube map (s, t from the table below, t = 0 at the face's first row). Lookups stay inside the face: no filtering over its edges.
 //   face   s     t          face   s     t
 //   +x    -z    -y           -x    +z    -y
 //   +y    +x    +z           -y    +x    -z
@@ -34,7 +33,7 @@ RAINREF_FN Vec3<N> sample_cube(const T& t, const Vec3<N>& d, N lod) {
   const N s = select(x_major, sx, select(y_major, sy, sz)) / major, r = select(x_major, tx, select(y_major, ty, tz)) / major;
   const N face = select(x_major, select(negative_x, one, zero),
                         select(y_major, select(negative_y, N(3.0f), N(2.0f)), select(negative_z, N(5.0f), N(4.0f))));
-  // Level by nearest, because a level's faces must keep whole rows.
+  // The nearest level, because the faces of a level must keep whole rows.
   const N level =
       floor(guard<N>(clamp(lod, zero, N(static_cast<float>(t.levels - 1))), "the host asks for a level that there is") + N(0.5f));
   const Level<N> l = level_of<N>(t, to_int(level));

@@ -1,4 +1,4 @@
-// Images between effects, whose row 0 is the bottom, and files, whose first row is the top.
+// Conversion between images of effects, whose row 0 is the bottom, and files, whose first row is the top.
 #pragma once
 
 #include "base/rows.h"
@@ -6,11 +6,11 @@
 
 namespace rainref {
 
-/// The same image with its rows in the other order.
+/// The same image with its rows in reverse order.
 Image flipped(const Image& image);
-/// The same image.
+/// A copy of the image.
 Image copy_of(const Image& image);
-/// The same, in the memory of `to` where that has its size and format. `rows` says who does it.
+/// Copies into the memory of `to` if that has the same size and format. `rows` runs the work.
 void copy_into(Image& to, const Image& image, const Rows& rows = rows_here);
 
 }  // namespace rainref

@@ -32,8 +32,7 @@ Span span(Address address, Enclosure u, int size, float shift) {
   const Enclosure side(static_cast<float>(size));
   const Enclosure x = (address == Address::mirror ? mirrored(u) : u) * side - Enclosure(shift);
   if (x.is_vacuous()) return {0, 0, size, address, true};
-  // What reducing u first may add: the roundings of fract, of the mirror's subtractions, of the product and of the
-  // shift.
+  // Error of reducing u first: the roundings of fract, of the mirror's subtractions, of the product and of the shift.
   double slack = 0;
   if (address == Address::repeat) slack = 2.5 * unit_roundoff() * size;
   if (address == Address::mirror) slack = 5 * unit_roundoff() * size;
@@ -56,7 +55,7 @@ float texel_of(const Texels& t, int column, int row, int channel) {
 // The hull of texels [x0, x1] x [y0, y1] by the address rules.
 Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t x0, std::int64_t x1, std::int64_t y0, std::int64_t y1,
                      int channel) {
-  // One period of indices holds every texel; the other rules have only a few indices outside.
+  // One period of indices covers every texel; the other rules have only a few indices outside.
   if (x.address == Address::repeat) x1 = std::min(x1, x0 + x.size - 1);
   if (y.address == Address::repeat) y1 = std::min(y1, y0 + y.size - 1);
   if ((x1 - x0 + 1) * (y1 - y0 + 1) > most_texels) return Enclosure::vacuous();
@@ -72,11 +71,11 @@ Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t
 
 double magnitude(double x) { return x < 0 ? -x : x; }
 
-// How far rounding the four weights of a cell may move its value. Rows and columns keep their sums, so that the error of
-// one weight enters the others with alternating signs; an H100 rounds by half a step, twice that is allowed.
+// Largest change of a cell's value due to rounding its four weights. Rows and columns keep their sums, so the error of one weight enters
+// the others with alternating signs. An H100 rounds by half a step; twice that is allowed.
 double weight_slack(double a, double b, double c, double d) { return power_of_two(-profile().subtexel_bits) * magnitude(a - b - c + d); }
-// The same where the level's share is in the weights. With s the share, X = s f_x + e and the weights X f_y + e' and
-// (s - X) f_y + e'' of the second row, the value is off by e ((b - a)(1 - f_y) + (d - c) f_y) + e' (d - b) + e'' (c - a).
+// The same if the weights include the level's share. With s the share, X = s f_x + e and the weights X f_y + e' and (s - X) f_y + e'' of
+// the second row, the error of the value is e ((b - a)(1 - f_y) + (d - c) f_y) + e' (d - b) + e'' (c - a).
 double joint_slack(double a, double b, double c, double d) {
   const double right = magnitude(b - a), right_above = magnitude(d - c), up = magnitude(c - a), up_beside = magnitude(d - b);
   const double x_first = std::max(right, right_above) + up + up_beside, y_first = std::max(up, up_beside) + right + right_above;
@@ -115,7 +114,7 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
 }
 Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel, JointRounding& joint) {
   if (x.vacuous || y.vacuous) return Enclosure::vacuous();
-  // Coordinates so large that their integers do not matter any more.
+  // Coordinates so large that their integers are meaningless.
   if (std::max(std::max(-x.lo, x.hi), std::max(-y.lo, y.hi)) > 0x1p40) return Enclosure::vacuous();
   const std::int64_t x0 = cell_of(x.lo), x1 = cell_of(x.hi), y0 = cell_of(y.lo), y1 = cell_of(y.hi);
   double low = infinity, high = -infinity, least = infinity, greatest = -infinity, slack = 0;
@@ -158,15 +157,15 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel, J
   const double size = std::max(-least, greatest), gap = greatest - least;
   if (size == 0) return {0.0f, 0.0f};
   if (sampler) {
-    // At the value's own magnitude, which may be far below that of a texel beside it.
+    // At the value's own magnitude, which may be far below that of a neighbouring texel.
     slack += storage_step(t.precision, std::max(slack - low, high + slack));
     joint.below = low - std::max(low - slack, least);
     joint.above = std::min(high + slack, greatest) - high;
     low -= joint.below;
     high += joint.above;
   }
-  // Two mixes after each other, each three roundings of a (1 - t) + b t or of a + (b - a) t, and the rounding of the
-  // two weights x - floor(x), which is none but below 0.
+  // Two mixes in sequence, each with three roundings of a (1 - t) + b t or of a + (b - a) t, and the rounding of the two weights x -
+  // floor(x), which is zero except below 0.
   const double flushed = profile().flush == Flush::never ? 0x1p-147 : 0x1p-123;
   const double error = unit_roundoff() * (2 * (size + 2 * std::max(size, gap)) + 2 * gap) * (1 + 0x1p-10) + flushed;
   Enclosure out(float_below(low - error), float_above(high + error));
@@ -181,13 +180,13 @@ Enclosure between_levels(Enclosure fine, const JointRounding& fine_rounding, Enc
   if (out.is_vacuous() || profile().subtexel_bits == 0) return out;
   const double fine_most = 1.0 - static_cast<double>(low), fine_least = 1.0 - static_cast<double>(high), coarse_most = high,
                coarse_least = low;
-  // A level adds no more than its share of it; what its own hull has already counts.
+  // A level adds at most its share of the error; the error already in its own hull counts toward that.
   const auto of_level = [](const JointRounding& r, double most_share) { return std::min(r.slack, most_share * (r.greatest - r.least)); };
   const double weights = of_level(fine_rounding, fine_most) + of_level(coarse_rounding, coarse_most);
   const double slack = weights + storage_step(fine_rounding.precision, std::max(weights - out.lo, out.hi + weights));
   const double below = slack - fine_least * fine_rounding.below - coarse_least * coarse_rounding.below;
   const double above = slack - fine_least * fine_rounding.above - coarse_least * coarse_rounding.above;
-  // The weights are not negative and sum to 1: beyond all texels lies nothing that the mix itself does not allow.
+  // The weights are not negative and sum to 1, so values outside the range of all texels are possible only by the roundings of the mix.
   const double least = std::min(fine_rounding.least, coarse_rounding.least),
                greatest = std::max(fine_rounding.greatest, coarse_rounding.greatest);
   return Enclosure::checked(std::min(out.lo, float_below(std::max(out.lo - below, least))),
@@ -226,7 +225,7 @@ Enclosure level_range(Enclosure lod, int levels) {
   if (lod.is_vacuous()) return {0.0f, static_cast<float>(last)};
   double slack = 0;
   if (const int bits = profile().lod_bits; bits > 0) {
-    // A level that the fixed-point number holds is taken as it is.
+    // A level that fixed point represents exactly is used unchanged.
     const double scaled = lod.lo * power_of_two(bits);
     if (!lod.is_point() || floor_of(scaled) != scaled) slack = power_of_two(-bits);
   }

@@ -8,7 +8,8 @@
 
 namespace rainref {
 
-/// Decoded, held to [least, most], rounded to nearest: rgba16f of an image of four channels. No value may be NaN; `rows` says who does it.
+/// Decoded, clamped to [least, most], rounded to nearest: rgba16f from an image of four channels. No value may be NaN. `rows` runs the
+/// work.
 Image as_half(const Image& image, const Rows& rows = rows_here, float least = -std::numeric_limits<float>::infinity(),
               float most = std::numeric_limits<float>::infinity());
 

@@ -72,7 +72,7 @@ Image::Image(Format format, int width, int height) : format_(format), width_(wid
     throw Error(ExitCode::usage, fmt::format("image {}x{} {}: {:.1f} GiB of memory could not be had", width, height, info(format).name,
                                              static_cast<double>(bytes) / (1u << 30)));
   }
-  // The margin keeps the first texel of every row aligned to 16 texels' worth of bytes.
+  // The margin keeps the first texel of every row aligned to the bytes of 16 texels.
   origin_ = memory_.get() + static_cast<std::size_t>(left_margin) * info(format).texel_bytes();
 }
 
@@ -128,13 +128,13 @@ Hash128 Image::content_hash() const {
 
 namespace {
 
-/// Channels of so many bytes into every texel of a row.
+/// Copies channels of this number of bytes into every texel of a row.
 template <std::size_t Bytes>
 void copy_channel(const std::byte* in, int count, std::size_t texel_bytes, std::byte* out) {
   for (int x = 0; x < count; ++x) std::memcpy(out + x * texel_bytes, in + x * Bytes, Bytes);
 }
 
-/// Both channels of a texel at once, little endian: what a compiler makes vectors of.
+/// Both channels of a texel at once, little endian, which compilers vectorize.
 template <class Channel, class Texel>
 void copy_channels(const std::byte* first, const std::byte* second, int count, std::byte* out) {
   for (int x = 0; x < count; ++x) {

@@ -1,17 +1,17 @@
-// Texture lookups, written once over a number N. Text only, like math/vocabulary-inl.h; include it beside the pass texts.
+// Texture lookups, written once for any number type N. Text only, like math/vocabulary-inl.h; include it beside the pass texts.
 //
 // Coordinates are normalized; texel i of a side of W texels has its centre at (i + 1/2) / W. With x = a(u) W - 1/2:
 //   nearest    texel floor(a(u) W)
 //   bilinear   texels floor(x) and floor(x) + 1, weights 1 - f and f with f = x - floor(x); rows likewise
 //   mip        bilinear in level floor(lod + 1/2)
 //   trilinear  two levels floor(lod) and floor(lod) + 1, weights 1 - g and g with g = lod - floor(lod)
-// The address rule a: clamp holds x in [0, W - 1]; repeat takes fract(u); mirror takes 1 - |2 fract(u / 2) - 1|;
-// border lets x run to [-1, W] and gives the border colour for texels outside. mix is a (1 - t) + b t throughout.
+// The address rule a: clamp limits x to [0, W - 1]; repeat takes fract(u); mirror takes 1 - |2 fract(u / 2) - 1|;
+// border limits x to [-1, W] and returns the border colour for texels outside. mix is a (1 - t) + b t throughout.
 
-// Every lookup takes a Texture, or a FixedTexture where the pass knows the address rules and the number of channels: the
-// same lookup, without the decisions.
+// Every lookup takes a Texture, or a FixedTexture if the pass knows the address rules and the number of channels at compile time. The
+// lookup is the same, without the decisions.
 
-// Channels lie in registers only when the loops over them are unrolled, which -O2 leaves.
+// Channels stay in registers only if the loops over them are unrolled, which -O2 does not do.
 #ifndef RAINREF_UNROLL
 #define RAINREF_UNROLL _Pragma("GCC unroll 4")
 #endif
@@ -27,11 +27,11 @@ struct Channels {
 /// One mip level, its size as numbers and as integers.
 template <class N>
 struct Level {
-  typename N::Int width, height, offset, pitch;  ///< pitch: texels from row to row
+  typename N::Int width, height, offset, pitch;  ///< pitch: distance of rows [texel]
   N width_number, height_number;
   RAINREF_FN Level() {}
 };
-/// Where a texture's rows have texels between them.
+/// Distance of rows for textures with texels between their rows.
 template <class T>
 concept Pitched = requires(const T& t) {
   t.pitch[0];
@@ -49,18 +49,18 @@ RAINREF_FN Level<N> uniform_level(const T& t, int level) {
   l.height_number = N(static_cast<float>(t.height[level]));
   return l;
 }
-/// Whether `level` is the same for every element, and then that level: for lanes, see sampling_lanes-inl.h.
+/// Whether `level` is the same for every element, and that level. Lanes: see sampling_lanes-inl.h.
 template <class N, class T>
 RAINREF_FN bool is_uniform(const T&, const typename N::Int&, Level<N>&) {
   return false;
 }
-/// A level of each element's own, held within those that there are.
+/// A separate level for each element, clamped to the existing levels.
 template <class N, class T>
 RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted) {
   const auto level = clamp_index(wanted, N::uniform_int(t.levels));
   Level<N> l;
   if (is_uniform<N>(t, level, l)) return l;
-  // Each level halves the side above it, rounded down, to no less than 1.
+  // Each level has half the side of the one above, rounded down, at least 1.
   const auto one = N::uniform_int(1);
   l.width = max_index(shift_right(N::uniform_int(t.width[0]), level), one);
   l.height = max_index(shift_right(N::uniform_int(t.height[0]), level), one);
@@ -94,12 +94,12 @@ RAINREF_FN N texel_coordinate(Address address, N u, N size) {
   if (address == Address::border) return clamp(x, N(-1.0f), size);
   return clamp(x, N(0.0f), size - N(1.0f));
 }
-/// Of a nearest lookup: held within one texel of the image before the cut to integers; the index rule does the rest.
+/// For a nearest lookup: limited to one texel beyond the image before truncation to integers; the index rule does the rest.
 template <class N>
 RAINREF_FN N nearest_coordinate(Address address, N u, N size) {
   return clamp(address_coordinate(address, u) * size, N(-1.0f), size);
 }
-/// As the sampler takes it: a number whose sampler is not exact has its own.
+/// The level that the sampler uses; a number type with an inexact sampler overloads this.
 template <class N>
 RAINREF_FN N level_of_detail(N lod) {
   return lod;
@@ -109,8 +109,8 @@ RAINREF_FN Int texel_index(Address address, Int i, Int size) {
   return address == Address::repeat ? wrap_index(i, size) : clamp_index(i, size);
 }
 
-/// A column or a row of texels by the address rules: what it adds to a texel's place in the array, and whether the
-/// index was inside the image; by a rule other than border it always is.
+/// A column or a row of texels after the address rules: its part of a texel's index in the array, and whether it was inside the image.
+/// Inside is always true except for border.
 template <class Int, class M>
 struct Line {
   Int place;
@@ -129,7 +129,7 @@ RAINREF_FN auto texel_row(const T& t, const Level<N>& l, typename N::Int y) {
   const auto place = index * l.pitch + l.offset;
   return Line<typename N::Int, typename N::Mask>{t.channels == 1 ? place : place * t.channels, in};
 }
-/// The border colour where a column or a row lies outside.
+/// The border colour if a column or a row lies outside.
 template <int First, int Count, class N, class T, class Line>
 RAINREF_FN Channels<N, Count> with_border(const T& t, Channels<N, Count> out, const Line& column, const Line& row) {
   if constexpr (requires { t.border; }) {
@@ -140,7 +140,7 @@ RAINREF_FN Channels<N, Count> with_border(const T& t, Channels<N, Count> out, co
   }
   return out;
 }
-/// Channels First ... First + Count - 1 of the texel where a column meets a row.
+/// Channels First ... First + Count - 1 of the texel at a column and a row.
 template <int First, int Count, class N, class T, class Line>
 RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
   const auto place = row.place + column.place;
@@ -148,24 +148,24 @@ RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const L
   RAINREF_UNROLL for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels + (First + c), place, N());
   return with_border<First, Count, N>(t, out, column, row);
 }
-/// What lanes make sooner; see math/lanes-inl.h.
+/// Operations for which lanes have faster versions; see math/lanes-inl.h.
 template <class N, class Stored>
 RAINREF_FN N fetch_near(const Stored* texels, typename N::Int offset, N n) {
   return fetch(texels, offset, n);
 }
-/// The single channel of a texel, where the next element mostly wants the next texel.
+/// The only channel of a texel; the next element usually reads the next texel.
 template <class N, class T, class Line>
 RAINREF_FN N load_near_texel(const T& t, const Line& column, const Line& row) {
   Channels<N, 1> out;
   out[0] = fetch_near(t.texels, row.place + column.place, N());
   return with_border<0, 1, N>(t, out, column, row)[0];
 }
-/// A column or row before it becomes an integer. A number that makes mistakes has its own.
+/// A column or row before it becomes an integer. A number type with faults overloads this.
 template <class N>
 RAINREF_FN N whole_coordinate(N x) {
   return x;
 }
-/// The same of the texel in a column and row that are whole numbers; outside by the texture's address rule.
+/// The same for a column and row that are whole numbers; outside by the texture's address rule.
 template <class N, class T>
 RAINREF_FN N texel_at(const T& t, N x, N y) {
   const Level<N> l = uniform_level<N>(t, 0);
@@ -179,10 +179,10 @@ RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
   return load_texel<First, Count, N>(t, texel_column<N>(t, l, to_int(floor(x))), texel_row<N>(t, l, to_int(floor(y))));
 }
 
-/// Bilinear filtering of texels a, b in one row and c, d in the next. A number that a sampler may filter has its own.
+/// Bilinear filtering of texels a, b in one row and c, d in the next. A number type with a sampler's variations overloads this.
 template <class N>
 RAINREF_FN N blend(TexelPrecision, N a, N b, N c, N d, N fx, N fy) {
-  const N low = mix(a, b, fx), high = mix(c, d, fx);  // one after the other: the diagnosis counts operations that are alike
+  const N low = mix(a, b, fx), high = mix(c, d, fx);  // in separate statements, because the diagnosis counts equal operations in order
   return mix(low, high, fy);
 }
 
@@ -229,7 +229,7 @@ RAINREF_FN Channels<N, Count> sample_mip(const T& t, N u, N v, N lod) {
   const N last(static_cast<float>(t.levels - 1)), l = floor(clamp(level_of_detail(lod), N(0.0f), last) + N(0.5f)), zero(0.0f);
   return sample_level<First, Count, N>(t, any(l > zero) ? level_of<N>(t, to_int(l)) : uniform_level<N>(t, 0), u, v);
 }
-/// Where lod is whole the finer level alone counts, so that lanes which all lie on it need not read the other.
+/// If lod is whole only the finer level counts, so lanes that all lie on it need not read the other.
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   const N last(static_cast<float>(t.levels - 1)), l = clamp(level_of_detail(lod), N(0.0f), last), l0 = floor(l), g = l - l0, zero(0.0f);
@@ -242,7 +242,7 @@ RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   }
   return out;
 }
-/// One LOD for all elements: a uniform.
+/// One level of detail for all elements: a uniform.
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) {
   return sample_trilinear<First, Count, N>(t, u, v, N(lod));

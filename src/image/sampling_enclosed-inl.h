@@ -1,9 +1,9 @@
-// The lookups of sampling-inl.h for enclosures. Text only: include it right after sampling-inl.h, in the same
-// namespace, with image/footprint.h before both. Overload resolution prefers these where the number is an Enclosure.
+// The lookups of sampling-inl.h for enclosures. Text only: include it right after sampling-inl.h, in the same namespace, with
+// image/footprint.h before both. Overload resolution prefers them for Enclosure.
 //
-// A filtered lookup is continuous, so it gives the hull over the cells that its coordinates touch and decides nothing;
-// an unfiltered one, and the choice of a mip level, jump and are decided. Wherever the profile knows a sampler the
-// lookup may be made by it: its coordinates are off by as much as the sampler's may be.
+// A filtered lookup is continuous. It returns the hull over the cells that its coordinates touch, and decides nothing. An unfiltered lookup
+// and the choice of a mip level are discontinuous, so they are decided. If the profile has a sampler, the lookup allows the sampler's
+// coordinate error.
 
 /// The same number as the reference's, for points under the profile `ieee`.
 template <class T>
@@ -116,7 +116,7 @@ requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> samp
   for (int l = first; l <= last; ++l) {
     const float low = range.lo > static_cast<float>(l) ? range.lo - static_cast<float>(l) : 0.0f;
     const float high = range.hi < static_cast<float>(l + 1) ? range.hi - static_cast<float>(l) : 1.0f;
-    if (high == 0.0f) break;  // a whole level counts alone
+    if (high == 0.0f) break;  // a whole level: only one level counts
     const auto coarse = sample_level_jointly<First, Count>(t, l + 1 < t.levels ? l + 1 : l, u, v);
     for (int k = 0; k < Count; ++k) {
       const N between = enclosed::between_levels(fine.value[k], fine.rounding[k], coarse.value[k], coarse.rounding[k], low, high);

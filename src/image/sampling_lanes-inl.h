@@ -1,8 +1,7 @@
-// Lookups of sampling-inl.h that lanes make sooner, because a gather costs by the element: the channels of a texel, and the two
-// texels of a row that a bilinear lookup takes, are gathered as one word. The same values. Text only: include it right after
-// sampling-inl.h.
+// Faster lookups of sampling-inl.h for lanes. A gather costs per element, so the channels of a texel, and the two texels of a row in a
+// bilinear lookup, are gathered as one word. The values are the same. Text only: include it right after sampling-inl.h.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-/// Where all lanes want one level, which neighbouring elements mostly do, it is a uniform one.
+/// If all lanes need one level, as neighbouring elements mostly do, it is a uniform level.
 template <class N, class T>
 requires(std::same_as<N, Lanes>) RAINREF_FN bool is_uniform(const T& t, const typename N::Int& level, Level<N>& out) {
   const std::int32_t first = hn::GetLane(level.i);
@@ -10,11 +9,12 @@ requires(std::same_as<N, Lanes>) RAINREF_FN bool is_uniform(const T& t, const ty
   out = uniform_level<N>(t, first);
   return true;
 }
-/// 32-bit words a and b (low and high half of the lanes) of 64-bit elements, apart again.
+/// 32-bit words a and b (low and high half of the lanes) of 64-bit elements, separated.
 struct WordPair {
   hn::Vec<Lanes::DI> first, second;
 };
-/// Offsets of the lanes, below 2^32, one by one. Two of them leave the vector as one word, and without a sign nothing extends it.
+/// Offsets of the lanes, below 2^32, one by one. Two of them leave the vector as one word; they are unsigned, so no sign extension is
+/// needed.
 struct ByteOffsets {
   HWY_ALIGN std::uint64_t two[HWY_MAX_BYTES / sizeof(std::uint64_t)];
   HWY_INLINE HWY_ATTR explicit ByteOffsets(hn::Vec<Lanes::DI> bytes) {
@@ -26,7 +26,7 @@ struct ByteOffsets {
     return lane % 2 == 0 ? static_cast<std::uint32_t>(both) : both >> 32;
   }
 };
-/// Two neighbouring 32-bit words from each byte offset on: loads of 8 bytes, because some processors gather more slowly.
+/// Two neighbouring 32-bit words from each byte offset on, as 8-byte loads, because some processors gather more slowly.
 RAINREF_FN WordPair gather_words(const void* from, hn::Vec<Lanes::DI> bytes) {
   const Lanes::DI d;
   const ByteOffsets at(bytes);
@@ -47,7 +47,7 @@ RAINREF_FN WordPair gather_words(const void* from, hn::Vec<Lanes::DI> bytes) {
   return {hn::ConcatEven(d, high, low), hn::ConcatOdd(d, high, low)};
 }
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
-/// The halves in the low and in the high 16 bits of each word.
+/// Widens the halves in the low and in the high 16 bits of each word.
 RAINREF_FN Lanes widen_low(hn::Vec<Lanes::DI> words) {
   const hn::Rebind<hwy::float16_t, Lanes::D> d16;
   return hn::PromoteTo(Lanes::D(), hn::BitCast(d16, hn::TruncateTo(Lanes::DH(), hn::BitCast(Lanes::DU(), words))));
@@ -57,11 +57,11 @@ RAINREF_FN Lanes widen_high(hn::Vec<Lanes::DI> words) {
 }
 #endif
 
-/// The two texels of a row: the one at `left`, and the one at `right`, which is that one's neighbour or at an edge the same.
+/// The two texels of a row: the one at `left`, and the one at `right`, which is its neighbour or, at an edge, the same.
 struct TexelPair {
   Lanes left, right;
 };
-/// Four words from each byte offset on, apart: a load of 16 bytes for each lane, in place of two gathers or four.
+/// Four words from each byte offset on, separated: one 16-byte load for each lane instead of two or four gathers.
 struct FourWords {
   hn::Vec<Lanes::DI> word[4];
   HWY_INLINE HWY_ATTR FourWords() {}
@@ -76,7 +76,7 @@ RAINREF_FN FourWords load_words(const void* from, hn::Vec<Lanes::DI> bytes) {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
   const auto two = [&](int i) RAINREF_LAMBDA { return hn::Combine(hn::Full256<std::int32_t>(), block(i + 4), block(i)); };
 #endif
-  // Of lanes i, i + 4, i + 8 ...: a block of 16 bytes each.
+  // For lanes i, i + 4, i + 8 ...: a block of 16 bytes each.
   const auto every_fourth = [&](int i) RAINREF_LAMBDA {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
     return hn::Combine(d, two(i + 8), two(i));
@@ -168,7 +168,7 @@ requires(std::same_as<N, Lanes>&& Pitched<T>&& T::channels == 1 && T::address_u 
   return out;
 }
 #endif
-/// Of a texture that nothing need follow: the pair ends at the last column.
+/// For a texture without readable bytes after it: the pair ends at the last column.
 template <int First, int Count, class N, class T>
 requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pitched<T> && T::channels == 1 &&
          (T::address_u == Address::clamp || T::address_u == Address::repeat) && T::address_v != Address::border && Count == 1 &&
@@ -186,7 +186,7 @@ requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pi
     const auto pair = [&](const auto& row) RAINREF_LAMBDA {
       const WordPair words = gather_words(t.texels, hn::ShiftLeft<2>(hn::Add(row.place.i, first)));
       const Lanes second(hn::BitCast(Lanes::D(), words.second));
-      // The neighbour of the last column is itself or, by repeat, the first one.
+      // The neighbour of the last column is itself or, for repeat, the first column.
       const Lanes right = wraps ? select(at_last, fetch(t.texels, row.place, N()), second) : second;
       return TexelPair{select(at_last, second, Lanes(hn::BitCast(Lanes::D(), words.first))), right};
     };
@@ -200,14 +200,14 @@ requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pi
   return out;
 }
 
-/// With a border: what lies outside is taken from no texel.
+/// With a border: values outside are not read from a texel.
 template <int First, int Count, class N, class T>
 requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pitched<T> && T::channels == 1 &&
          T::address_u == Address::border && T::address_v == Address::border && Count == 1 &&
          First == 0) RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
   const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
   const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0, border(t.border[0]), zero(0.0f), one(1.0f);
-  // Of texel x0 and of the next one; the coordinate lies in [-1, size].
+  // For texel x0 and the next one; the coordinate lies in [-1, size].
   const N last_x = l.width_number - one, last_y = l.height_number - one;
   const auto left = (x0 >= zero) & (x0 <= last_x), right = x0 < last_x, low = (y0 >= zero) & (y0 <= last_y), high = y0 < last_y;
   Channels<N, Count> out;
@@ -236,7 +236,7 @@ requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pi
   out[0] = blend(t.precision, a.left, a.right, b.left, b.right, fx, fy);
   return out;
 }
-/// The twelve texels are four of two rows and two of two more, unless a lane looks over an edge.
+/// The twelve texels are four from each of two rows and two from each of two more rows, unless a lane reads over an edge.
 template <int Channel, class N, class T>
 requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pitched<T> && T::channels == 1 && Channel == 0 &&
          T::address_u == Address::clamp &&
@@ -279,7 +279,7 @@ requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pi
 }
 
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
-/// The same of four halves a texel.
+/// The same for four halves per texel.
 template <int Count>
 struct ColourPair {
   Channels<Lanes, Count> left, right;

@@ -1,4 +1,5 @@
-// Lookups for every number but the lanes. Text only, after math/optics-inl.h where a pass takes that too; the order matters.
+// Lookups for every number type except lanes. Text only; include it after math/optics-inl.h if a pass uses that too, because the order
+// matters.
 #include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"

@@ -1,4 +1,4 @@
-// The faults and variations of texture lookups. Text only; include it before sampling-inl.h, whose rules it bends.
+// Faults and variations of texture lookups. Text only; include it before sampling-inl.h, whose rules it changes.
 
 template <class N>
 RAINREF_FN N address_coordinate(Address address, N u);
@@ -17,7 +17,7 @@ RAINREF_FN Address altered(Address address) {
       return address;
   }
 }
-/// Counts on which side of the texels a lookup's coordinate or a texel's number lies: where the address rule decides.
+/// Records on which side of the texels a lookup's coordinate or a texel's index lies, where the address rule decides.
 RAINREF_FN void address_decided(Address address, perturbed::DecisionKind kind, int side) {
   static constexpr const char* rules[] = {"clamp", "repeat", "mirror", "border"};
   if (perturbed::Coverage* coverage = perturbed::behaviour().coverage) coverage->addressed(rules[static_cast<int>(address)], kind, side);
@@ -25,7 +25,7 @@ RAINREF_FN void address_decided(Address address, perturbed::DecisionKind kind, i
 RAINREF_FN void address_decided(Address address, float u, float size) {
   address_decided(address, perturbed::DecisionKind::address, u * size < 0.5f ? 0 : u * size > size - 0.5f ? 2 : 1);
 }
-/// The coordinate of a filtered lookup as the sampler in force takes it; `in_float` by arithmetic.
+/// The coordinate of a filtered lookup in the current sampler; `in_float` as computed by arithmetic.
 RAINREF_FN float by_filter(Address address, float u, float size, float in_float) {
   if (perturbed::behaviour().filter == perturbed::Filter::arithmetic) return in_float;
   const bool is_held = address == Address::clamp || address == Address::mirror;
@@ -95,14 +95,14 @@ RAINREF_FN perturbed::Perturbed blend(TexelPrecision precision, perturbed::Pertu
     if (perturbed::behaviour().filter == perturbed::Filter::fixed_point)
       return perturbed::Perturbed::of(sampler.stored(sampler.weighted(a.v, b.v, c.v, d.v, fx.v, fy.v, 1, true), filtered_bits(precision)));
     const perturbed::Perturbed in_float = blend<perturbed::Perturbed>(precision, a, b, c, d, fx, fy);
-    // A texel of weight 0 adds nothing, so that the result does not lie between it and the others.
+    // A texel of weight 0 adds nothing, so the result need not lie between it and the others.
     const bool right = fx.v != 0, above = fy.v != 0;
     const float beside = right ? b.v : a.v, over = above ? c.v : a.v, across = right && above ? d.v : right ? beside : over;
     return perturbed::Perturbed::of(sampler.blend(in_float.v, a.v, beside, over, across, right && above, filtered_bits(precision)));
   };
   return perturbed::Perturbed::met(perturbed::Op::lookup, result(), fx, fy, a);
 }
-/// Any integer has a texel, whatever a fault has done to it.
+/// Every integer has a texel, also after a fault has changed it.
 RAINREF_FN scalar::Index<perturbed::Perturbed> texel_index(Address address, scalar::Index<perturbed::Perturbed> i,
                                                            scalar::Index<perturbed::Perturbed> size) {
   address_decided(address, perturbed::DecisionKind::load, i.i < 0 ? 0 : i.i < size.i ? 1 : 2);
@@ -123,7 +123,7 @@ RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N
 template <int First, int Count, class N, class T>
 requires std::same_as<N, perturbed::Perturbed> RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   const N last(static_cast<float>(t.levels - 1)), l = clamp(level_of_detail(lod), N(0.0f), last), l0 = floor(l), g = l - l0;
-  // A fault may have made any number of it: level_of holds it within the levels that there are.
+  // A fault may have changed the number; level_of clamps it to the existing levels.
   const auto level = to_int(l0), next = to_int(min(l0 + N(1.0f), last));
   if (!(g.v > 0)) return sample_level<First, Count, N>(t, level_of<N>(t, level), u, v);
   const perturbed::Sampler sampler;

@@ -1,4 +1,4 @@
-// The lookups of sampling-inl.h for rearranged numbers: those of enclosures, for all that the coordinates may be; what is found are
+// The lookups of sampling-inl.h for rearranged numbers. They use the lookups of enclosures for all possible coordinates; the results are
 // leaves. Text only: include it right after sampling_enclosed-inl.h, in the same namespace.
 
 RAINREF_FN Level<enclosed::Enclosure> enclosed_level(const Level<enclosed::Rearranged>& l) {

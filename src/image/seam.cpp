@@ -15,7 +15,7 @@ double seam_ratio(const Image& tile) {
   const auto at = [&](int x, int y, int c) {
     return static_cast<double>(texels[(static_cast<std::ptrdiff_t>(y) * width + x) * channels + c]);
   };
-  // B of a raindrop map jumps from cell to cell everywhere, so jumps are compared with jumps.
+  // B of a raindrop map jumps between cells everywhere, so jumps are compared with jumps.
   double edge = 0, inside = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

@@ -1,5 +1,5 @@
-// Textures whose texels stay as they are stored: lanes widen what they fetch, so that an image need not be decoded anew in
-// every frame, and a texel of four halves costs one gather. The same values as those of a Texture; the other evaluations take that.
+// Textures whose texels stay in their storage type. Lanes widen what they fetch, so an image need not be decoded in every frame, and a
+// texel of four halves costs one gather. The values are those of a Texture, which the other evaluations use.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace rainref {
 
-/// As Texture. Level l has rows of pitch[l] texels; texels are followed by at least 8 bytes that may be read.
+/// Like Texture. Level l has rows of pitch[l] texels; at least 8 readable bytes follow the texels.
 template <class S>
 struct StoredTexture {
   const S* texels = nullptr;

@@ -25,7 +25,7 @@ class DepthNames {
  public:
   explicit DepthNames(std::span<const std::string> names) : names_(names) {}
 
-  /// The smaller, the better the claim; none where it has none.
+  /// The priority of a channel, smaller is better; none if it has no claim.
   std::optional<int> claim_of(std::size_t i) const {
     const std::string_view layer = layer_of(names_[i]);
     const bool is_depths = last_part(layer) == "depth";

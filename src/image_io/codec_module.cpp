@@ -25,9 +25,9 @@ constexpr const char* library = RAINREF_OPENIMAGEIO;
   throw Error(ExitCode::io, fmt::format("cannot load '{}', which reads pictures and writes EXR: {}", library, why));
 }
 
-/// Where the loader looks for libraries of the object that holds this code: LD_LIBRARY_PATH, its run path, the system's folders.
-/// Asked for rather than left to dlopen, which under a sanitizer sees the sanitizer as its caller, and whose message is about one
-/// folder only.
+/// Folders in which the loader searches libraries for the object that holds this code: LD_LIBRARY_PATH, its run path, the system's folders.
+/// They are queried instead of left to dlopen, which under a sanitizer sees the sanitizer as its caller, and whose message names only one
+/// folder.
 std::vector<std::string> folders() {
   static const char here = 0;
   Dl_info info;
@@ -52,7 +52,7 @@ bool has_library(const std::string& folder) {
 }
 
 const Codec* load() {
-  // Libraries built with -ffast-math set flush to zero when they are loaded; the caller's state stays as it is.
+  // Libraries built with -ffast-math set flush to zero when they are loaded; this restores the caller's state.
   const FloatingPointGuard guard;
   const std::vector<std::string> places = folders();
   for (const std::string& folder : places) {
@@ -70,7 +70,7 @@ const Codec* load() {
 }  // namespace
 
 const Codec& codec() {
-  static const Codec* const table = load();  // once, whatever the threads; again after a failure
+  static const Codec* const table = load();  // once for all threads; again after a failure
   return *table;
 }
 

@@ -1,4 +1,4 @@
-// For a build without OpenImageIO (RAINREF_IMAGE_IO=OFF): it reads no pictures and writes PNG alone.
+// For a build without OpenImageIO (RAINREF_IMAGE_IO=OFF): it reads no pictures and writes only PNG.
 #include <stdexcept>
 
 #include "image_io/codec.h"

@@ -32,8 +32,8 @@ const char* format_name(FileKind kind) {
   return "";
 }
 
-/// What the picture needs at once: the decoded samples and the image made of them. A header of a few bytes can ask for
-/// 64 GiB, and filling that would get the process killed rather than refused.
+/// Memory needed at the same time: the decoded samples and the image made of them. A header of a few bytes can ask for 64 GiB, and filling
+/// that would get the process killed instead of an error.
 void check_memory(std::string_view file, const StoredPicture& spec, std::size_t texel_bytes) {
   const std::uint64_t bytes = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
                               (texel_bytes + info(Format::rgba32f).texel_bytes());
@@ -50,8 +50,7 @@ void check_shape(std::string_view file, FileKind kind, const StoredPicture& spec
     refuse(file, fmt::format("size {}x{}: each side must be from 1 to {}", spec.width, spec.height, max_side));
   }
   if (spec.channels.empty()) refuse(file, "no channels");
-  // A crop or an overscan would shift every texel coordinate without a word. (The offset that a PNG may carry is a
-  // position on a printed page.)
+  // A crop or an overscan would silently shift every texel coordinate. (The offset in a PNG is a position on a printed page.)
   if (kind == FileKind::exr &&
       (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width || spec.height != spec.full_height)) {
     refuse(file, fmt::format("data window {}x{}{:+}{:+} differs from display window {}x{}{:+}{:+}; save it uncropped", spec.width,
@@ -110,7 +109,7 @@ Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> 
   out.compression = compression_of(kind, spec);
   out.declared_linear = is_linear(spec.colour_space);
 
-  // Channels are read from the first wanted to the last: a file may have a thousand others.
+  // Reads only the channels from the first wanted to the last, because a file may have a thousand others.
   const ChannelPick pick = content == Content::colour ? pick_channels(file, out.channel_names, layer)
                                                       : pick_quantity(file, out.channel_names, content == Content::depth);
   std::size_t first = spec.channels.size(), end = 0;
@@ -131,7 +130,7 @@ Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> 
   out.texel_bytes = spec.texel_bytes(first, end);
   if (texels == Texels::left) return out;
   check_memory(file, spec, out.texel_bytes);
-  // Not zeroed: a file that promises more than it holds is found out before the memory is touched.
+  // Not zeroed, so that a file with less data than its header states is detected before the memory is touched.
   out.texels = std::make_unique_for_overwrite<std::byte[]>(out.texel_bytes * static_cast<std::size_t>(out.width) *
                                                            static_cast<std::size_t>(out.height));
   reader->read(first, end, out.texels.get());

@@ -1,4 +1,4 @@
-// From the bytes of an image file to samples in the file's own type: the part of reading that OpenImageIO does.
+// Decodes the bytes of an image file to samples in the file's own type, by OpenImageIO.
 #pragma once
 
 #include <array>
@@ -16,15 +16,15 @@ namespace rainref::image_io {
 
 enum class FileKind : std::uint8_t { exr, png, hdr, jpeg };
 
-/// How a file stores one channel.
+/// Storage type of a channel.
 enum class Sample : std::uint8_t { u8, u16, half, float32 };
 
-/// One of the four channels of the result: where it lies in a texel of Decoded::texels, or a constant (offset < 0).
+/// One of the four channels of the result: its offset in a texel of Decoded::texels, or a constant (offset < 0).
 struct Channel {
-  std::string name;  ///< the file's name for it, "" for a constant
+  std::string name;  ///< its name in the file; "" for a constant
   int offset = -1;   ///< bytes from the start of the texel
   Sample sample = Sample::u8;
-  bool one = false;  ///< when a constant: 1 rather than 0
+  bool one = false;  ///< for a constant: 1 instead of 0
 };
 
 struct Decoded {
@@ -37,19 +37,18 @@ struct Decoded {
   std::unique_ptr<std::byte[]> texels;  ///< row by row from the top of the picture, channels interleaved, native types
 };
 
-/// A side of a picture [texel], at most.
+/// Largest side of a picture [texel].
 inline constexpr int max_side = 65536;
-/// A codec's reason on one line, without the full stop and line break that it sometimes has.
+/// Puts a codec's reason on one line, and removes a full stop or line break at its end.
 std::string one_line(std::string reason);
 
-/// Whether decode fills in Decoded::texels.
+/// Whether decode fills Decoded::texels.
 enum class Texels : std::uint8_t { read, left };
 
-/// Decodes the first picture of a file at its full resolution. `file` is its quoted name and starts every message;
-/// `content` and `layer` choose its
-/// channels as in pick_quantity and pick_channels. Throws Error(usage) when the bytes are damaged or incomplete, or hold something that
-/// rainref does not read: deep or volume data, integer EXR channels, a picture stored rotated or cropped, a side over
-/// max_side, more memory than the machine has.
+/// Decodes the first picture of a file at its full resolution. `file` is its quoted name and starts every message; `content` and `layer`
+/// choose its channels as in pick_quantity and pick_channels. Throws Error(usage) if the bytes are damaged or incomplete, or hold something
+/// that rainref does not read: deep or volume data, integer EXR channels, a picture stored rotated or cropped, a side over max_side, more
+/// memory than the machine has.
 Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer, Content content,
                Texels texels = Texels::read);
 

@@ -1,4 +1,4 @@
-// EXR and PNG files as evidence of what a GPU stored: every bit as in the file, NaN and infinity too.
+// Reads EXR and PNG files as evidence of what a GPU stored: every bit unchanged, including NaN and infinity.
 #pragma once
 
 #include <cstddef>
@@ -14,33 +14,31 @@ namespace rainref::image_io {
 struct Evidence {
   struct Channel {
     std::string name;
-    FormatInfo::Kind kind;  ///< unorm8 for 8-bit codes, whatever encoding the file claims
-    std::size_t offset;     ///< in a texel
+    FormatInfo::Kind kind;  ///< unorm8 for 8-bit codes, whatever encoding the file declares
+    std::size_t offset;     ///< offset in a texel
   };
   std::size_t width = 0, height = 0;
   std::vector<Channel> channels;  ///< red first: see channel_order
   std::size_t texel_bytes = 0;
-  std::vector<std::byte> texels;  ///< rows as they lie in the file, the first first, no padding
+  std::vector<std::byte> texels;  ///< rows in the order of the file, no padding
 };
 
-/// The size that the file's header claims, found before a library looks at the file, so that a hostile size is refused
-/// before anything is allocated. `file` is quoted and starts every message. Throws Error(port_files) for bytes that are
-/// no EXR or PNG (naming what they are instead, where known) or for one that is no evidence: lossy EXR compression,
-/// deep data, several parts, mip levels, a crop; PNG of 16 or fewer than 8 bits, with a palette or a transparent
-/// colour.
+/// Reads the size from the file's header before a library reads the file, so that a hostile size is refused before anything is allocated.
+/// `file` is quoted and starts every message. Throws Error(port_files) for bytes that are no EXR or PNG (with their actual type if known),
+/// and for files that are no evidence: lossy EXR compression, deep data, several parts, mip levels, a crop; PNG with 16 or fewer than 8
+/// bits, a palette or a transparent colour.
 struct EvidenceSize {
   std::size_t width, height;
 };
 EvidenceSize evidence_size(std::string_view file, std::span<const std::byte> bytes);
 
-/// Decodes a file whose size the caller has found right: memory goes with width x height. No colour or alpha
-/// conversion. Throws Error(port_files) as evidence_size, and when the file is damaged, has more than four channels or
-/// channels whose order cannot be told.
+/// Decodes a file whose size the caller has checked: memory grows with width x height. No colour or alpha conversion. Throws
+/// Error(port_files) as evidence_size does, and if the file is damaged, has more than four channels or channels in an unknown order.
 Evidence read_evidence(std::string_view file, std::span<const std::byte> bytes);
 
-/// The indices of an EXR's channels as red, green, blue, alpha. EXR sorts channels by name, so names decide, upper or
-/// lower case, a common layer prefix aside: R G B A, else X Y Z W, else U V, else Y A, each from the first letter on
-/// without gaps; a single channel may have any name. Throws Error(port_files) for other names and for several layers.
+/// The indices of an EXR's channels as red, green, blue, alpha. EXR sorts channels by name, so names decide, in upper or lower case and
+/// without a common layer prefix: R G B A, else X Y Z W, else U V, else Y A, each from the first letter on without gaps; a single channel
+/// may have any name. Throws Error(port_files) for other names and for several layers.
 std::vector<std::size_t> channel_order(std::string_view file, std::span<const std::string> names);
 
 }  // namespace rainref::image_io

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array<std::string_view, 10> compressions{"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
 
-// What OpenEXR reads of these types is of this size, whatever the size beside it says: with another one it would take the bytes behind
-// for the next attribute.
+// OpenEXR reads this number of bytes for these types, ignoring the stored size; with another size it would read the bytes behind as the
+// next attribute.
 struct FixedSize {
   std::string_view type;
   std::size_t bytes;
@@ -80,7 +80,7 @@ class Reader {
   std::span<const std::byte> rest_;
 };
 
-/// Channels end with an empty name, strings with the attribute: both must fill it, for OpenEXR goes by what they say themselves.
+/// Channels end with an empty name, strings with the attribute. Both must fill it, because OpenEXR uses their own lengths.
 void check_size(std::string_view name, std::string_view type, Reader value) {
   const auto is = [&](const FixedSize& f) { return f.type == type; };
   if (const auto* fixed = std::find_if(std::begin(fixed_sizes), std::end(fixed_sizes), is);
@@ -111,16 +111,16 @@ void read_attribute(std::string_view name, std::string_view type, Reader value, 
     out.tile_height = value.number<std::uint32_t>();
     out.tile_mode = value.number<std::uint8_t>() & 0xf;
   } else if (type == "preview" || type == "idmanifest") {
-    // OpenEXR allocates what these claim to unpack to.
+    // OpenEXR allocates the unpacked size that these state.
     value.refuse(fmt::format("an attribute of type {}; save the image without it", type));
   }
 }
 
-/// Calls f(name, type, value) for each attribute of the header; gives the version word.
+/// Calls f(name, type, value) for each attribute of the header; returns the version word.
 template <class F>
 std::uint32_t for_each_attribute(std::string_view file, std::span<const std::byte> bytes, F&& f) {
   Reader in(file, bytes);
-  in.take(4);  // the signature, which the caller knows
+  in.take(4);  // the signature, which the caller has checked
   const auto version = in.number<std::uint32_t>();
   constexpr std::uint32_t deep = 0x800, several_parts = 0x1000;
   if ((version & 0xff) != 2) in.refuse(fmt::format("EXR version {}; expected 2", version & 0xff));

@@ -1,4 +1,4 @@
-// What an EXR file's header claims, read without OpenEXR: the library allocates by these numbers before it checks them.
+// Reads an EXR file's header without OpenEXR, which allocates memory by these numbers before it checks them.
 #pragma once
 
 #include <array>
@@ -19,17 +19,16 @@ struct ExrHeader {
   int tile_mode = 0;  ///< 0: one level; else mip or rip levels
 };
 
-/// The header of a single-part file that is not deep. Source: OpenEXR, "OpenEXR File Layout". Throws Error(port_files)
-/// starting with `file` when it is truncated or damaged, when the file has several parts or deep data, or when an
-/// attribute claims more than its own bytes.
+/// The header of a single-part file that is not deep. Source: OpenEXR, "OpenEXR File Layout". Throws Error(port_files) starting with `file`
+/// if it is truncated or damaged, if the file has several parts or deep data, or if the contents of an attribute exceed its size.
 ExrHeader parse_exr_header(std::string_view file, std::span<const std::byte> bytes);
 
-/// The value of the attribute of type string that has this name. Throws as parse_exr_header.
+/// The value of the string attribute of this name. Throws as parse_exr_header does.
 std::optional<std::string> find_exr_text(std::string_view file, std::span<const std::byte> bytes, std::string_view name);
 
 /// "zip", "dwaa": the name of a compression method, or "unknown".
 std::string_view exr_compression_name(int compression);
-/// Whether decoding gives back the bits that were stored, of halves, floats and integers alike.
+/// True if decoding returns the stored bits, for halves, floats and integers.
 bool is_lossless_exr(int compression);
 
 }  // namespace rainref::image_io

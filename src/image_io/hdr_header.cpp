@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view spaces = " \t\r";
 constexpr std::size_t longest_found = 40;
 
-/// Takes the next word off `rest`; "" where there is none.
+/// Removes and returns the next word of `rest`; "" if there is none.
 std::string_view take_word(std::string_view& rest) {
   rest.remove_prefix(std::min(rest.find_first_not_of(spaces), rest.size()));
   const std::string_view word = rest.substr(0, rest.find_first_of(spaces));
@@ -24,7 +24,7 @@ std::string_view take_word(std::string_view& rest) {
   return word;
 }
 
-/// As printf writes it, a sign in front and a capital E too.
+/// In the form of printf, also with a leading sign and a capital E.
 std::optional<double> factor_from(std::string_view word) {
   std::string text(word.substr(word.starts_with('+') ? 1 : 0));
   std::ranges::replace(text, 'E', 'e');

@@ -30,7 +30,7 @@ std::optional<std::string> find_note(std::string_view file, std::span<const std:
   try {
     return find_exr_text(file, bytes, key);
   } catch (const Error& e) {
-    throw Error(ExitCode::usage, e.what());  // it is no port's file here
+    throw Error(ExitCode::usage, e.what());  // here it is not a port's file
   }
 }
 

@@ -19,7 +19,7 @@ std::uint32_t big_endian(std::span<const std::byte> bytes, std::size_t at) {
   return value;
 }
 
-/// Calls f(type, offset of its data) for each chunk that lies within the bytes, until f gives true.
+/// Calls f(type, offset of its data) for each chunk that lies within the bytes, until f returns true.
 template <class F>
 bool any_chunk(std::span<const std::byte> bytes, F&& f) {
   std::size_t at = signature;
@@ -62,7 +62,7 @@ std::optional<std::string> find_png_text(std::string_view file, std::span<const 
     if (!content.starts_with(keyword) || content.size() == keyword.size() || content[keyword.size()] != 0) return false;
     content.remove_prefix(keyword.size() + 1);
     if (is(type, "iTXt")) {
-      // Two bytes of compression, a language, the keyword in it.
+      // Two bytes of compression, a language, the translated keyword.
       if (content.size() < 2 || content[0] != 0) return false;
       content.remove_prefix(2);
       for (int k = 0; k < 2; ++k) {

@@ -1,5 +1,5 @@
-// PNG of 8 bits: zlib compresses what Paeth's filter leaves of each row.
-#define ZLIB_CONST  // zlib changes nothing of its input
+// 8-bit PNG: zlib compresses the rows after Paeth's filter.
+#define ZLIB_CONST  // makes zlib treat its input as const
 #include <zlib.h>
 
 #include <algorithm>
@@ -33,17 +33,17 @@ void put_chunk(Bytes& out, std::string_view name, std::span<const std::byte> con
 void put_note(Bytes& out, const Note& note) {
   const bool is_ascii = std::all_of(note.value.begin(), note.value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
   std::string content = note.key + '\0';
-  // Behind iTXt's keyword: not compressed (two bytes), no language, no translated keyword.
+  // After iTXt's keyword: not compressed (two bytes), no language, no translated keyword.
   if (!is_ascii) content.append(4, '\0');
   content += note.value;
   put_chunk(out, is_ascii ? "tEXt" : "iTXt", std::as_bytes(std::span(content)));
 }
 
-/// The compressed rows, in chunks behind each other.
+/// The compressed rows, in consecutive chunks.
 class ImageData {
  public:
   explicit ImageData(Bytes& file) : file_(file), piece_(std::size_t{1} << 15) {
-    // In what the filter leaves, runs of one byte are most of what repeats: zlib's RLE finds them without a search.
+    // After the filter most repetitions are runs of one byte, which zlib's RLE finds without a search.
     if (::deflateInit2(&stream_, 6, Z_DEFLATED, MAX_WBITS, 8, Z_RLE) != Z_OK) throw std::bad_alloc();
     empty_piece();
   }
@@ -79,7 +79,7 @@ class ImageData {
   z_stream stream_{};
 };
 
-/// That of three neighbours which is nearest to left + above - corner. Source: PNG specification, third edition, 9.4.
+/// The one of three neighbours that is nearest to left + above - corner. Source: PNG specification, third edition, 9.4.
 int nearest(int left, int above, int corner) {
   const int to_left = std::abs(above - corner), to_above = std::abs(left - corner), to_corner = std::abs(left + above - 2 * corner);
   return to_left <= to_above && to_left <= to_corner ? left : to_above <= to_corner ? above : corner;
@@ -101,7 +101,7 @@ std::vector<std::byte> png_bytes(const Image& image, PngChannels channels, const
   if (image.format() == Format::rgba8_srgb) put_chunk(out, "sRGB", Bytes(1));
   for (const Note& note : notes) put_note(out, note);
 
-  // To the left of each row stands a texel of zeros, and above the first a row of them.
+  // A texel of zeros is left of each row, and a row of zeros above the first.
   Bytes row(texel_bytes + row_bytes), above(row.size()), filtered(1 + row_bytes);
   filtered[0] = std::byte{4};  // the filter's number
   ImageData data(out);

@@ -1,4 +1,4 @@
-// One number a texel, from a picture of several channels.
+// One number per texel, from a picture of several channels.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace rainref::image_io {
 
-/// Throws Error(usage) starting with `file`, which is quoted, at the first texel at which two of the first three channels differ that have
-/// a name: four colours are no quantity, and red would be as good as any other. `image` has four channels; row 0 is the top.
+/// Throws Error(usage) starting with `file`, which is quoted, at the first texel where two named channels of the first three differ:
+/// different channels are not one quantity, and choosing red would be arbitrary. `image` has four channels; row 0 is the top.
 void require_alike(std::string_view file, const Image& image, const std::array<std::string, 3>& names);
 
 }  // namespace rainref::image_io

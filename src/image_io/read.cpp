@@ -31,7 +31,7 @@ std::optional<FileKind> kind_of(std::span<const std::byte> bytes) {
   return std::nullopt;
 }
 
-/// Bytes at any address as a T.
+/// Reads bytes at any address as a T.
 template <class T>
 T load(const std::byte* from) {
   T value;
@@ -98,7 +98,7 @@ Image to_image(const Decoded& in) {
   return out;
 }
 
-/// Refuses the first NaN or infinity, row by row from the top; of a depth only the first NaN or -infinity.
+/// Refuses the first NaN or infinity, row by row from the top; for a depth only the first NaN or -infinity.
 template <class T>
 void require_finite(const std::string& file, const Decoded& in, const Image& image, bool is_depth) {
   for (int y = 0; y < image.height(); ++y) {
@@ -141,7 +141,7 @@ FileKind known_kind(const std::string& file, std::span<const std::byte> bytes) {
   if (!kind) throw Error(ExitCode::usage, file + ": not an EXR, PNG, Radiance HDR or JPEG file");
   return *kind;
 }
-/// Radiance of what a Radiance picture stores.
+/// Converts the stored values of a Radiance picture to radiance.
 void divide(const std::array<double, 3>& factors, Image& image) {
   for (int y = 0; y < image.height(); ++y) {
     float* row = image.row<float>(y);
@@ -167,7 +167,7 @@ Picture described(FileKind kind, const Decoded& decoded, Content content, const 
   picture.file_height = decoded.height;
   if (content != Content::colour) {
     picture.taken = decoded.channels[0].name;
-    // Where others are read too, they are alike.
+    // If others were read too, they are equal.
     if (!is_alone(decoded))
       picture.remarks.push_back(fmt::format("channel {} of {} is taken", picture.taken, fmt::join(picture.channel_names, " ")));
   }

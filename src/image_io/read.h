@@ -14,13 +14,12 @@
 
 namespace rainref::image_io {
 
-/// A picture as its file stores it. Row 0 of the image is the top row of the picture; who wants v = 0 at the bottom
-/// flips. No value was converted, but for 16-bit integers
-/// and for Radiance HDR, which is divided by the factors of its header.
+/// A picture as its file stores it. Row 0 of the image is the top row of the picture; callers that want v = 0 at the bottom flip it. Values
+/// are not converted, except for 16-bit integers and for Radiance HDR, which is divided by the factors of its header.
 struct Picture {
-  /// rgba8 (8-bit files; codes untouched), rgba16f (all channels half; bits untouched) or rgba32f (float; half widened
-  /// beside float; 16-bit integers as code / 65535, correctly rounded). Grey is replicated to red, green and blue; an
-  /// absent alpha is 1. Colour is not multiplied by alpha.
+  /// rgba8 (8-bit files; codes untouched), rgba16f (all channels half; bits untouched) or rgba32f (float; half widened beside float; 16-bit
+  /// integers as code / 65535, correctly rounded). Grey is replicated to red, green and blue; an absent alpha is 1. Colours are not
+  /// multiplied by alpha.
   Image image;
   std::vector<std::string> channel_names;  ///< of every channel in the file, read or not
   bool srgb_encoded = false;               ///< integers are display-encoded, unless the file declares them linear; floats are linear
@@ -28,20 +27,20 @@ struct Picture {
   std::string compression;                 ///< EXR: its method ("zip", "none", ...); else "deflate", "rgbe", "jpeg"
   Hash128 decoded_hash;                    ///< of the image's canonical bytes
   int file_width = 0, file_height = 0;
-  std::string taken;                 ///< the channel that a quantity or a depth is of: the red of the image; "" for colours
-  std::vector<std::string> remarks;  ///< what the file left open, and how it was read: a few words each
+  std::string taken;                 ///< the channel of a quantity or a depth, stored in red; "" for colours
+  std::vector<std::string> remarks;  ///< choices made where the file is ambiguous, a few words each
 };
 
-/// Reads the first picture of a file at full resolution. What the file is, its first bytes say, not its name. `layer`
-/// chooses an EXR layer by the channel names' prefix ("normal" for normal.X); "" is the main one. Of a quantity or a depth one channel is
-/// read, by pick_quantity, into red, green and blue; a depth may be +infinity.
+/// Reads the first picture of a file at full resolution. The first bytes determine the file type, not the name. `layer` chooses an EXR
+/// layer by the channel names' prefix ("normal" for normal.X); "" is the main one. For a quantity or a depth, pick_quantity selects one
+/// channel, which is read into red, green and blue; a depth may be +infinity.
 ///
-/// Throws Error(io) when the file cannot be read, Error(usage) when it cannot be decoded whole, holds something
-/// unsupported, has a NaN or an infinity, or holds unlike channels where one quantity is wanted; the message names the file, and the first
-/// bad pixel and channel.
+/// Throws Error(io) if the file cannot be read. Throws Error(usage) if it cannot be decoded completely, holds something unsupported, has a
+/// NaN or an infinity, or has unequal channels although one quantity is wanted; the message names the file, and the first bad pixel and
+/// channel.
 Picture read(const std::filesystem::path& path, std::string_view layer = {}, Content content = Content::colour);
-/// What read says of a file with these bytes, as far as its header says it: image and decoded_hash are empty, and no texel is decoded
-/// or checked. Throws as read.
+/// The result of read for a file with these bytes, from its header: image and decoded_hash are empty, and no texel is decoded or checked.
+/// Throws as read does.
 Picture inspect(const std::filesystem::path& path, std::span<const std::byte> bytes, Content content = Content::colour);
 
 }  // namespace rainref::image_io

@@ -31,7 +31,7 @@ std::vector<std::byte> encoded_exr(const std::string& name, const StoredPicture&
   throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", name, why.empty() ? "no reason given" : why));
 }
 
-/// Copies the first `bytes` bytes of every texel of `in` to every `step` bytes from `out` on.
+/// Copies the first `bytes` bytes of every texel of `in` to `out` with a stride of `step` bytes.
 void interleave(const Image& in, std::size_t bytes, std::size_t step, std::byte* out) {
   const std::size_t texel_bytes = info(in.format()).texel_bytes();
   for (int y = 0; y < in.height(); ++y) {

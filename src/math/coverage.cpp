@@ -3,7 +3,7 @@
 namespace rainref::perturbed {
 namespace {
 
-/// Decisions within lookups and the vocabulary's functions are parts of those of the line that calls them.
+/// Decisions inside lookups and vocabulary functions belong to the line that calls them.
 bool is_part(std::string_view file) {
   const std::string_view name = file.substr(file.rfind('/') + 1);
   return name.starts_with("sampling") || name.starts_with("vocabulary");

@@ -1,4 +1,4 @@
-// Which sides of the decisions of a pass text are taken: what a pack exercises.
+// Records which sides of the decisions in a pass text are taken, to measure what a pack exercises.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@
 
 namespace rainref::perturbed {
 
-/// What decides. Its sides, in order: `choice`: the first is taken, the second; `minimum`, `maximum`: the first operand, the
-/// second; `clamp`: below, within, above; `total_reflection`: a refracted ray, none; `address`: a lookup's coordinate below the
-/// first texel's centre, between, beyond the last one's; `load`: a texel's number below 0, inside, beyond the last one.
+/// Kinds of decisions, with their sides in order. `choice`: the first is taken, the second. `minimum`, `maximum`: the first operand, the
+/// second. `clamp`: below, within, above. `total_reflection`: a refracted ray, none. `address`: a lookup's coordinate below the first
+/// texel's centre, between, beyond the last one's. `load`: a texel's index below 0, inside, beyond the last one.
 enum class DecisionKind : std::uint8_t { choice, minimum, maximum, clamp, total_reflection, address, load };
 /// "select", "min", ...
 std::string_view name(DecisionKind kind);
 int sides(DecisionKind kind);
-/// "the second" and the like: what a side is called after the kind's name.
+/// The name of a side, used after the kind's name: "the second" and the like.
 std::string_view side_name(DecisionKind kind, int side);
 
-/// A place in a source, as the compiler names it. here() as a default argument is the place of the call.
+/// A position in a source, from the compiler. here() as a default argument is the position of the call.
 struct Site {
   const char* file;
   const char* function;
@@ -32,17 +32,17 @@ struct Site {
   }
 };
 
-/// Where it stands in a pass text. Decisions of one kind on one line (the components of a vector) are one, and so are all lookups of
-/// one input.
+/// A decision in a pass text. Decisions of one kind on one line (the components of a vector) count as one, and so do all lookups of one
+/// input.
 struct Decision {
-  std::string file;  ///< with its last folder: "puddle/shade.pass.h"; of a lookup its address rule: "clamp"
-  int line = 0;      ///< of a lookup 0
+  std::string file;  ///< with its last folder: "puddle/shade.pass.h"; for a lookup its address rule: "clamp"
+  int line = 0;      ///< 0 for a lookup
   DecisionKind kind = DecisionKind::choice;
-  std::string function;  ///< without template arguments; of a lookup, and in a shader that is executed, ""
-  std::string input;     ///< of a lookup what it reads; "" where the pass does not say
+  std::string function;  ///< without template arguments; "" for a lookup, and in a shader that rainref executes
+  std::string input;     ///< for a lookup the input that it reads; "" if the pass does not say
   auto operator<=>(const Decision&) const = default;
 };
-/// How often each side of a decision was taken, and of a side that nothing can take why.
+/// How often each side of a decision was taken, and for an impossible side the reason.
 struct Sides {
   std::array<std::int64_t, 3> counts{};
   std::array<std::string_view, 3> reasons{};
@@ -53,26 +53,26 @@ struct Sides {
 class Coverage {
  public:
   void met(const Site& site, DecisionKind kind, int side);
-  /// Says of the decision or lookup met last why nothing takes this side of it; -1: what guard() of the pass vocabulary means, of three
-  /// sides the outer ones and else the second. `reason`: a literal.
+  /// Records why nothing takes this side of the last decision or lookup. -1: the side that guard() of the pass vocabulary means, which is
+  /// both outer sides of three, else the second. `reason`: a literal.
   void guarded(const char* reason, int side);
-  /// A coordinate of a lookup or the number of a texel, whose image is that of the next fetch(). The numbers that a lookup makes of
-  /// its coordinates are its own.
+  /// Records a coordinate of a lookup or the index of a texel; the image is that of the next fetch(). Numbers that a lookup computes from
+  /// its coordinates do not count.
   void addressed(const char* rule, DecisionKind kind, int side);
   void fetched(const float* texel) {
     if (open_ > 0) settle(texel);
   }
-  /// From now on decisions are those of a shader that rainref executes: of its line `site`, or, without one, steps of an instruction that
-  /// decides nothing. Strings of a site must live as long as the program.
+  /// From now on decisions belong to the line `site` of a shader that rainref executes. If `site` is null, they are steps of an instruction
+  /// that decides nothing, and do not count. The strings of a site must live as long as the program.
   void executes(const Site* site) {
     is_shader_ = true;
     shader_site_ = site ? *site : Site{"", "", 0};
   }
   void add(const Coverage& other);
-  /// The images met so far have the names of these inputs from now on.
+  /// Gives the images seen so far the names of these inputs.
   void name_inputs(const std::function<std::string(const float* texel)>& name_of);
-  /// Those of pass texts and of the named mathematics that they use. A decision within a function of the vocabulary is one of the
-  /// line that calls it.
+  /// Decisions of pass texts and of the named functions that they use. A decision inside a vocabulary function belongs to the line that
+  /// calls it.
   std::map<Decision, Sides> decisions() const;
 
  private:
@@ -81,7 +81,7 @@ class Coverage {
     int line;
     DecisionKind kind;
     const char* function;
-    const float* texel = nullptr;  ///< of a lookup: some texel that it read, until the input has a name
+    const float* texel = nullptr;  ///< for a lookup: some texel that it read, until the input has a name
     std::string input = "";
     auto operator<=>(const Key&) const = default;
   };
@@ -93,8 +93,8 @@ class Coverage {
   void settle(const float* texel);
 
   std::map<Key, Sides> sides_;
-  std::map<Key, Sides>::value_type* last_ = nullptr;  ///< the one met last; null: it is a part of a function
-  std::array<Open, 8> opened_{};                      ///< coordinates of the lookup at hand
+  std::map<Key, Sides>::value_type* last_ = nullptr;  ///< the last one; null: it belongs to a function
+  std::array<Open, 8> opened_{};                      ///< coordinates of the current lookup
   std::size_t open_ = 0;
   bool is_shader_ = false;
   Site shader_site_{"", "", 0};

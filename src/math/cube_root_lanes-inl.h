@@ -1,9 +1,9 @@
-// cube_root-inl.h in lanes, in half the time of pow: the inverse cube root by Newton's method in float, a last step in double, and what the
-// float nearest 1/3 has more than 1/3. Within 2^-51 of the power, which every float of the domain below rounds as pow does:
-// `cube_root_full` tries them all. Text only: include it in a kernel after lanes-inl.h and lane_pair-inl.h, before the pass texts that want
-// it.
+// cube_root-inl.h in lanes, in half the time of pow: the inverse cube root by Newton's method in float, a last step in double, and a
+// correction for the difference of the float nearest 1/3 from 1/3. It is within 2^-51 of the power, and every float of the domain below
+// then rounds as with pow: `cube_root_full` tests them all. Text only: include it in a kernel after lanes-inl.h and lane_pair-inl.h, before
+// the pass texts that use it.
 
-/// What the double step of a vector needs.
+/// Inputs of the double step, for a vector.
 struct CubeRootStart {
   Lanes x;
   Lanes inverse;   ///< x^(-1/3), to 2e-5
@@ -14,7 +14,7 @@ RAINREF_FN CubeRootStart start_cube_root(Lanes x) {
   const Lanes::DI d;
   const Lanes one(1.0f);
   const auto bits = hn::BitCast(d, x.v);
-  // As integers, the bits of a float are about its logarithm.
+  // The bits of a float, as an integer, are approximately its logarithm.
   const Lanes about(hn::BitCast(Lanes::D(), to_int(Lanes(hn::ConvertTo(Lanes::D(), bits)) * Lanes(-1.0f / 3.0f) + Lanes(0x1.52884p30f)).i));
   const Lanes e = one - (x * about) * (about * about);
   const Lanes inverse = about + (about * e) * (Lanes(1.0f / 3) + e * (Lanes(2.0f / 9) + e * Lanes(14.0f / 81)));
@@ -37,7 +37,7 @@ RAINREF_FN R finish_cube_root(const R& x, const R& inverse, const R& exponent, c
   const R q = exponent * (0x1.62e42fefa39efp-1 * excess) + log * excess;
   return root + root * (q + q * (q * 0.5));
 }
-/// The float nearest to doubles of the size of floats: without to_float's look for larger ones.
+/// The float nearest to doubles in the range of float, without to_float's check for larger ones.
 #if HWY_TARGET == HWY_SCALAR
 RAINREF_FN Lanes nearest_float(const Real64Lanes& x) { return Lanes(hn::DemoteTo(NarrowTag(), x.v)); }
 #else
@@ -45,7 +45,7 @@ RAINREF_FN Lanes nearest_float(const Real64Float& x) {
   return Lanes(hn::Combine(FloatTag(), hn::DemoteTo(NarrowTag(), x.upper.v), hn::DemoteTo(NarrowTag(), x.lower.v)));
 }
 #endif
-/// Floats from 2^-24 to 2^28 in all lanes?
+/// True if all lanes are floats from 2^-24 to 2^28.
 RAINREF_FN bool in_domain_of_cube_root(Lanes x) {
   const Lanes::DU d;
   return hn::AllTrue(d, hn::Lt(hn::Sub(hn::BitCast(d, x.v), hn::Set(d, 0x33800000u)), hn::Set(d, 0x4d800000u - 0x33800000u)));

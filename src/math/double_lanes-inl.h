@@ -1,7 +1,6 @@
 // The oracle's arithmetic in lanes: a number is a vector of doubles, and every lane has the bits of scalar::Scalar<double>.
 //
-// For the formulas of passes that the compositor evaluates in double for many places at once. Re-included for every
-// target; see foreach_target.h.
+// For pass formulas that the compositor evaluates in double for many positions at once. Re-included for every target; see foreach_target.h.
 #if defined(RAINREF_MATH_DOUBLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_MATH_DOUBLE_LANES_INL_H_
 #undef RAINREF_MATH_DOUBLE_LANES_INL_H_
@@ -28,7 +27,7 @@ struct DoubleLanes {
     friend HWY_INLINE HWY_ATTR Mask operator!(Mask a) { return {hn::Not(a.m)}; }
   };
 
-  /// Texel indices: made by to_int, used to fetch.
+  /// Texel index: made by to_int, used by fetch.
   struct Int {
     hn::Vec<DI> i;
     HWY_INLINE HWY_ATTR Int() {}
@@ -44,7 +43,7 @@ struct DoubleLanes {
       const auto below = hn::Lt(a.i, hn::Zero(DI())), within = hn::Lt(a.i, size.i);
       return {hn::IfThenElse(below, hn::Add(a.i, size.i), hn::IfThenElse(within, a.i, hn::Sub(a.i, size.i)))};
     }
-    /// No texture that lanes of doubles sample has a border.
+    /// Textures sampled by lanes of doubles have no border.
     friend HWY_INLINE HWY_ATTR Mask inside(Int, Int) { return {hn::Eq(hn::Zero(D()), hn::Zero(D()))}; }
     friend HWY_INLINE HWY_ATTR Int max_index(Int a, Int b) { return {hn::Max(a.i, b.i)}; }
     friend HWY_INLINE HWY_ATTR Int shift_right(Int a, Int b) { return {hn::Shr(a.i, b.i)}; }
@@ -76,7 +75,7 @@ struct DoubleLanes {
   friend HWY_INLINE HWY_ATTR DoubleLanes abs(DoubleLanes a) { return select(a < DoubleLanes(0.0), -a, a); }
   friend HWY_INLINE HWY_ATTR DoubleLanes sqrt(DoubleLanes a) { return hn::Sqrt(a.v); }
   friend HWY_INLINE HWY_ATTR DoubleLanes square(DoubleLanes a) { return a * a; }
-  // + 0 makes the zero positive: targets disagree on the sign of floor(-0).
+  // + 0 makes the zero positive, because targets differ in the sign of floor(-0).
   friend HWY_INLINE HWY_ATTR DoubleLanes floor(DoubleLanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(D())); }
   friend HWY_INLINE HWY_ATTR DoubleLanes fract(DoubleLanes a) { return a - floor(a); }
   friend HWY_INLINE HWY_ATTR DoubleLanes mix(DoubleLanes a, DoubleLanes b, DoubleLanes t) { return a * (DoubleLanes(1.0) - t) + b * t; }

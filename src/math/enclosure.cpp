@@ -6,7 +6,7 @@
 namespace rainref::enclosed {
 namespace {
 
-// Doubles here carry a relative error below this, from our own functions.
+// Doubles from our own functions have a relative error below this.
 constexpr double double_error = 0x1p-44;
 
 double error_at(double y, const Accuracy& a, double x_magnitude) {
@@ -14,8 +14,8 @@ double error_at(double y, const Accuracy& a, double x_magnitude) {
   return (a.ulp + a.ulp_per_x * x_magnitude) * ulp_of(y) + (a.relative + double_error) * size + a.absolute;
 }
 
-// The least that a result for an exact value in [low, high] may be. The error grows with |y|, and by a jump at each
-// power of two, so besides `low` the next power of two above it counts.
+// The smallest possible result for an exact value in [low, high]. The error grows with |y|, and jumps at each power of two, so besides
+// `low` the next power of two above it is tested.
 double least(double low, double high, const Accuracy& a, double x_magnitude) {
   const double at_low = low - error_at(low, a, x_magnitude);
   if (low <= 0) return at_low;
@@ -23,7 +23,7 @@ double least(double low, double high, const Accuracy& a, double x_magnitude) {
   return power <= high ? std::min(at_low, power - error_at(power, a, x_magnitude)) : at_low;
 }
 
-// The least and the greatest of four, in registers.
+// Minimum and maximum of four numbers, in registers.
 double least_of(double a, double b, double c, double d) { return std::min(std::min(a, b), std::min(c, d)); }
 double greatest_of(double a, double b, double c, double d) { return std::max(std::max(a, b), std::max(c, d)); }
 
@@ -39,7 +39,7 @@ Enclosure product(const Profile& p, double low, double high) {
   return out;
 }
 
-/// a + b to the nearest float.
+/// a + b rounded to the nearest float.
 float nearest_sum(double a, double b) { return static_cast<float>(odd_sum(a, b)); }
 
 }  // namespace
@@ -63,7 +63,7 @@ double Enclosure::width_in_ulp() const {
 
 Enclosure Enclosure::load_unorm(float x) {
   const Accuracy& a = profile().unorm_load;
-  // The ends are exact everywhere: 0 and 1 are floats.
+  // The ends 0 and 1 are exact for every device.
   return profile().reference || a.is_zero() || x == 0 || x == 1 ? Enclosure(x) : widened(x, x, a, x);
 }
 
@@ -77,7 +77,7 @@ Enclosure operator*(const Enclosure& a, const Enclosure& b) {
 
 Enclosure contracted_sum(const Enclosure& a, const Enclosure& b) {
   if (a.is_vacuous() || b.is_vacuous()) return Enclosure::vacuous();
-  // One product at most goes in unrounded.
+  // At most one product is added unrounded.
   float low = a.lo + b.lo, high = a.hi + b.hi;
   if (a.is_product) {
     low = std::min(low, nearest_sum(a.product_lo, b.lo));
@@ -104,7 +104,7 @@ Enclosure operator/(const Enclosure& a, const Enclosure& b) {
     const float q[4] = {a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi};
     return Enclosure::checked(std::min(std::min(q[0], q[1]), std::min(q[2], q[3])), std::max(std::max(q[0], q[1]), std::max(q[2], q[3])));
   }
-  // Accuracy is promised for divisors in [2^-126, 2^126] only (Vulkan, WGSL, Metal).
+  // Accuracy is guaranteed only for divisors in [2^-126, 2^126] (Vulkan, WGSL, Metal).
   const double nearest = std::min(std::abs(b.lo), std::abs(b.hi)), furthest = std::max(std::abs(b.lo), std::abs(b.hi));
   if (nearest < 0x1p-126 || furthest > 0x1p126) return Enclosure::vacuous();
   const double al = a.lo, ah = a.hi, ll = al / b.lo, lh = al / b.hi, hl = ah / b.lo, hh = ah / b.hi;
@@ -149,7 +149,7 @@ Enclosure fract(const Enclosure& a) {
   if (profile().reference && a.is_point()) return a - cell;
   if (cell.is_vacuous()) return cell;
   if (!cell.is_point()) return {0.0f, 1.0f};
-  // A product that was rounded up to the integer may lie below it where it is fused.
+  // A product rounded up to the integer may be below it if it is fused.
   const Enclosure rest = outward_sum(a, -cell);
   return rest.is_vacuous() ? rest : Enclosure(a.is_product ? rest.lo : std::max(rest.lo, 0.0f), std::min(rest.hi, 1.0f));
 }
@@ -164,11 +164,11 @@ Enclosure mix(const Enclosure& from, const Enclosure& to, const Enclosure& t) {
   // from * 1 + 0 and from + 0 are exact.
   if (t.lo == 0 && t.hi == 0) return Enclosure::checked(from.lo, from.hi);
   const Enclosure a = from.unrounded(), b = to.unrounded();
-  // The exact function is linear in each argument: its extrema lie at corners. Then the roundings of either formula,
-  // (1 - t), two products and a sum, or (b - a), a product and a sum, each relative to what it rounds.
+  // The exact function is linear in each argument, so its extrema are at corners. Then the roundings of either formula are added: (1 - t),
+  // two products and a sum, or (b - a), a product and a sum, each relative to its operand.
   double low = 0x1p1000, high = -0x1p1000;
   const auto at = [&](double s) {
-    // A rounded sum grows with each of its terms: the corners of a and b need not be tried together.
+    // A rounded sum grows with each of its terms, so the corners of a and b need not be combined.
     const double from_a[2] = {a.lo * (1 - s), a.hi * (1 - s)}, from_b[2] = {b.lo * s, b.hi * s};
     low = std::min(low, std::min(from_a[0], from_a[1]) + std::min(from_b[0], from_b[1]));
     high = std::max(high, std::max(from_a[0], from_a[1]) + std::max(from_b[0], from_b[1]));
@@ -182,7 +182,7 @@ Enclosure mix(const Enclosure& from, const Enclosure& to, const Enclosure& t) {
   const double flushed = profile().flush == Flush::never ? 0x1p-147 : 0x1p-124;
   const double error = unit * (terms + std::max(std::abs(low), std::abs(high))) * (1 + 0x1p-20) + flushed;
   Enclosure out(float_below(low - error), float_above(high + error));
-  // Between values of one sign both formulas stay on that side, because rounding does.
+  // Between values of one sign both formulas keep that sign, because rounding does.
   if (0 <= t.lo && t.hi <= 1) {
     if (a.lo >= 0 && b.lo >= 0) out.lo = std::max(out.lo, 0.0f);
     if (a.hi <= 0 && b.hi <= 0) out.hi = std::min(out.hi, 0.0f);

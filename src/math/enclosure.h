@@ -1,14 +1,11 @@
-// The enclosure evaluation of a pass: a number is a closed interval that holds every result which a conforming GPU may
-// give.
+// The enclosure evaluation of a pass: a number is a closed interval that holds every result that a conforming GPU may produce.
 //
-// It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h), PathEnumeration
-// runs what an interval does not settle (paths.h). Where a profile lets a result be either neighbour, operations round
-// outward, which covers fusion too; where it rounds to nearest, a product remembers what it was before its rounding for
-// the addition that fuses it. Exact results stay points. Under the profile `ieee` nothing is widened and a point has the
-// bits of Scalar<float>.
+// It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h); PathEnumeration runs the
+// alternatives that an interval leaves open (paths.h). If a profile allows either neighbour of a result, operations round outward, which
+// also covers fusion. If it rounds to nearest, a product keeps its value before rounding, for an addition that fuses it. Exact results stay
+// points. Under the profile `ieee` nothing is widened, and a point has the bits of Scalar<float>.
 //
-// What may be infinite, not a number or undefined is vacuous, the interval of everything; it stays vacuous through all
-// that is computed from it.
+// A result that may be infinite, NaN or undefined is vacuous, the interval of everything, and so is every result computed from it.
 #pragma once
 
 #include "math/directed.h"
@@ -24,14 +21,14 @@ class Enclosure {
   static constexpr int size() { return 1; }
 
   float lo, hi;  ///< never NaN; lo <= hi
-  /// Of a product that an addition may take before it is rounded: its exact range.
+  /// For a product that may be fused into an addition: its exact range before rounding.
   bool is_product = false;
   double product_lo = 0, product_hi = 0;
 
   Enclosure() : lo(0), hi(0) {}
-  /// A literal or a uniform. A subnormal may count as zero.
+  /// A literal or a uniform. A subnormal may be treated as zero.
   Enclosure(float x) : lo(x), hi(x) { check(); }
-  /// The interval as it is; the caller keeps lo <= hi.
+  /// The interval unchanged; the caller ensures lo <= hi.
   Enclosure(float low, float high) : lo(low), hi(high) {}
   static Enclosure vacuous() { return {-infinity, infinity}; }
 
@@ -40,7 +37,7 @@ class Enclosure {
   bool contains(float x) const { return lo <= x && x <= hi; }
   /// The larger magnitude of the ends.
   double magnitude() const { return -lo < hi ? hi : -static_cast<double>(lo); }
-  /// Floats from lo to hi, less one: 0 for a point. The zeros count as one.
+  /// Number of floats from lo to hi, minus one: 0 for a point. Both zeros count as one float.
   double width_in_ulp() const;
 
   template <class Storage>
@@ -76,7 +73,7 @@ class Enclosure {
   /// The number before and after its rounding.
   Enclosure unrounded() const { return is_product ? checked(float_below(product_lo), float_above(product_hi)) : *this; }
 
-  // An exact tie of points is settled.
+  // An exact tie of points needs no decision.
   friend bool operator<(const Enclosure& a, const Enclosure& b) { return a.hi < b.lo || (a.lo < b.hi && choose(2) != 0); }
   friend bool operator<=(const Enclosure& a, const Enclosure& b) { return a.hi <= b.lo || (a.lo <= b.hi && choose(2) != 0); }
   friend bool operator>(const Enclosure& a, const Enclosure& b) { return b < a; }
@@ -103,14 +100,14 @@ class Enclosure {
   }
   friend Enclosure square(const Enclosure& a);
   friend Enclosure sqrt(const Enclosure& a);
-  /// 1 / sqrt(a) as a GPU has it in one instruction. Passes do not name it; normalize and an inherited sqrt do.
+  /// 1 / sqrt(a) as one GPU instruction. Passes do not use it; normalize and an inherited sqrt do.
   friend Enclosure inverse_sqrt(const Enclosure& a);
 
-  /// Where the integer is open: one candidate of up to PathEnumeration::max_runs, else the interval of all of them.
+  /// If the integer is open: one of at most PathEnumeration::max_runs candidates, else the interval of all of them.
   friend Enclosure floor(const Enclosure& a);
-  /// a - floor(a) in [0, 1] but for a fused product, of the candidate that floor takes; [0, 1] where there are too many.
+  /// a - floor(a), with the candidate that floor takes; in [0, 1] except for a fused product. [0, 1] if there are too many candidates.
   friend Enclosure fract(const Enclosure& a);
-  /// Gives the invocation up where a is not one integer.
+  /// Gives up the invocation if a is not exactly one integer.
   friend Int to_int(const Enclosure& a) {
     if (a.is_point() && a.lo > -0x1p30f && a.lo < 0x1p30f) return {static_cast<std::int32_t>(a.lo)};
     give_up();
@@ -118,23 +115,23 @@ class Enclosure {
   }
   friend Enclosure to_number(Int a) { return index(a.i); }
 
-  /// By a (1 - t) + b t or by a + (b - a) t: shading languages publish both.
+  /// a (1 - t) + b t or a + (b - a) t: shading languages specify both.
   friend Enclosure mix(const Enclosure& a, const Enclosure& b, const Enclosure& t);
 
   friend Enclosure exp(const Enclosure& a);
   friend Enclosure exp2(const Enclosure& a);
   friend Enclosure log(const Enclosure& a);
   friend Enclosure log2(const Enclosure& a);
-  /// Vacuous where x may be negative; 0 to a positive power is 0.
+  /// Vacuous if x may be negative; 0 to a positive power is 0.
   friend Enclosure pow(const Enclosure& x, const Enclosure& y);
   friend Enclosure sin(const Enclosure& a);
   friend Enclosure cos(const Enclosure& a);
-  /// Where y may have either sign and x is negative, the sign is a decision: the function jumps there.
+  /// If x is negative and y may have either sign, the sign is decided, because the function is discontinuous there.
   friend Enclosure atan2(const Enclosure& y, const Enclosure& x);
 
   friend Enclosure fetch(const float* texels, Int offset, Enclosure) { return Enclosure(texels[offset.i]); }
 
-  /// The interval with its computed ends: vacuous when one is not finite, and with zero in it where a flush may put it.
+  /// The interval with its computed ends: vacuous if one is not finite, extended to zero if a flush allows that.
   static Enclosure checked(float low, float high) {
     Enclosure computed(low, high);
     computed.check();
@@ -148,7 +145,7 @@ class Enclosure {
       lo = -infinity;
       hi = infinity;
     } else if (!p.reference && p.flush != Flush::never) {
-      // The smallest normal itself too: an implementation may look before it rounds.
+      // Includes the smallest normal itself, because an implementation may check before it rounds.
       if (0 < lo && lo <= smallest_normal) lo = 0;
       if (-smallest_normal <= hi && hi < 0) hi = 0;
     }
@@ -157,22 +154,22 @@ class Enclosure {
   static Enclosure load_unorm(float x);
 };
 
-// Names of the vocabulary that intervals read better than what they are made of. Argument-dependent lookup finds them
-// here, before the templates.
+// Vocabulary functions for which intervals have tighter versions than the general formulas. Argument-dependent lookup finds them before the
+// templates.
 
-/// By every order of the additions.
+/// In every order of the additions.
 Enclosure sum_any_order(const Enclosure& a, const Enclosure& b, const Enclosure& c);
 Enclosure sum_any_order(const Enclosure& a, const Enclosure& b, const Enclosure& c, const Enclosure& d);
 Enclosure sum_any_order_in_pairs(const Enclosure& a, const Enclosure& b, const Enclosure& c, const Enclosure& d);
 inline Enclosure uniform_quotient(float a, float b, Enclosure) { return Enclosure(a) / Enclosure(b); }
-/// By (t t) (3 - 2 t) or t (t (3 - 2 t)): the specifications name t t (3 - 2 t) and let it be regrouped.
+/// t t (3 - 2 t), as the specifications write it, or regrouped: (t t) (3 - 2 t) or t (t (3 - 2 t)).
 Enclosure smoothstep(float edge0, float edge1, const Enclosure& x);
-/// One decision, not one for each octave.
+/// One decision instead of one for each octave.
 Enclosure nearest_octave(const Enclosure& x);
-/// By (1 / length(a)) a, a / length(a) or a inversesqrt(dot(a, a)).
+/// (1 / length(a)) a, a / length(a) or a inversesqrt(dot(a, a)).
 scalar::Vec3<Enclosure> normalize(const scalar::Vec3<Enclosure>& a);
 
-/// The least interval of floats that holds the reals [low, high].
+/// The smallest interval of floats that holds the reals [low, high].
 inline Enclosure rounded_outward(double low, double high) { return {float_below(low), float_above(high)}; }
 inline double width_of(const Enclosure& a) { return static_cast<double>(a.hi) - a.lo; }
 /// The interval of reals [low, high] computed with that accuracy and rounded outward.

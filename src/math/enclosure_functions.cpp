@@ -1,5 +1,5 @@
-// Transcendental functions and named mathematics of enclosures: our own functions in double at the ends and at the
-// extrema between them, then the profile's accuracy, then outward.
+// Transcendental functions and named functions of enclosures: our own functions in double at the ends and at the extrema between them,
+// widened by the profile's accuracy, then rounded outward.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace {
 using Single = scalar::Scalar<float>;
 
 Enclosure point(Single x) { return Enclosure::checked(x.v, x.v); }
-// Whether the reference itself answers.
+// Whether the reference's result is exact here.
 bool as_reference(const Enclosure& a) { return profile().reference && a.is_point(); }
 
 Enclosure not_negative(const Enclosure& a) { return a.is_vacuous() ? a : Enclosure(std::max(a.lo, 0.0f), a.hi); }
@@ -36,7 +36,7 @@ Enclosure positive_pow(const Enclosure& x, const Enclosure& y) {
   return not_negative(widened(low, high, profile().pow, 0));
 }
 
-// sin over [low, high] for phase 0, cos for phase pi / 2: f takes its greatest value at pi / 2 - phase + 2 pi n.
+// sin over [low, high] for phase 0, cos for phase pi / 2: f has its maximum at pi / 2 - phase + 2 pi n.
 Enclosure wave(const Enclosure& a, double (*f)(double), double phase) {
   const Profile& p = profile();
   if (a.is_vacuous()) return a;
@@ -49,7 +49,7 @@ Enclosure wave(const Enclosure& a, double (*f)(double), double phase) {
   double low = f(a.lo), high = f(a.hi);
   if (low > high) std::swap(low, high);
   if (!a.is_point()) {
-    // Far out the reduction of an interval is not worth its trouble.
+    // For large angles the reduction of an interval is not worth the effort.
     const bool wide = size > 0x1p20;
     const auto has = [&](double place) {
       const double margin = 1e-6, turns = floor_of((a.hi + margin - place) / (2 * pi));
@@ -86,8 +86,7 @@ Enclosure pow(const Enclosure& x, const Enclosure& y) {
   if (as_reference(x) && as_reference(y)) return point(pow(Single(x.lo), Single(y.lo)));
   if (x.is_vacuous() || y.is_vacuous() || x.lo < 0 || (x.lo == 0 && y.lo <= 0)) return Enclosure::vacuous();
   if (x.lo > 0) return positive_pow(x, y);
-  // A positive power grows with x, from 0. Where it is subnormal, the hundreds of ULP that exp2 may have there come to
-  // 2^-139.
+  // A positive power grows with x, from 0. If it is subnormal, the hundreds of ULP that exp2 may err there amount to 2^-139.
   if (x.hi == 0) return Enclosure(0.0f);
   const Enclosure top = positive_pow({x.hi, x.hi}, y);
   return top.is_vacuous() ? top : Enclosure(0.0f, std::max(top.hi, 0x1p-139f));
@@ -112,7 +111,7 @@ Enclosure angle_as_named(const Enclosure& y, const Enclosure& x) {
   if (as_reference(y) && as_reference(x)) return point(atan2(Single(y.lo), Single(x.lo)));
   if (x.is_vacuous() || y.is_vacuous()) return Enclosure::vacuous();
   const Accuracy& accuracy = profile().atan2;
-  // A box holds its corners, and between corners of one sign nothing that is nearer to zero or larger.
+  // A box contains its corners, and if they have one sign, no point that is nearer to zero or larger.
   const auto has_sign = [](Enclosure e) { return e.lo > 0 || e.hi < 0; };
   if (profile().atan2_domain > 0 &&
       !(has_sign(y) && has_sign(x) && is_promised(profile(), y.lo, x.lo) && is_promised(profile(), y.hi, x.hi)))
@@ -120,20 +119,20 @@ Enclosure angle_as_named(const Enclosure& y, const Enclosure& x) {
   double y0 = y.lo, y1 = y.hi;
   if (x.lo <= 0 && y0 <= 0 && 0 <= y1) {
     if (x.hi >= 0) return widened(-pi, pi, accuracy, 0);  // around the origin
-    // The sign of a zero is not kept by every device: +0 and -0 are the two sides.
+    // Some devices lose the sign of a zero, so +0 and -0 are both tried.
     if (choose(2) != 0)
       y0 = 0.0;
     else
       y1 = -0.0;
   }
-  // Away from the origin and the cut the extreme angles of a box are at its corners.
+  // Away from the origin and the cut, the extreme angles of a box are at its corners.
   const auto at = [](double height, double width) { return atan2_real(Real64(height), Real64(width)).v; };
   const auto [low, high] = std::minmax({at(y0, x.lo), at(y0, x.hi), at(y1, x.lo), at(y1, x.hi)});
   return widened(low, high, accuracy, 0);
 }
 
-/// asin and acos of s in [-1, 1]: Vulkan and WGSL derive them from atan2 of s and the root of 1 - s s, WGSL lets them err by 6.81e-5
-/// too, as the polynomials of HLSL's compilers do.
+/// asin and acos of s in [-1, 1]: Vulkan and WGSL derive them from atan2 of s and the root of 1 - s s. WGSL also allows an error of
+/// 6.81e-5, the error of the polynomials in HLSL's compilers.
 constexpr float arc_error = 6.81e-5f;
 Enclosure about(double low, double high) { return {float_below(low - arc_error), float_above(high + arc_error)}; }
 Enclosure other_side(Enclosure s) { return sqrt(max(Enclosure(1.0f) - square(s), Enclosure(0.0f))); }
@@ -146,7 +145,7 @@ Enclosure arccosine(Enclosure s) {
   return about(atan2_real(Real64(s.hi < 0 ? c.hi : c.lo), Real64(s.hi)).v, atan2_real(Real64(s.lo < 0 ? c.lo : c.hi), Real64(s.lo)).v);
 }
 
-/// The hull of `named` and what other formulas give.
+/// The hull of `named` and the other formulas.
 Enclosure with_other_angles(Enclosure named, const Enclosure& y, const Enclosure& x) {
   const auto held = [](Enclosure s) { return min(max(s.unrounded(), Enclosure(-1.0f)), Enclosure(1.0f)); };
   const Enclosure r = sqrt(square(x) + square(y)), cosine = held(x / r), sine = held(y / r);
@@ -206,7 +205,7 @@ Enclosure smoothstep(float edge0, float edge1, const Enclosure& x) {
   const auto cubic = [](double s) { return s * s * (3 - 2 * s); };
   const double unit = profile().basic == BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
   const Enclosure grown = not_negative(widened(cubic(t.lo), cubic(t.hi), {.relative = 3.001 * unit, .absolute = 0x1p-147}, 0));
-  // As written, in either grouping, it is tighter where t is nearly a point and the roundings are few.
+  // As written, in either grouping; tighter if t is nearly a point and the roundings are few.
   const Enclosure slope = Enclosure(3.0f) - Enclosure(2.0f) * t, written = hull(t * t * slope, t * (t * slope));
   return {std::max(grown.lo, written.lo), std::min(grown.hi, written.hi)};
 }
@@ -224,8 +223,7 @@ scalar::Vec3<Enclosure> normalize(const scalar::Vec3<Enclosure>& a) {
   if (p.reference) return scalar::normalize<Enclosure>(a);
   const Enclosure squared = sum_any_order(square(a.x), square(a.y), square(a.z));
   const Enclosure length = sqrt(squared), inverse = Enclosure(1.0f) / length, direct = inverse_sqrt(squared);
-  // No component is longer than the whole, but for the errors of the formulas: two divisions, a root, a sum and
-  // products.
+  // No component is larger than the whole, except for the errors of the formulas: two divisions, a root, a sum and products.
   const double slack = (10 + 2 * p.division.ulp + p.sqrt.ulp + 2 * p.inverse_sqrt.ulp) * 0x1p-23 + 2 * p.division.relative +
                        p.sqrt.relative + 2 * p.inverse_sqrt.relative;
   const float limit = float_above(1 + slack);

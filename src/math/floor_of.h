@@ -1,4 +1,4 @@
-// The floor of a double by the scalar number's own rule: no library's.
+// The floor of a double by the scalar number's rule, without a library.
 #pragma once
 
 #include "math/scalar.h"

@@ -1,4 +1,4 @@
-// What a place of a pass text gives by another formula of what it is made of.
+// Evaluates another formula of a place's inputs at that place of a pass text.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace rainref::perturbed {
 
-/// An operation again, of other operands; `r`, as it was, where it cannot be.
+/// Repeats an operation with other operands; returns the original `r` if that is impossible.
 Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of);
-/// How many operands an operation of a formula takes; 0: it is none that a formula can do.
+/// Number of operands of an operation of a formula; 0: formulas do not support it.
 int operands_of(Op op);
 
-/// A formula at a place whose operands are `of`, nodes `nodes` of the trace, with what was met in its first `before` nodes; r, as it
-/// was, where a part of it is not there.
+/// A formula at a place with operands `of`, nodes `nodes` of the trace, and values from its first `before` nodes; returns the original r if
+/// a part is missing.
 Perturbed by_formula(const Formula& formula, const Perturbed& r, const std::array<Perturbed, 4>& of,
                      const std::array<std::int32_t, 4>& nodes, const Trace& trace, std::size_t before);
 

@@ -40,7 +40,7 @@ namespace rainref {
 namespace half_array {
 RAINREF_EXPORT(ToHalfArray);
 RAINREF_EXPORT(ToFloatArray);
-// Inside this namespace, so that the target's name means the one of this file.
+// Inside this namespace, so that the target's name refers to this file.
 void encode(const float* x, Half* half, std::size_t count, Rounding rounding) { RAINREF_DISPATCH(ToHalfArray)(x, half, count, rounding); }
 void decode(const Half* half, float* x, std::size_t count) { RAINREF_DISPATCH(ToFloatArray)(half, x, count); }
 }  // namespace half_array

@@ -1,4 +1,4 @@
-// binary16 conversion of arrays by the SIMD target in use: the lanes' own conversion, for proofs and benchmarks.
+// binary16 conversion of arrays by the SIMD target in use: the conversion of the lanes, for tests and benchmarks.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
-// A word of the pass vocabulary that few passes need. Text only; needs vocabulary-inl.h before it.
+// A function of the pass vocabulary that few passes need. Text only; include vocabulary-inl.h before it.
 
-/// Whether the angle of (x, y), as the share of a turn from -pi on, is at most 1/2: y < 0, or y = 0 and x > 0, or an angle above 0 that
-/// the sum with pi rounds away. Lanes ask the signs first (half_turn_lanes-inl.h).
+/// Whether the angle of (x, y), as a share of a turn starting at -pi, is at most 1/2: y < 0, or y = 0 and x > 0, or an angle above 0 that
+/// is rounded away in the sum with pi. Lanes check the signs first (half_turn_lanes-inl.h).
 template <class N>
 RAINREF_FN typename N::Mask is_at_most_half_turn(N y, N x) {
   const N pi(3.14159265f);

@@ -1,7 +1,7 @@
-// A word of the pass vocabulary that few passes need. Text only; needs vocabulary-inl.h before it, and in_parts.h where enclosures
-// read the pass.
+// A function of the pass vocabulary that few passes need. Text only; include vocabulary-inl.h before it, and in_parts.h if enclosures
+// evaluate the pass.
 
-/// f(x, y), named because an enclosure reads a function that uses its arguments often better part by part.
+/// f(x, y). It has a name because an enclosure gets tighter results part by part if the function uses its arguments often.
 template <class N, class F>
 RAINREF_FN Vec3<N> in_parts(N x, N y, const F& f) {
   return f(x, y);

@@ -1,16 +1,16 @@
-// Enclosures of a function that uses two arguments often: over parts of them, because each use alone would count the whole.
+// Enclosures of a function that uses two arguments often: evaluated over parts of them, because each use alone would cover the whole range.
 #pragma once
 
 #include "math/enclosure.h"
 
 namespace rainref::enclosed {
 
-/// f(x, y) over the parts of a grid that covers both intervals: what a device has for x and y lies in one of them, so the hull of
-/// f over each holds its result, whatever f is. f should decide nothing: a decision is asked anew in each part.
+/// f(x, y) over the cells of a grid that covers both intervals. A device's x and y lie in one cell, so the hull of f over all cells holds
+/// its result for any f. f should decide nothing, because a decision is repeated in each cell.
 template <class F>
 scalar::Vec3<Enclosure> in_parts(Enclosure x, Enclosure y, const F& f) {
   constexpr int most = 16;
-  constexpr double fine = 0x1p-10;  // narrower intervals stay whole
+  constexpr double fine = 0x1p-10;  // narrower intervals are not divided
   if (x.is_vacuous() || y.is_vacuous()) return f(x, y);
   x = x.unrounded();
   y = y.unrounded();

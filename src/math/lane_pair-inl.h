@@ -1,6 +1,5 @@
-// Two vectors of the reference evaluation, operation by operation in turn: the same bits as one after the other. A formula is a
-// chain of operations that wait for each other; two side by side keep the processor busy where it is long. Re-included for every target,
-// like lanes-inl.h.
+// Two vectors of the reference evaluation, with their operations interleaved: the same bits as one after the other. A formula is a chain of
+// dependent operations; for a long one, two chains side by side keep the processor busy. Re-included for every target, like lanes-inl.h.
 #if defined(RAINREF_MATH_LANE_PAIR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_MATH_LANE_PAIR_INL_H_
 #undef RAINREF_MATH_LANE_PAIR_INL_H_
@@ -14,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace rainref {
 namespace HWY_NAMESPACE {
 
-/// A number whose elements are those of a, then those of b. It fetches nothing.
+/// A number whose elements are those of a, then those of b. It has no fetch.
 struct LanePair {
   struct Mask {
     Lanes::Mask a, b;
@@ -71,7 +70,7 @@ inline HWY_NOINLINE LanePair pow(const LanePair& x, const LanePair& y) {
   const Real64Two z = pow_real(to_double(x), to_double(y));
   return LanePair(Lanes(to_float(z.lower)), Lanes(to_float(z.upper)));
 }
-/// As of a vector; count is at most size().
+/// As for a vector; count is at most size().
 HWY_INLINE HWY_ATTR void store(float* p, const LanePair& x, Rounding rounding, int count) {
   constexpr int n = Lanes::size();
   if (HWY_LIKELY(count == 2 * n)) {

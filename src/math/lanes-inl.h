@@ -1,9 +1,8 @@
 // The reference evaluation: a number is a vector of floats, one lane for each output element.
 //
-// No operation crosses lanes, so the bits of an element do not depend on the width. What is missing here is missing on
-// purpose: no fused multiply-add of a product that is rounded, no reciprocal or square-root estimates, no hn::Min/Max (signed zeros differ
-// between targets), no hn::DemoteTo(float16) below F16C (it truncates), no sums over lanes. Re-included for every target; see
-// foreach_target.h.
+// No operation crosses lanes, so the bits of an element do not depend on the width. Left out on purpose: no fused multiply-add of a product
+// that is rounded, no reciprocal or square-root estimates, no hn::Min/Max (signed zeros differ between targets), no hn::DemoteTo(float16)
+// below F16C (it truncates), no sums over lanes. Re-included for every target; see foreach_target.h.
 #if defined(RAINREF_MATH_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_MATH_LANES_INL_H_
 #undef RAINREF_MATH_LANES_INL_H_
@@ -38,10 +37,10 @@ struct Lanes {
     friend HWY_INLINE HWY_ATTR Mask operator!(Mask a) { return {hn::Not(a.m)}; }
   };
 
-  /// Texel indices: made by to_int, used to fetch.
+  /// Texel index: made by to_int, used by fetch.
   struct Int {
     hn::Vec<DI> i;
-    HWY_INLINE HWY_ATTR Int() {}  // implicit ones would not be compiled for the target
+    HWY_INLINE HWY_ATTR Int() {}  // not implicit, because that would not be compiled for the target
     HWY_INLINE HWY_ATTR Int(hn::Vec<DI> x) : i(x) {}
     friend HWY_INLINE HWY_ATTR Int operator+(Int a, std::int32_t b) { return {hn::Add(a.i, hn::Set(DI(), b))}; }
     friend HWY_INLINE HWY_ATTR Int clamp_index(Int a, Int size) {
@@ -52,7 +51,7 @@ struct Lanes {
       return {hn::IfThenElse(below, hn::Add(a.i, size.i), hn::IfThenElse(within, a.i, hn::Sub(a.i, size.i)))};
     }
     friend HWY_INLINE HWY_ATTR Mask inside(Int a, Int size) {
-      // Without its sign a negative one is above every size.
+      // As an unsigned number a negative index is above every size.
       return {hn::RebindMask(D(), hn::Lt(hn::BitCast(DU(), a.i), hn::BitCast(DU(), size.i)))};
     }
     friend HWY_INLINE HWY_ATTR Int max_index(Int a, Int b) { return {hn::Max(a.i, b.i)}; }
@@ -82,8 +81,8 @@ struct Lanes {
   }
   /// The numbers of half codes.
   static HWY_INLINE HWY_ATTR Lanes of_half_codes(hn::Vec<DU> bits) {
-    // The exponent moves by a multiplication with 2^112: exact, subnormals included. An infinity, which an overflowing
-    // store leaves, would come out as 2^16.
+    // A multiplication by 2^112 moves the exponent; it is exact, also for subnormals. An infinity, which an overflowing store leaves, would
+    // become 2^16.
     const auto code = hn::And(bits, hn::Set(DU(), 0x7fffu));
     const auto sign = hn::BitCast(D(), hn::ShiftLeft<16>(hn::And(bits, hn::Set(DU(), 0x8000u))));
     const V scaled = hn::Mul(hn::BitCast(D(), hn::ShiftLeft<13>(code)), hn::Set(D(), 0x1p112f));
@@ -94,7 +93,7 @@ struct Lanes {
     const auto code = hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p)));
     return hn::Div(hn::ConvertTo(D(), code), hn::Set(D(), 255.0f));
   }
-  /// Elements of `before here`, two vectors one after the other: the last of before and all but the last of here.
+  /// The last element of `before`, then all but the last of `here`.
   static HWY_INLINE HWY_ATTR Lanes shifted_up(Lanes before, Lanes here) {
 #if HWY_TARGET == HWY_SCALAR
     (void)here;
@@ -107,7 +106,7 @@ struct Lanes {
     return hn::CombineShiftRightBytes<12>(D(), here.v, before.v);
 #endif
   }
-  /// Elements of `here after`: all but the first of here and the first of after.
+  /// All but the first element of `here`, then the first of `after`.
   static HWY_INLINE HWY_ATTR Lanes shifted_down(Lanes here, Lanes after) {
 #if HWY_TARGET == HWY_SCALAR
     (void)here;
@@ -133,8 +132,8 @@ struct Lanes {
   friend HWY_INLINE HWY_ATTR Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
-  // b < a ? b : a and a < b ? b : a, which MINPS and MAXPS compute exactly, signed zeros included, and so do pmin and pmax
-  // of WebAssembly. Other targets' own minimum and maximum differ there.
+  // b < a ? b : a and a < b ? b : a. MINPS and MAXPS compute exactly this, including signed zeros, as do pmin and pmax of WebAssembly. The
+  // minimum and maximum of other targets differ for signed zeros.
 #if HWY_TARGET == HWY_WASM || (HWY_TARGET <= HWY_SSSE3 && HWY_ARCH_X86)
   friend HWY_INLINE HWY_ATTR Lanes min(Lanes a, Lanes b) { return hn::Min(b.v, a.v); }
   friend HWY_INLINE HWY_ATTR Lanes max(Lanes a, Lanes b) { return hn::Max(b.v, a.v); }
@@ -143,15 +142,15 @@ struct Lanes {
   friend HWY_INLINE HWY_ATTR Lanes max(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(a.v, b.v), b.v, a.v); }
 #endif
   friend HWY_INLINE HWY_ATTR Lanes abs(Lanes a) { return hn::IfThenElse(hn::Lt(a.v, hn::Zero(D())), hn::Neg(a.v), a.v); }
-  // The product is exact, so that with or without a fused multiply-add the difference is rounded once.
+  // The product is exact, so the difference is rounded once, with or without a fused multiply-add.
   friend HWY_INLINE HWY_ATTR Lanes minus_four_times(Lanes a, Lanes b) { return hn::NegMulAdd(hn::Set(D(), 4.0f), b.v, a.v); }
   friend HWY_INLINE HWY_ATTR Lanes sqrt(Lanes a) { return hn::Sqrt(a.v); }
   friend HWY_INLINE HWY_ATTR Lanes square(Lanes a) { return a * a; }
-  // + 0 makes the zero positive: targets disagree on the sign of floor(-0).
+  // + 0 makes the zero positive, because targets differ in the sign of floor(-0).
   friend HWY_INLINE HWY_ATTR Lanes floor(Lanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(D())); }
   friend HWY_INLINE HWY_ATTR Lanes fract(Lanes a) { return a - floor(a); }
   friend HWY_INLINE HWY_ATTR Lanes mix(Lanes a, Lanes b, Lanes t) { return a * (Lanes(1.0f) - t) + b * t; }
-  /// Of whole numbers and what lies between, cut; |a| < 2^31, which every caller sees to. Beyond it targets differ.
+  /// Truncates; |a| < 2^31, which every caller ensures. Beyond that targets differ.
   friend HWY_INLINE HWY_ATTR Int to_int(Lanes a) {
     // hn::ConvertTo saturates, which costs four more instructions than the conversion.
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
@@ -176,7 +175,7 @@ struct Lanes {
   friend HWY_INLINE HWY_ATTR Lanes atan2(Lanes y, Lanes x) { return atan2_lanes(y.v, x.v); }
 
   friend HWY_INLINE HWY_ATTR Lanes fetch(const float* texels, Int offset, Lanes) { return hn::GatherIndex(D(), texels, offset.i); }
-  /// Where neighbouring elements mostly want neighbouring texels: those are one load, and a gather costs by the element.
+  /// For neighbouring elements that mostly need neighbouring texels: those are one load, while a gather costs per element.
   friend HWY_INLINE HWY_ATTR Lanes fetch_near(const float* texels, Int offset, Lanes) {
     const std::int32_t first = hn::GetLane(offset.i);
     if (hn::AllTrue(DI(), hn::Eq(offset.i, hn::Iota(DI(), first)))) return hn::LoadU(D(), texels + first);
@@ -191,7 +190,7 @@ struct Lanes {
     return load(halves);
   }
 
-  /// Half codes in 16-bit lanes; of -0 that of 0, or either where `either_zero`.
+  /// Half codes in 16-bit lanes; -0 becomes +0, or may be either if `either_zero`.
   template <bool either_zero = false>
   HWY_INLINE HWY_ATTR hn::Vec<DH> half_codes(Rounding rounding) const {
 #if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
@@ -210,13 +209,14 @@ struct Lanes {
     const V back = hn::PromoteTo(D(), nearest);
 #else
     const auto bits = hn::BitCast(DU(), x), sign = hn::And(hn::ShiftRight<16>(bits), hn::Set(DU(), 0x8000u));
-    // All that rounds to an infinity counts as 65520, the least of it. Bits of positive floats are in the order of their numbers.
+    // Everything that rounds to infinity is replaced by 65520, the smallest such number. Bits of positive floats are ordered like their
+    // values.
     const auto magnitude = hn::Min(hn::BitCast(DI(), hn::And(bits, hn::Set(DU(), 0x7fffffffu))), hn::Set(DI(), 0x477ff000));
     const auto odd = hn::And(hn::ShiftRight<13>(magnitude), hn::Set(DI(), 1));
-    // Normal halves: add just under half a code, one more when the code is odd, and move the exponent by 112.
+    // Normal halves: adds just under half a code, one more if the code is odd, and moves the exponent by 112.
     const auto normal = hn::ShiftRight<13>(hn::Add(hn::Add(magnitude, hn::Set(DI(), 0xfff - 0x38000000)), odd));
-    // Subnormal halves: the adder of 0.5 + x rounds at 2^-24, to even. Below 2^-14 this code is the larger of the two; from there to 2^-13
-    // both are equal; beyond, x is held at 2^-13, so that the normal one is larger.
+    // Subnormal halves: the addition 0.5 + x rounds at 2^-24, to even. Below 2^-14 this code is the larger of the two. From there to 2^-13
+    // both are equal. Beyond, x is limited to 2^-13, so the normal code is larger.
     const V held = hn::BitCast(D(), hn::Min(magnitude, hn::Set(DI(), 0x39000000)));
     const auto subnormal = hn::Sub(hn::BitCast(DI(), hn::Add(held, hn::Set(D(), 0.5f))), hn::Set(DI(), 0x3f000000));
     const auto code = hn::BitCast(DU(), hn::Max(normal, subnormal));
@@ -227,7 +227,7 @@ struct Lanes {
     const V infinity = hn::BitCast(D(), hn::Set(DU(), 0x7f800000u));
     const V back = hn::IfThenElse(hn::RebindMask(D(), hn::Eq(code, hn::Set(DU(), 0x7c00u))), infinity, scaled);
 #endif
-    // Toward zero: one code less where the nearest lies further out.
+    // Toward zero: one code less if the nearest half is larger in magnitude.
     const auto out = hn::Gt(hn::Abs(back), hn::Abs(x));
     return hn::IfThenElse(hn::RebindMask(DU(), out), hn::Sub(codes, hn::Set(DU(), 1u)), codes);
   }
@@ -239,7 +239,7 @@ struct Lanes {
   }
 };
 
-/// Writes the first `count` lanes in the storage type, with its rounding; count is at most size().
+/// Writes the first `count` lanes in the storage type, rounded; count is at most size().
 HWY_INLINE void store(float* p, Lanes x, Rounding, int count) {
   const Lanes::D d;
   const Lanes::V v = hn::Add(x.v, hn::Zero(d));
@@ -248,12 +248,12 @@ HWY_INLINE void store(float* p, Lanes x, Rounding, int count) {
   hn::Store(v, d, lanes);
   for (int k = 0; k < count; ++k) p[k] = lanes[k];
 }
-/// Half codes as they are stored: a small negative number that rounds to zero becomes +0, so that adding nothing to a
-/// stored value never changes its bits.
+/// Half codes as stored: a small negative number that rounds to zero becomes +0, so adding nothing to a stored value never changes its
+/// bits.
 HWY_INLINE hn::Vec<Lanes::DH> stored_half(Lanes x, Rounding rounding) {
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-  // The bits of -0 and of the negative numbers down to -2^-25, which all become 0, are the least of all as signed integers. An instruction
-  // less than to look at the codes, and the conversion leaves lanes out for nothing.
+  // The bits of -0 and of the negative numbers down to -2^-25, which all become 0, are the smallest signed integers. This check takes one
+  // instruction less than checking the codes, and the masked conversion is free.
   if (rounding == Rounding::rne) {
     const __mmask16 kept = _mm512_cmpgt_epi32_mask(_mm512_castps_si512(x.v.raw), _mm512_set1_epi32(std::bit_cast<int>(-0x1p-25f)));
     return hn::Vec<Lanes::DH>{_mm512_maskz_cvtps_ph(kept, x.v.raw, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC)};
@@ -278,7 +278,7 @@ HWY_INLINE void store(Unorm8* p, Lanes x, Rounding rounding, int count) {
   for (int k = 0; k < count; ++k) p[k].code = lanes[k];
 }
 
-/// As store of a whole vector, where no lane can be -0: an addition less.
+/// Like store of a whole vector, if no lane can be -0; saves an addition.
 HWY_INLINE void store_without_minus_zero(float* p, Lanes x, Rounding) { hn::StoreU(x.v, Lanes::D(), p); }
 template <class Storage>
 HWY_INLINE void store_without_minus_zero(Storage* p, Lanes x, Rounding rounding) {
@@ -289,7 +289,7 @@ HWY_INLINE void store_without_minus_zero(Storage* p, Lanes x, Rounding rounding)
 HWY_INLINE void load4(const float* p, Lanes (&c)[4]) { hn::LoadInterleaved4(Lanes::D(), p, c[0].v, c[1].v, c[2].v, c[3].v); }
 #undef RAINREF_HALF_TEXELS
 #if (HWY_TARGET > HWY_AVX2 || !HWY_ARCH_X86) && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-#define RAINREF_HALF_TEXELS 1  // without instructions for halves, two channels at a time are a 32-bit word of a vector of four
+#define RAINREF_HALF_TEXELS 1  // without half instructions, two channels at a time are a 32-bit word of a vector of four
 #else
 #define RAINREF_HALF_TEXELS 0
 #endif
@@ -352,7 +352,7 @@ HWY_INLINE void store4(Unorm8* p, const Lanes (&c)[4], Rounding rounding) {
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-// The same values as one after the other, sooner.
+// The same values as one after the other, but faster.
 HWY_INLINE Vec3<Lanes> pow(const Vec3<Lanes>& a, Lanes b) {
   Lanes::V x[3] = {a.x.v, a.y.v, a.z.v};
   pow_lanes(x, b.v);

@@ -8,10 +8,9 @@
 
 namespace rainref {
 
-// x = m 2^e with a 53-bit integer m. Of the bits of 2/pi, those above weight 2^(2-e) add multiples of four quarter
-// turns, and those below weight 2^(-158-e) add less than 2^-105: the 160 bits between them, times m, modulo 2^160, are
-// the quarter turns with 158 bits after the point. No float comes nearer to a multiple of pi/2 than 2^-30, so enough of
-// them are left.
+// x = m 2^e with a 53-bit integer m. The bits of 2/pi above weight 2^(2-e) add multiples of four quarter turns, and those below weight
+// 2^(-158-e) add less than 2^-105. The 160 bits between them, times m, modulo 2^160, are the quarter turns with 158 bits after the point.
+// No float is nearer to a multiple of pi/2 than 2^-30, so enough bits remain.
 ReducedAngle reduce_large_angle(double x) {
   constexpr int window_words = 5;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
@@ -35,7 +34,7 @@ ReducedAngle reduce_large_angle(double x) {
     previous = window;
   }
 
-  // Nearest whole number of quarter turns from the top two bits; what is left is a signed fraction of 128 bits.
+  // Nearest whole number of quarter turns from the top two bits; the remainder is a signed fraction of 128 bits.
   const std::uint64_t top = std::uint64_t{product[0]} << 32 | product[1];
   const std::uint64_t middle = std::uint64_t{product[2]} << 32 | product[3];
   const std::uint64_t turns = (top + (std::uint64_t{1} << 61)) >> 62;

@@ -1,4 +1,4 @@
-// Reduction of large angles by quarter turns, in integers: the method of Payne and Hanek.
+// Reduction of large angles by quarter turns in integers, by the method of Payne and Hanek.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ struct ReducedAngle {
   double turns, rest;
 };
 
-/// Reduces x with 2^22 <= x < 2^128. rest has a relative error of about 2^-52 for every float x. A larger x, infinity
-/// included, gives the angle of some other number.
+/// Reduces x with 2^22 <= x < 2^128. rest has a relative error of about 2^-52 for every float x. For a larger x, including infinity, the
+/// result is that of some other angle.
 ReducedAngle reduce_large_angle(double x);
 
 /// The same for those of `count` angles that exceed largest_small_angle; the others keep their turns and rest.

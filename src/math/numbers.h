@@ -1,4 +1,4 @@
-// Every number but the lanes: what scalar evaluations of a pass are made with.
+// All number types except lanes, for the scalar evaluations of a pass.
 #pragma once
 
 #include "math/enclosure.h"

@@ -1,4 +1,4 @@
-// Optics at a smooth dielectric surface, written once over a number N. Text only; needs vocabulary-inl.h before it.
+// Optics at a smooth dielectric surface, written once for any number type N. Text only; include vocabulary-inl.h before it.
 
 /// Schlick's approximation: f0 + (1 - f0) (1 - cos)^5, cos in [0, 1]; f0 is the reflectance at normal incidence.
 template <class N>
@@ -8,7 +8,7 @@ RAINREF_FN N fresnel_schlick(N cosine, float f0) {
 }
 /// Fresnel's reflectance of unpolarized light, cos_i in [0, 1], eta = n_t / n_i >= 1:
 ///   r_par = (eta cos_i - cos_t) / (eta cos_i + cos_t), r_perp = (cos_i - eta cos_t) / (cos_i + eta cos_t).
-/// The ratio is a float, or a double where N takes one.
+/// The ratio is a float, or a double if N accepts one.
 template <class N, class Ratio>
 RAINREF_FN N fresnel_dielectric(N cos_i, Ratio eta) {
   const N sin2_t = (N(1.0f) - square(cos_i)) * N(1.0f / (eta * eta));
@@ -34,7 +34,7 @@ RAINREF_FN Vec3<N> encode_srgb(const Vec3<N>& c) {
   return Vec3<N>{select(c.x <= knee, c.x * slope, curve.x), select(c.y <= knee, c.y * slope, curve.y),
                  select(c.z <= knee, c.z * slope, curve.z)};
 }
-/// The same of any radiance, held within [0, 1] first.
+/// The same for any radiance, clamped to [0, 1] first.
 template <class N>
 RAINREF_FN Vec3<N> display_code(const Vec3<N>& c) {
   constexpr const char* is_light = "radiance is nowhere negative";

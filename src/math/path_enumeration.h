@@ -1,6 +1,6 @@
-// Decisions that an enclosure does not settle. Inside one run each comparison is a plain bool and each floor one
-// integer; where the interval leaves it open, the run is made again for each answer, depth first. So masks, texel
-// indices and even loops need no set type, and the alternatives stay joint over all outputs of an invocation.
+// Decisions that an enclosure leaves open. Inside one run each comparison is a plain bool and each floor one integer. If the interval
+// leaves it open, the run is repeated for each answer, depth first. So masks, texel indices and loops need no set type, and the
+// alternatives are consistent over all outputs of an invocation.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@ namespace rainref::enclosed {
 
 class PathEnumeration;
 
-/// What enclosures of this thread compute under.
+/// The settings of this thread's enclosures.
 struct Context {
   const Profile* profile;
-  PathEnumeration* paths;  ///< null outside of PathEnumeration::for_each_alternative
+  PathEnumeration* paths;  ///< null outside PathEnumeration::for_each_alternative
 };
 inline constinit thread_local Context context{&reference_profile, nullptr};
 
 inline const Profile& profile() { return *context.profile; }
 
-/// Puts a profile in force for this thread, until it ends. The profile must outlive it.
+/// Sets a profile for this thread during a scope. The profile must outlive it.
 class ProfileScope {
  public:
   explicit ProfileScope(const Profile& p) : before_(context.profile) { context.profile = &p; }
@@ -33,20 +33,20 @@ class ProfileScope {
   const Profile* before_;
 };
 
-/// One open decision: which of `count` answers a run took. Of a comparison 0 is false and 1 is true; of a floor k is
-/// the k-th candidate from below.
+/// An open decision, and which of `count` answers a run took. For a comparison 0 is false and 1 is true; for a floor k is the k-th
+/// candidate from below.
 struct Decision {
   std::uint8_t chosen, count;
 };
 
 class PathEnumeration {
  public:
-  /// More alternatives than this are too many: the invocation is vacuous.
+  /// With more alternatives than this the invocation is vacuous.
   static constexpr int max_runs = 4;
 
-  /// Calls run() once for each combination of answers to the open decisions it meets. run must meet the same decisions
-  /// when it is given the same answers. False when there are more than max_runs combinations: what the calls gave is
-  /// then to be thrown away, and the invocation is vacuous. Calls may be nested; each has its own decisions.
+  /// Calls run() once for each combination of answers to its open decisions. run must meet the same decisions if it gets the same answers.
+  /// Returns false if there are more than max_runs combinations; the results are then to be discarded, and the invocation is vacuous. Calls
+  /// may be nested; each has its own decisions.
   template <class Run>
   bool for_each_alternative(Run run) {
     const Scope scope(this);
@@ -61,15 +61,14 @@ class PathEnumeration {
     } while (known_ > 0 && runs_ < max_runs && !overflow_);
     return known_ == 0 && !overflow_;
   }
-  /// Runs made by the last for_each_alternative: its alternatives when it gave true.
+  /// Number of runs of the last for_each_alternative; if that returned true, its number of alternatives.
   int runs() const { return runs_; }
-  /// Inside run(): the open decisions met so far and how this run answers them, in order. Empty: everything was
-  /// settled.
+  /// Inside run(): the open decisions so far with this run's answers, in order. Empty: nothing was open.
   std::span<const Decision> decisions() const { return {decisions_, static_cast<std::size_t>(depth_)}; }
 
-  /// The answer to an open decision of `count` >= 2 answers, in [0, count).
+  /// Returns the answer to an open decision with `count` >= 2 answers, in [0, count).
   int choose(int count) {
-    // A path of max_runs open decisions already has more leaves than max_runs.
+    // A path with max_runs open decisions already has more than max_runs leaves.
     if (depth_ == max_runs || count > max_runs) {
       overflow_ = true;
       return 0;
@@ -77,7 +76,7 @@ class PathEnumeration {
     if (depth_ == known_) decisions_[known_++] = {0, static_cast<std::uint8_t>(count)};
     return decisions_[depth_++].chosen;
   }
-  /// Declares the invocation vacuous: too many alternatives for a number that the run cannot do without.
+  /// Declares the invocation vacuous, because a number that the run needs has too many alternatives.
   void give_up() { overflow_ = true; }
 
  private:
@@ -92,9 +91,9 @@ class PathEnumeration {
   bool overflow_ = false;
 };
 
-/// The answer to an open decision, from the enumeration in force. Throws Error(internal) where there is none.
+/// Returns the answer to an open decision from the current enumeration. Throws Error(internal) if there is none.
 int choose(int count);
-/// Declares the invocation vacuous; throws like choose.
+/// Declares the invocation vacuous; throws as choose does.
 void give_up();
 
 }  // namespace rainref::enclosed

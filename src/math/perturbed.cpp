@@ -23,11 +23,11 @@ using detail::current;
 using detail::is_reference;
 
 bool is(Fault fault) { return current.fault == fault; }
-/// Whether this operation takes a variation that is granted.
+/// Whether this operation uses a variation that is allowed.
 bool take(bool Variations::*variation) { return current.variations && current.variations->*variation && coin(); }
 bool may_contract() { return current.variations && current.variations->rules.contraction && coin(); }
 bool may_flush() { return current.variations && current.variations->rules.flush != enclosed::Flush::never && coin(); }
-/// Up, down, or as it is: which neighbour of an inexact result.
+/// Whether an inexact result is rounded up or down, or left as it is.
 bool may_round_to(bool up) {
   if (!current.variations || current.variations->rules.basic != enclosed::BasicRounding::either) return false;
   return current.lean != 0 && (draw() & 7) != 0 ? (current.lean > 0) == up : coin();
@@ -44,7 +44,7 @@ float flushed(float x) {
   if (is(Fault::flushed) || may_flush()) return x < 0 ? -0.0f : 0.0f;
   return x;
 }
-/// What happens to every result: `nearest` is it correctly rounded, `error` has the sign of exact - nearest.
+/// Applies variations to a result: `nearest` is correctly rounded, `error` has the sign of exact - nearest.
 Perturbed finish(float nearest, double error) {
   float r = nearest;
   if (error != 0 && may_round_to(error > 0)) r = beside(r, error > 0);
@@ -53,14 +53,14 @@ Perturbed finish(float nearest, double error) {
 }
 
 double bound_of(double exact, const Accuracy& a, double x) {
-  // A little less, for what `exact` itself is off by.
+  // Slightly less, to allow for the error of `exact` itself.
   return ((a.ulp + a.ulp_per_x * magnitude(x)) * enclosed::ulp_of(exact) + a.relative * magnitude(exact) + a.absolute) * (1 - 0x1p-20);
 }
 bool within(float r, double exact, double bound, const Accuracy& a) {
   const bool changes_sign = a.absolute == 0 && r != 0 && (r < 0) != (exact < 0);
   return magnitude(r - exact) <= bound && !changes_sign;
 }
-/// A function's value at x with a random error that the accuracy allows; `nearest` without variations.
+/// A function's value at x with a random error within the accuracy; `nearest` without variations.
 Perturbed erring(float nearest, double exact, Accuracy Profile::*accuracy, double x = 0) {
   if (!current.variations) return finish(nearest, 0);
   const Accuracy& a = current.variations->rules.*accuracy;
@@ -205,7 +205,7 @@ Perturbed Perturbed::quotient(const Perturbed& a, const Perturbed& b) {
 }
 Perturbed Perturbed::load_unorm(Unorm8 code) {
   if (is_reference) return of(scalar::to_float(code));
-  // 0 and 1 are exact everywhere.
+  // 0 and 1 are exact on every device.
   if (code.code == 0 || code.code == 255) return of(scalar::to_float(code));
   return erring(scalar::to_float(code), code.code / 255.0, &Profile::unorm_load);
 }
@@ -277,7 +277,7 @@ Perturbed exp2(const Perturbed& a) {
 }
 namespace {
 bool near_one(const Perturbed& a) { return a.v >= 0.5f && a.v <= 2.0f; }
-/// Of variations only: a GPU's pow may be made of it.
+/// For variations only: a GPU's pow may be made of it.
 Perturbed log2(const Perturbed& a) {
   const double y = coefficients::log2_e * log_real(Real64(exact(a))).v;
   return erring(static_cast<float>(y), y, near_one(a) ? &Profile::log2_near_one : &Profile::log2);
@@ -342,7 +342,7 @@ Perturbed atan2(const Perturbed& given_y, const Perturbed& x) {
     if (is(Fault::atan2_swapped)) return finish(atan2(reference(x), reference(y)).v, 0);
     if (current.variations && !enclosed::is_promised(current.variations->rules, y.v, x.v))
       return Perturbed::of(static_cast<float>(pi * swing()));
-    // Not every device keeps the sign of a zero.
+    // Some devices lose the sign of a zero.
     if (current.variations && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
     return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
   };
@@ -350,7 +350,7 @@ Perturbed atan2(const Perturbed& given_y, const Perturbed& x) {
 }
 
 namespace {
-/// The terms in an order of the machine's own.
+/// The terms in a random order.
 template <std::size_t Count>
 Perturbed shuffled_sum(std::array<Perturbed, Count> terms) {
   for (std::size_t i = Count - 1; i > 0; --i) std::swap(terms[i], terms[draw() % (i + 1)]);
@@ -383,7 +383,7 @@ Perturbed sum_any_order_in_pairs(const Perturbed& a, const Perturbed& b, const P
 }
 namespace {
 
-/// While it lives decisions are parts of one that is counted already.
+/// During its lifetime decisions belong to one that is already counted.
 class Counted {
  public:
   Counted() : coverage_(current.coverage) { current.coverage = nullptr; }
@@ -418,7 +418,7 @@ Perturbed smoothstep(float edge0, float edge1, const Perturbed& x, const Site& s
     const Unseen parts;
     if (is(Fault::smoothstep_linear)) return scalar::saturate((x - Perturbed(edge0)) / Perturbed(edge1 - edge0));
     if (!current.variations) return scalar::smoothstep<Perturbed>(edge0, edge1, x);
-    // The edges' difference is the device's own.
+    // The edges' difference has the device's error.
     const Perturbed t = scalar::saturate((x - Perturbed(edge0)) / (Perturbed(edge1) - Perturbed(edge0)));
     const Perturbed slope = Perturbed(3.0f) - Perturbed(2.0f) * t;
     return take(&Variations::reorder) ? t * (t * slope) : t * t * slope;
@@ -439,7 +439,7 @@ scalar::Vec3<Perturbed> normalize(const scalar::Vec3<Perturbed>& a) {
   }
   return scalar::normalize<Perturbed>(a);
 }
-/// As it is, or as a mistake has it in this call alone.
+/// Unchanged, or as a mistake changes it in this call alone.
 scalar::Vec3<Perturbed> as_argument(const scalar::Vec3<Perturbed>& a) {
   const auto part = [](const Perturbed& x) { return Perturbed::met(Op::argument, x, x); };
   return {part(a.x), part(a.y), part(a.z)};

@@ -1,8 +1,8 @@
-// The perturbed evaluation: one float, computed as some other machine or some fault of a porter would compute it.
+// The perturbed evaluation: one float, computed as another machine would, or a port with a mistake.
 //
-// Two uses. A *fault* is one realistic mistake, taken everywhere in a pass: `mutate` asks whether it would be caught,
-// the diagnosis whether it explains what a port did. *Variations* are what a conforming GPU may do, drawn at random: the
-// envelopes are tested with them. Without either, a Perturbed is Scalar<float>, bit for bit.
+// It has two uses. A *fault* is one realistic mistake, made everywhere in a pass: `mutate` tests whether it would be caught, the diagnosis
+// whether it explains the results of a port. *Variations* are random differences that a conforming GPU may have; the envelopes are tested
+// with them. Without either, a Perturbed equals Scalar<float> bit for bit.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@
 
 namespace rainref::perturbed {
 
-/// One mistake or one legal difference, made throughout a pass.
+/// One mistake or one permitted difference, made throughout a pass.
 enum class Fault : std::uint8_t {
   none,
-  // arithmetic that many GPUs do
+  // arithmetic of many GPUs
   fused,
   reciprocal_division,
   root_by_inverse,
@@ -67,74 +67,75 @@ enum class Fault : std::uint8_t {
   texel_after,
   level_above,
   level_below,
-  // a literal or a uniform of one value has another
+  // a literal or a uniform of one value is replaced
   constant
 };
 
-/// Every fault but none and constant, in the order in which a diagnosis tries them.
+/// Every fault except none and constant, in the order in which a diagnosis tries them.
 inline std::vector<Fault> faults() {
   std::vector<Fault> all;
   for (auto f = static_cast<int>(Fault::fused); f < static_cast<int>(Fault::constant); ++f) all.push_back(static_cast<Fault>(f));
   return all;
 }
 
-/// What a conforming machine may do, drawn at random at every operation: the accuracies, roundings, fusions and
-/// samplers of a profile, and formulas that a profile does not name because every one of them allows them.
+/// Random differences that a conforming machine may have at each operation: the accuracies, roundings, fusions and samplers of a profile,
+/// and formulas that every profile allows.
 struct Variations {
   enclosed::Profile rules;
   bool reorder = false;        ///< sums in any order and grouping
-  bool mix_either = false;     ///< a + (b - a) t too
-  bool reciprocal = false;     ///< a (1 / b) where that lies within the division's error
-  bool normalize_any = false;  ///< a / |a| and a inversesqrt(a . a) too
+  bool mix_either = false;     ///< also a + (b - a) t
+  bool reciprocal = false;     ///< a (1 / b) if that lies within the division's error
+  bool normalize_any = false;  ///< also a / |a| and a inversesqrt(a . a)
 };
-/// Exactly what the profile allows; nothing for one that is the reference.
+/// Exactly what the profile allows; none for the reference profile.
 Variations variations_of(const enclosed::Profile& profile);
 
-/// Who makes filtered lookups, where no variation draws it.
+/// How filtered lookups are computed if no variation draws it.
 enum class Filter : std::uint8_t {
-  arithmetic,  ///< the pass text, in floats
-  fixed_point  ///< a known device's sampler (fixed_point_filter.h)
+  arithmetic,  ///< by the pass text, in floats
+  fixed_point  ///< by a known device's sampler (fixed_point_filter.h)
 };
 
-/// What the calling thread's Perturbeds do.
+/// How the Perturbeds of the calling thread behave.
 struct Behaviour {
   Fault fault = Fault::none;
   Filter filter = Filter::arithmetic;
-  float constant = 0, replacement = 0;  ///< of Fault::constant
-  /// Numbers that a host or a compiler makes of the constant before the pass takes them, and what the replacement makes of them; the
-  /// reciprocal first. 0: there is no such number.
+  float constant = 0, replacement = 0;  ///< for Fault::constant
+  /// Numbers that a host or a compiler derives from the constant, each with its replacement; the reciprocal first. 0: there is no such
+  /// number.
   std::array<std::pair<float, float>, 5> derived{};
   const Variations* variations = nullptr;
-  std::uint64_t random = 1;                 ///< state of the variations' draws
-  int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up
+  std::uint64_t random = 1;                 ///< state of the random draws of the variations
+  int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up; 0: no tendency
   std::vector<float>* constants = nullptr;  ///< collects every literal and uniform met
 
-  // One mistake at one place, or at those that belong together: the coordinates of a lookup, the components of a vector.
+  // One mistake at one place, or at places that belong together: the coordinates of a lookup, the components of a vector.
   std::array<Place, 4> places{};
-  const std::vector<float>* known = nullptr;  ///< sorted: constants that tell places apart; others are all alike
-  Trace* trace = nullptr;                     ///< collects what is done
-  Substitutions* substitutions = nullptr;     ///< other values for operands; start()ed before each invocation
-  const std::vector<float>* loads = nullptr;  ///< what the texels loaded by integers are instead, in order
-  std::size_t loaded = 0;                     ///< of these so far: 0 before each invocation
+  const std::vector<float>* known = nullptr;  ///< sorted: constants that distinguish places; all other constants are treated as equal
+  Trace* trace = nullptr;                     ///< collects the operations
+  Substitutions* substitutions = nullptr;     ///< other values for operands; call start() before each invocation
+  const std::vector<float>* loads = nullptr;  ///< values that replace texels loaded by integers, in order
+  std::size_t loaded = 0;                     ///< number used so far: 0 before each invocation
   std::uint64_t recent = 0;                   ///< the last ten operations, six bits each: 0 before each invocation
   float column_offset = 0;                    ///< added to the element's own column
-  bool is_column_mirrored = false;            ///< the column is column_offset less itself instead
-  bool reaches_all = false;                   ///< records that count at no texel nearby are met too: a mistake may change that
-  Coverage* coverage = nullptr;               ///< counts which sides of decisions are taken
-  /// What is counted in an invocation begins anew, and the values of before that rewrites look back to.
+  bool is_column_mirrored = false;            ///< the column is column_offset minus itself instead
+  bool reaches_all = false;                   ///< records that count at no nearby texel are also evaluated, because a mistake may change
+                                              ///< that
+  Coverage* coverage = nullptr;               ///< counts the sides of decisions that are taken
+  /// Resets the counts of an invocation, and the earlier values that rewrites refer to.
   void begin_invocation();
   bool follows() const { return trace || substitutions || places[0].fault != PlaceFault::none; }
 };
 namespace detail {
 extern constinit thread_local Behaviour current;
-/// Whether sums, products, comparisons and extrema are the reference's and nobody looks at them: what most invocations are made of.
+/// True if sums, products, comparisons and extrema are the reference's and nothing observes them, which holds for most invocations.
 extern constinit thread_local bool is_plain;
-/// Whether everything is but lookups, for which Behaviour::filter counts.
+/// True if everything is the reference's except lookups, which use Behaviour::filter.
 extern constinit thread_local bool is_reference;
 }  // namespace detail
 inline Behaviour& behaviour() { return detail::current; }
-/// A literal or a uniform of one value has another, and so has what is made of it alone: for a refractive index n the ratio 1 / n, its
-/// squares, and the reflectance straight on. Only what has more digits than `constant` is taken for made of it.
+/// A literal or a uniform of one value is replaced, and so are values derived from it alone: for a refractive index n the ratio 1 / n, its
+/// squares, and the reflectance at normal incidence. A value counts as derived only if it has more digits than `constant`.
 Behaviour replacing(float constant, float by);
 /// Sets the behaviour for a scope.
 class Scope {
@@ -150,8 +151,8 @@ class Scope {
   Behaviour saved_;
 };
 
-/// Before each record of a list that a pass treats by itself: places are counted anew, as before each invocation. `look`: the record's
-/// evaluation, made first where a value is taken from further on in it.
+/// Call before each record of a list that a pass treats separately: places are counted anew, as before each invocation. `look`: the
+/// evaluation of the record, made first if a value is taken from a later point of it.
 template <class Look>
 void begin_record(const Look& look) {
   Behaviour& b = behaviour();
@@ -162,7 +163,8 @@ void begin_record(const Look& look) {
   b.begin_invocation();
 }
 
-/// While it lives the calling thread's operations are none of the pass text: parts of a named one, or of a mistake.
+/// During its lifetime the calling thread's operations do not belong to the pass text, because they are parts of a named function or of a
+/// mistake.
 class Unseen {
  public:
   Unseen();
@@ -183,7 +185,7 @@ class Perturbed {
   Perturbed(float constant) : v(constant) {
     if (!detail::is_reference) literal();
   }
-  /// A value that is no literal and no uniform.
+  /// A value that is neither a literal nor a uniform.
   static Perturbed of(float x) {
     Perturbed d;
     d.v = x;
@@ -208,7 +210,7 @@ class Perturbed {
   friend bool operator<=(const Perturbed& a, const Perturbed& b) { return detail::is_plain ? a.v <= b.v : is_at_most(a, b); }
   friend bool operator>(const Perturbed& a, const Perturbed& b) { return b < a; }
   friend bool operator>=(const Perturbed& a, const Perturbed& b) { return b <= a; }
-  // The place of the call is that of a decision in the pass text.
+  // The position of the call is the position of the decision in the pass text.
   friend Perturbed select(bool m, const Perturbed& a, const Perturbed& b, const Site& site = Site::here()) {
     decided(site, DecisionKind::choice, !m);
     return chosen(m, a, b);
@@ -227,7 +229,7 @@ class Perturbed {
   friend Perturbed floor(const Perturbed& a);
   friend Perturbed fract(const Perturbed& a);
   friend Perturbed mix(const Perturbed& a, const Perturbed& b, const Perturbed& t);
-  /// A number that a fault has made too large for an integer is cut.
+  /// A number that a fault has made too large for an integer is truncated.
   friend Int to_int(const Perturbed& a) { return {a.v > -0x1p30f && a.v < 0x1p30f ? static_cast<std::int32_t>(a.v) : 0}; }
   friend Perturbed to_number(Int a) { return of(static_cast<float>(a.i)); }
   friend Perturbed fetch(const float* texels, Int offset, Perturbed) {
@@ -243,15 +245,15 @@ class Perturbed {
   friend Perturbed cos(const Perturbed& a);
   friend Perturbed atan2(const Perturbed& y, const Perturbed& x);
 
-  /// 1 / sqrt(a) in one instruction: passes do not name it, variations do.
+  /// 1 / sqrt(a) as one instruction; used by variations, not by passes.
   friend Perturbed inverse_sqrt(const Perturbed& a);
 
-  /// The result of an operation of the pass text: as it is, or as the mistake at this place has it.
+  /// The result of an operation of the pass text: unchanged, or as the mistake at this place changes it.
   template <class... Operands>
   static Perturbed met(Op op, const Perturbed& result, const Operands&... of) {
     return behaviour().follows() ? follow(op, result, {&of...}) : result;
   }
-  /// The same of what `result` makes: made where it is returned to, for a copy waits until all of it is written.
+  /// The same for the value of `result`, constructed in place, because a copy would wait until all of it is written.
   template <class Result, class... Operands>
   static Perturbed made(Op op, const Result& result, const Operands&... of) {
     Perturbed r = result();
@@ -261,23 +263,23 @@ class Perturbed {
   static bool met(bool result, const Perturbed& a, const Perturbed& b) { return behaviour().follows() ? follow(result, a, b) : result; }
 
   static bool meets_all() { return behaviour().reaches_all; }
-  /// What a result is given: a place of its own, where something else may stand than where the same value counts otherwise.
+  /// A stored result: a separate place, so that another value may be stored than is used elsewhere.
   Perturbed as_stored() const { return met(Op::stored, *this, *this); }
 
-  /// Its place in Behaviour::trace; -1: none.
+  /// Its node in Behaviour::trace; -1: none.
   std::int32_t node() const { return node_; }
 
-  /// Counts a side of a decision of the pass text, where that is asked for.
+  /// Counts a side of a decision of the pass text, if coverage is recorded.
   static void decided(const Site& site, DecisionKind kind, int side) {
     if (behaviour().coverage) behaviour().coverage->met(site, kind, side);
   }
-  /// The decision counted last is one of a guard() of the pass vocabulary; side: -1, or the one end of a clamp that it speaks of.
+  /// The last counted decision belongs to a guard() of the pass vocabulary; side: -1, or the one end of a clamp that it refers to.
   static void guarded(const char* reason, int side = -1) {
     if (behaviour().coverage) behaviour().coverage->guarded(reason, side);
   }
 
  private:
-  // As the behaviour has them.
+  // Applies the behaviour to a literal.
   void literal();
   static Perturbed column(int first);
   static Perturbed sum(const Perturbed& a, const Perturbed& b);
@@ -308,12 +310,12 @@ class Perturbed {
   // A product that the next addition may fuse: v = factor_ times other_, rounded.
   float factor_ = 0, other_ = 0;
   bool product_ = false;
-  // Where it comes from, while places are followed: hashes one, two and three operations deep, and its node of the trace.
+  // Its origin, while places are tracked: hashes one, two and three operations deep, and its node in the trace.
   std::array<std::uint32_t, 3> shape_{};
   std::int32_t node_ = -1;
 };
 
-// Found by argument before the vocabulary's templates.
+// Argument-dependent lookup finds this before the vocabulary's templates.
 Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c);
 Perturbed sum_any_order(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d);
 Perturbed sum_any_order_in_pairs(const Perturbed& a, const Perturbed& b, const Perturbed& c, const Perturbed& d);
@@ -332,27 +334,27 @@ Perturbed nearest_octave(const Perturbed& x);
 inline Perturbed whole_coordinate(const Perturbed& x) { return Perturbed::met(Op::coordinate, x, x); }
 Perturbed uniform_quotient(float a, float b, Perturbed);
 
-/// While a lookup between two levels is made whose weights are rounded together: the share of the level at hand.
+/// During a lookup between two levels whose weights are rounded together: the share of the current level.
 struct Share {
   float of_level = 0;  ///< 0: no such lookup
   bool x_first = true;
 };
 Share& share();
 
-/// One lookup by a sampler or by arithmetic, as the variations have it: what it takes for a normalized coordinate, for
-/// one in texels, and for a level of detail.
+/// One lookup by a sampler or by arithmetic, as the variations choose: its normalized coordinate, its coordinate in texels, and its level
+/// of detail.
 struct Sampler {
   Sampler();
   bool is_used;
   float coordinate(float u) const;
   float texel(float x) const;
   float level(float lod) const;
-  /// The filtered value of texels a, b, c, d, `in_float` by arithmetic: the four weights rounded so that rows and columns
-  /// keep their sums, the result to numbers of so many bits (24: floats, 11: halves, 0: codes of 8 bits).
+  /// The filtered value of texels a, b, c, d, with `in_float` by arithmetic: the four weights are rounded so that rows and columns keep
+  /// their sums, and the result is rounded to numbers of `bits` bits (24: floats, 11: halves, 0: 8-bit codes).
   float blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const;
 
-  /// Whether this lookup between two levels rounds all eight weights together, the level's share in them: each level is then
-  /// weighted(), with x or y first, and their sum stored().
+  /// Whether this lookup between two levels rounds all eight weights together, including the level's share. Each level is then weighted(),
+  /// with x or y first, and their sum stored().
   bool rounds_jointly() const;
   bool takes_x_first() const;
   float weighted(float a, float b, float c, float d, float fx, float fy, float share, bool x_first) const;

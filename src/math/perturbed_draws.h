@@ -1,4 +1,4 @@
-// Draws of the variations, by the behaviour in force.
+// Random draws of the variations, by the current behaviour.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@ namespace rainref::perturbed {
 /// splitmix64: draws of the variations only.
 inline std::uint64_t draw() { return scramble(behaviour().random += scramble_step); }
 inline bool coin() { return draw() & 1; }
-/// In [-1, 1), or often an end.
+/// In [-1, 1), often one of the ends.
 inline double swing() {
   const std::uint64_t bits = draw();
   if (behaviour().lean != 0 && (bits & 14) != 0) return behaviour().lean;

@@ -1,4 +1,4 @@
-// A lookup as the variations have it.
+// A lookup with variations.
 #include <algorithm>
 
 #include "math/fixed_point_filter.h"
@@ -15,7 +15,7 @@ float Sampler::coordinate(float u) const {
   return static_cast<float>(u + 0.9 * swing() * u * power_of_two(-behaviour().variations->rules.coordinate_bits));
 }
 namespace {
-/// x in fixed point: cut, rounded, or anything between.
+/// x in fixed point: truncated, rounded, or anything between.
 float snapped(float x, int bits) {
   const double steps = power_of_two(bits), offset = std::min(0.5 + 0.5 * swing(), 1 - 0x1p-20);
   return static_cast<float>(floor(scalar::Scalar<double>(scalar::Scalar<double>(x * steps + offset))).v / steps);
@@ -61,7 +61,7 @@ float Sampler::weighted(float a, float b, float c, float d, float fx, float fy, 
     std::swap(fx, fy);
   }
   const double steps = power_of_two(behaviour().variations->rules.subtexel_bits), whole = steps * static_cast<double>(share);
-  // To the nearest; which way a tie goes is anyone's.
+  // To the nearest; ties go either way.
   const auto rounded = [](double x) {
     const double down = floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v, rest = x - down;
     return rest > 0.5 || (rest == 0.5 && coin()) ? down + 1 : down;

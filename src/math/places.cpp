@@ -20,7 +20,7 @@ constexpr std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
   h = (h ^ h >> 13) * 0xc2b2ae35u;
   return h ^ h >> 16;
 }
-/// What the hash of each operation begins with.
+/// Initial hash of each operation.
 constexpr auto beginnings = [] {
   std::array<std::uint32_t, static_cast<std::size_t>(Op::stored) + 1> all{};
   for (std::uint32_t op = 0; op < all.size(); ++op) all[op] = hashed(0, op + 1);
@@ -90,13 +90,13 @@ Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of) {
 }
 namespace {
 
-/// The operands of a node, as they were.
+/// The original operands of a node.
 std::array<Perturbed, 4> operands_of(const Trace::Node& n) {
   std::array<Perturbed, 4> out;
   std::transform(n.with.begin(), n.with.end(), out.begin(), [](float v) { return Perturbed::of(v); });
   return out;
 }
-/// Inner operation after outer, where one or both are two operations in a row.
+/// The inner operation after the outer one; one or both may be two operations in sequence.
 Perturbed commuted(const Rewrite& rewriting, Op op, const Perturbed& r, std::array<Perturbed, 4> of, const Trace::Node& operand,
                    const Trace& trace) {
   const auto k = static_cast<std::size_t>(rewriting.operand), j = static_cast<std::size_t>(rewriting.path[0]);
@@ -123,7 +123,7 @@ Perturbed commuted(const Rewrite& rewriting, Op op, const Perturbed& r, std::arr
   middle[0] = again(lower->op, r, inner);
   return again(operand.op, r, middle);
 }
-/// What a rewrite makes of an operation, whose operands are these nodes of the trace.
+/// The result of a rewrite of an operation, whose operands are these nodes of the trace.
 Perturbed rewritten(const Rewrite& rewriting, Op op, const Perturbed& r, std::array<Perturbed, 4> of,
                     const std::array<std::int32_t, 4>& nodes, const Trace& trace) {
   const Unseen parts;
@@ -181,7 +181,7 @@ Perturbed rewritten(const Rewrite& rewriting, Op op, const Perturbed& r, std::ar
     case RewriteKind::commuted_inner_2:
       return commuted(rewriting, op, r, of, operand, trace);
     case RewriteKind::first_wins: {
-      // The choices before this one, along the side that keeps: one of them that held stays.
+      // The choices before this one, along the side that keeps; the first that held is kept.
       const Trace::Node* kept = &operand;
       for (int round = 0; round < 64 && kept->op == Op::choice; ++round) {
         if (kept->with[2] != 0) return value(nodes[k]);
@@ -251,7 +251,7 @@ float put(float right, float value, Put how) {
 void Substitutions::start() {
   seen.assign(all.size(), 0);
   met.resize(all.size());
-  for (std::vector<float>& values : met) values.clear();  // their room is kept: this is done for each invocation
+  for (std::vector<float>& values : met) values.clear();  // their capacity is kept, because this is done for each invocation
 }
 void Substitutions::meet(std::uint32_t shape, float value) {
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -282,7 +282,7 @@ void Behaviour::begin_invocation() {
 Unseen::Unseen() { ++unseen; }
 Unseen::~Unseen() { --unseen; }
 
-/// Leaves are met in the parts of named operations too: their edges and texels have names.
+/// Leaves are also recorded in the parts of named operations, whose edges and texels have names.
 void Perturbed::leaf(Op op, std::uint32_t shape) {
   shape_.fill(hashed(static_cast<std::uint32_t>(op) + 1, shape));
   Behaviour& b = behaviour();
@@ -296,7 +296,7 @@ void Perturbed::leaf(Op op, std::uint32_t shape) {
 
 namespace {
 
-/// What an operation gives with the substitutions made at it, each after those before: of several operands, and then of the result.
+/// The result of an operation after the substitutions at it, each applied after the previous ones: first to operands, then to the result.
 Perturbed substituted(Substitutions& all, Op op, Perturbed r, std::initializer_list<const Perturbed*> of, std::uint32_t shape) {
   std::array<Perturbed, 4> operands;
   std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
@@ -325,7 +325,7 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   Behaviour& b = behaviour();
   if (b.trace && b.trace->nodes.empty()) b.recent = 0;
   b.recent = b.recent << 6 | (static_cast<std::uint64_t>(op) + 1);
-  // depth[k] sees k operations below this one; the last of them the operations before it, where somebody looks at those.
+  // depth[k] covers k operations below this one; the last one covers the previous operations, if they are observed.
   std::array<std::uint32_t, 5> depth;
   depth.fill(beginnings[static_cast<std::size_t>(op)]);
   for (const Perturbed* operand : of)
@@ -342,7 +342,7 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   if (b.substitutions && !b.substitutions->is_looking) r = substituted(*b.substitutions, op, r, of, shape);
   for (const Rewrite& rewriting : rewrites) {
     if (!b.trace || rewriting.kind == RewriteKind::none) break;
-    const bool is_wild = rewriting.kind == RewriteKind::first_wins;  // it concerns every choice, whatever its shape is
+    const bool is_wild = rewriting.kind == RewriteKind::first_wins;  // it applies to every choice, whatever its shape
     if (is_wild ? op != Op::choice : rewriting.shape != depth[static_cast<std::size_t>(rewriting.depth)]) continue;
     const std::int32_t occurrence = b.trace->met[shape];
     if (!is_wild && rewriting.occurrence >= 0 &&

@@ -1,7 +1,7 @@
-// The SIMD evaluation of double arithmetic, and with it the transcendental functions of a vector of floats.
+// The SIMD evaluation of double arithmetic, and the transcendental functions of a vector of floats.
 //
-// No operation crosses lanes, so the bits of an element do not depend on the width of the vector. Not used on purpose:
-// hn::MulAdd, hn::Min/Max, hn::Floor/Round, estimates, sums over lanes; they differ between targets.
+// No operation crosses lanes, so the bits of an element do not depend on the width of the vector. hn::MulAdd, hn::Min/Max, hn::Floor/Round,
+// estimates and sums over lanes are not used, because they differ between targets.
 // Re-included for every target; see foreach_target.h.
 #if defined(RAINREF_MATH_REAL64_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_MATH_REAL64_LANES_INL_H_
@@ -18,7 +18,7 @@ namespace rainref {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// a / b. Highway's emulated vectors say 0 where b is 0.
+/// a / b. Highway's emulated vectors return 0 if b is 0.
 template <class D>
 HWY_INLINE HWY_ATTR hn::Vec<D> quotient(D d, hn::Vec<D> a, hn::Vec<D> b) {
 #if HWY_TARGET == HWY_EMU128
@@ -33,11 +33,10 @@ HWY_INLINE HWY_ATTR hn::Vec<D> quotient(D d, hn::Vec<D> a, hn::Vec<D> b) {
 #endif
 }
 
-/// As many doubles as fit one vector, with the interface of Real64.
+/// A vector of doubles with the interface of Real64.
 ///
-/// Its functions name the target (HWY_ATTR) because GCC does not give the target of the region to functions defined in
-/// a class. That shows without optimisation only, when they are called and not inlined: the caller passes registers
-/// that the callee does not know.
+/// Its functions name the target (HWY_ATTR) because GCC does not give the target of the region to functions defined in a class. This only
+/// matters without optimisation, when they are called instead of inlined: the caller then passes registers that the callee does not know.
 struct Real64Lanes {
   using D = hn::ScalableTag<double>;
   using DU = hn::RebindToUnsigned<D>;
@@ -100,13 +99,12 @@ struct Real64Lanes {
  private:
   HWY_INLINE HWY_ATTR VU bits() const { return hn::BitCast(DU(), v); }
   static HWY_INLINE HWY_ATTR V from_bits(VU bits) { return hn::BitCast(D(), bits); }
-  /// The mask of lanes that hold 1, all others holding 0.
+  /// The mask of lanes that hold 1; all others hold 0.
   static HWY_INLINE HWY_ATTR Mask from_lowest_bit(VU bit) { return {hn::MaskFromVec(from_bits(hn::Sub(hn::Zero(DU()), bit)))}; }
 };
 
-/// Several vectors of doubles, operation by operation in turn: the halves of a vector of floats, or pairs of pairs for
-/// several of those. A formula is one long chain of dependent operations; chains side by side keep the processor busy
-/// where one after the other would not.
+/// Several vectors of doubles with interleaved operations: the halves of a vector of floats, or pairs of pairs for several of those. A
+/// formula is one long chain of dependent operations; chains side by side keep the processor busy.
 template <class A, class B = A>
 struct Real64Pair {
   struct Mask {
@@ -170,10 +168,10 @@ using NarrowTag = hn::Rebind<float, Real64Lanes::D>;
 
 HWY_INLINE Real64Lanes widen(hn::Vec<NarrowTag> x) { return hn::PromoteTo(Real64Lanes::D(), x); }
 
-/// The one rounding to float, as round_to_float(Real64).
+/// The only rounding to float, like round_to_float(Real64).
 HWY_INLINE hn::Vec<NarrowTag> round_to_float(Real64Lanes x) { return hn::DemoteTo(NarrowTag(), saturate_to_float(x).v); }
 
-/// The doubles of a vector of floats, and back. The scalar target has one lane and no halves.
+/// Conversion of a vector of floats to doubles, and back. The scalar target has one lane and no halves.
 #if HWY_TARGET == HWY_SCALAR
 using Real64Float = Real64Lanes;
 HWY_INLINE Real64Float to_double(FloatVector x) { return widen(x); }
@@ -189,8 +187,8 @@ HWY_INLINE FloatVector to_float(Real64Float x) { return hn::Combine(FloatTag(), 
 using Real64Two = Real64Pair<Real64Float>;
 using Real64Three = Real64Pair<Real64Two, Real64Float>;
 
-/// The functions of transcendental-inl.h, where their domain and accuracy stand, for a vector of floats. Not inlined:
-/// a pass calls several of them, and a call costs little beside what they do.
+/// The functions of transcendental-inl.h for a vector of floats; domain and accuracy are documented there. Not inlined: a pass calls
+/// several of them, and a call is cheap compared with their work.
 inline HWY_NOINLINE FloatVector exp_lanes(FloatVector x) { return to_float(exp_real(to_double(x))); }
 inline HWY_NOINLINE FloatVector exp2_lanes(FloatVector x) { return to_float(exp2_real(to_double(x))); }
 inline HWY_NOINLINE FloatVector log_lanes(FloatVector x) { return to_float(log_real(to_double(x))); }
@@ -198,7 +196,7 @@ inline HWY_NOINLINE FloatVector sin_lanes(FloatVector x) { return to_float(sin_r
 inline HWY_NOINLINE FloatVector cos_lanes(FloatVector x) { return to_float(cos_real(to_double(x))); }
 inline HWY_NOINLINE FloatVector pow_lanes(FloatVector x, FloatVector y) { return to_float(pow_real(to_double(x), to_double(y))); }
 inline HWY_NOINLINE FloatVector atan2_lanes(FloatVector y, FloatVector x) { return to_float(atan2_real(to_double(y), to_double(x))); }
-/// The same for two or three vectors in place, side by side.
+/// The same for two or three vectors in place, interleaved.
 inline HWY_NOINLINE void atan2_lanes(FloatVector (&y)[2], const FloatVector (&x)[2]) {
   const Real64Two z = atan2_real(Real64Two(to_double(y[0]), to_double(y[1])), Real64Two(to_double(x[0]), to_double(x[1])));
   y[0] = to_float(z.lower);

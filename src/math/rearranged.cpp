@@ -8,11 +8,11 @@ namespace rainref::enclosed {
 namespace {
 
 constexpr double infinite = __builtin_inf();
-/// Of what has no lowest bit: an interval, a quotient.
+/// For numbers without a lowest bit: an interval, a quotient.
 constexpr int no_quantum = -100000;
-/// Of zero, which is a multiple of everything.
+/// For zero, which is a multiple of everything.
 constexpr int any_quantum = 100000;
-/// More terms than this are too many to bound; where products of sums are not multiplied out, more roundings than that.
+/// Largest number of terms that can be bounded; if products of sums are not multiplied out, largest number of roundings.
 constexpr float most_terms = 0x1p22f;
 constexpr double most_roundings = 1024;
 
@@ -25,7 +25,7 @@ int lowest_bit(float x) {
   return exponent == 0 ? std::countr_zero(fraction) - 149 : static_cast<int>(exponent) - 150 + std::countr_zero(fraction | 0x800000);
 }
 
-/// The most that one operation errs by, relative to its result.
+/// Largest error of one operation, relative to its result.
 double unit() { return profile().basic == BasicRounding::nearest ? 0x1p-24 : 0x1p-23; }
 
 /// 2^n, |n| at most 1022.
@@ -76,7 +76,7 @@ Enclosure Rearranged::not_below_zero() const {
 }
 
 bool Rearranged::is_power_of_two() const {
-  // A leaf's ends are floats, normal numbers as doubles.
+  // A leaf's ends are floats, which are normal numbers in double.
   return is_leaf_ && lo_ == hi_ && lo_ != 0 && (std::bit_cast<std::uint64_t>(lo_) << 12) == 0;
 }
 Rearranged Rearranged::scaled(double power) const {
@@ -132,7 +132,7 @@ Rearranged operator*(const Rearranged& a, const Rearranged& b) {
   out.quantum_ = std::max(no_quantum, a.quantum_ + b.quantum_);
   out.is_factored_ = a.is_factored_ || b.is_factored_;
   if (a.is_sum_ && b.is_sum_ && how == Rearrangement::distributed && !out.is_on_grid()) {
-    // Not multiplied out: the errors of each side times the other, and both errors, of up to most_roundings each.
+    // Not multiplied out: the error of each side times the other, and both errors, of at most most_roundings each.
     const double x = largest(a.lo_, a.hi_), y = largest(b.lo_, b.hi_);
     out.size_ = a.size_ * y + x * b.size_ + gamma(most_roundings, unit()) * a.size_ * b.size_;
     out.terms_ = a.terms_ + b.terms_;
@@ -160,7 +160,7 @@ Rearranged operator/(const Rearranged& a, const Rearranged& b) {
   if (nearest < 0x1p-126 || furthest > 0x1p126) return Rearranged::vacuous();
   if (a.size_ == 0) return Rearranged();
   if (b.is_power_of_two()) return a.scaled(1 / b.lo_);
-  // 1 / b as the device has it; the products with it count four roundings, which hold a quotient of each term by itself.
+  // 1 / b as the device computes it. Products with it count four roundings, which covers a separate quotient for each term.
   const Accuracy& division = profile().division;
   const double relative = std::max(3.5 * unit(), (division.ulp + 1) * 0x1p-23 + division.relative);
   const double one = 1 / static_cast<double>(by.hi), other = 1 / static_cast<double>(by.lo);
@@ -187,7 +187,7 @@ Rearranged mix(const Rearranged& a, const Rearranged& b, const Rearranged& t) {
   out.quantum_ = std::min(published.quantum_, other.quantum_);
   out.is_sum_ = true;
   out.is_leaf_ = false;
-  // Linear in each argument: the extrema lie at corners.
+  // Linear in each argument, so the extrema are at corners.
   out.lo_ = infinite;
   out.hi_ = -infinite;
   for (const double s : {t.lo_, t.hi_})

@@ -1,18 +1,17 @@
-// The rearranged evaluation of a pass: every result that a compiler may give which treats sums and products as real
-// arithmetic lets it.
+// The rearranged evaluation of a pass: every result of a compiler that changes sums and products by the rules of real arithmetic.
 //
-// A number is a polynomial over leaves: loads, uniforms, literals and results of functions. It carries the exact range of the formula
-// as written, and what bounds the error of every rearrangement of it: the sum of the magnitudes of its terms, their number and their
+// A number is a polynomial over leaves: loads, uniforms, literals and results of functions. It holds the exact range of the formula as
+// written, and the quantities that bound the error of every rearrangement: the sum of the magnitudes of its terms, their number and their
 // degree. Covered are commutativity, associativity, a (b + c) for a b + a c and back, cancelling and merging of equal terms, folded
-// literals, moved signs, contraction, x (1 / c) for x / c, and operations moved through a select. Not covered: terms added and taken
-// away again, factors that the formula does not have, identities of functions. Profile::rearrangement says how far products of sums are
-// multiplied out.
+// literals, moved signs, contraction, x (1 / c) for x / c, and operations moved through a select. Not covered: terms that are added and
+// subtracted again, factors that the formula does not have, identities of functions. Profile::rearrangement says how far products of sums
+// are multiplied out.
 //
 // With t terms of degree at most d, unit roundoff u and M the sum of the magnitudes, a result lies within
 //   gamma M + 2 (t + d) 2^-126 H   of the exact value, gamma = k u / (1 - k u), k = t + d - 1,
-// because a term passes at most t - 1 additions and d - 1 multiplications, and one literal more may be rounded elsewhere. H is M with
-// leaves below 1 counted as 1: a factor that was flushed is multiplied by the rest. Higham, Accuracy and Stability of Numerical
-// Algorithms, 3.1, has gamma. Where all terms are multiples of one power of two and M is at most 2^24 of it, nothing rounds.
+// because a term passes at most t - 1 additions and d - 1 multiplications, and one more literal may be rounded elsewhere. H is M with
+// leaves below 1 counted as 1, because a flushed factor is multiplied by the rest. Higham, Accuracy and Stability of Numerical Algorithms,
+// 3.1, derives gamma. If all terms are multiples of one power of two and M is at most 2^24 times it, nothing rounds.
 #pragma once
 
 #include "math/enclosure.h"
@@ -28,12 +27,12 @@ class Rearranged {
   Rearranged() : Rearranged(Enclosure(0.0f)) {}
   /// A literal or a uniform.
   Rearranged(float x) : Rearranged(Enclosure(x)) {}
-  /// A leaf: the algebra does not reach what it was computed from.
+  /// A leaf: the algebra treats its value as unknown.
   explicit Rearranged(const Enclosure& leaf);
   static Rearranged vacuous() { return Rearranged(Enclosure::vacuous()); }
 
   bool is_vacuous() const { return !(size_ < __builtin_inf()); }
-  /// Every result of every rearrangement.
+  /// Interval of every result of every rearrangement.
   Enclosure settled() const;
 
   template <class Storage>
@@ -47,7 +46,7 @@ class Rearranged {
   friend Rearranged operator-(Rearranged a);
   friend Rearranged operator-(const Rearranged& a, const Rearranged& b) { return a + -b; }
   friend Rearranged operator*(const Rearranged& a, const Rearranged& b);
-  /// As a (1 / b).
+  /// Like a (1 / b).
   friend Rearranged operator/(const Rearranged& a, const Rearranged& b);
   friend Rearranged square(const Rearranged& a);
   /// By either published formula.
@@ -57,11 +56,11 @@ class Rearranged {
   friend bool operator<=(const Rearranged& a, const Rearranged& b) { return a.settled() <= b.settled(); }
   friend bool operator>(const Rearranged& a, const Rearranged& b) { return b < a; }
   friend bool operator>=(const Rearranged& a, const Rearranged& b) { return b <= a; }
-  /// Handed on, not a leaf: operations move through a select.
+  /// Passed on, not made a leaf, because operations may move through a select.
   friend Rearranged select(bool m, const Rearranged& a, const Rearranged& b) { return m ? a : b; }
   friend Rearranged abs(const Rearranged& a);
 
-  // Functions take every result of their argument, and give a leaf.
+  // Functions take every result of their argument, and return a leaf.
   friend Rearranged min(const Rearranged& a, const Rearranged& b) { return Rearranged(min(a.settled(), b.settled())); }
   friend Rearranged max(const Rearranged& a, const Rearranged& b) { return Rearranged(max(a.settled(), b.settled())); }
   friend Rearranged sqrt(const Rearranged& a) { return Rearranged(sqrt(a.not_below_zero())); }
@@ -82,26 +81,26 @@ class Rearranged {
   friend Rearranged fetch(const float* texels, Int offset, const Rearranged&) { return Rearranged(Enclosure(texels[offset.i])); }
 
  private:
-  /// As a leaf that stands for it, where products of sums are not multiplied out at all.
+  /// Replaced by a leaf, if products of sums are not multiplied out.
   Rearranged as_leaf() const { return Rearranged(settled()); }
   Rearranged scaled(double power_of_two) const;
   bool is_power_of_two() const;
-  /// settled(), without the negative part that only the error puts there.
+  /// settled(), without a negative part that comes only from the error bound.
   Enclosure not_below_zero() const;
   double error() const;
-  /// Every partial sum of multiples of 2^q, up to 2^24 of them, is a float: nothing rounds.
+  /// True if every partial sum is a multiple of 2^q, at most 2^24 times it, and so a float: nothing rounds.
   bool is_on_grid() const;
 
   double lo_ = 0, hi_ = 0;  ///< the exact range of the formula as written
   double size_ = 0;         ///< sum of the magnitudes of the terms; infinite: vacuous
-  double padded_ = 0;       ///< the same with every leaf at least 1
+  double padded_ = 0;       ///< the same with every leaf counted as at least 1
   float terms_ = 0, degree_ = 0;
   int quantum_ = 0;  ///< all terms are multiples of 2^quantum_
   bool is_sum_ = false, is_leaf_ = true;
-  bool is_factored_ = false;  ///< has a product of sums in it that is not multiplied out
+  bool is_factored_ = false;  ///< contains a product of sums that is not multiplied out
 };
 
-// Names of the vocabulary, as for enclosures.
+// Vocabulary functions, as for enclosures.
 inline Rearranged sum_any_order(const Rearranged& a, const Rearranged& b, const Rearranged& c) { return a + b + c; }
 inline Rearranged sum_any_order(const Rearranged& a, const Rearranged& b, const Rearranged& c, const Rearranged& d) {
   return a + b + c + d;
@@ -110,7 +109,7 @@ inline Rearranged sum_any_order_in_pairs(const Rearranged& a, const Rearranged& 
   return a + b + c + d;
 }
 inline Rearranged uniform_quotient(float a, float b, const Rearranged&) { return Rearranged(a) / Rearranged(b); }
-/// By t t (3 - 2 t) or 3 t t - 2 t t t.
+/// t t (3 - 2 t) or 3 t t - 2 t t t.
 Rearranged smoothstep(float edge0, float edge1, const Rearranged& x);
 inline Rearranged nearest_octave(const Rearranged& x) { return Rearranged(nearest_octave(x.settled())); }
 scalar::Vec3<Rearranged> normalize(const scalar::Vec3<Rearranged>& a);

@@ -13,21 +13,21 @@
 namespace rainref::scalar {
 
 using rainref::to_float;
-/// A load from storage widens exactly. double storage exists for the oracle's own state only.
+/// A load from storage widens exactly. double storage exists only for the state of the oracle.
 inline double to_float(double x) { return x; }
 inline float to_float(float x) { return x; }
 
-/// Texel indices of a number N: made by to_int, used to fetch. One type for each N, so that to_number knows what to give.
+/// Texel index of a number type N: made by to_int, used by fetch. A separate type for each N, so that to_number knows its result type.
 template <class N>
 struct Index {
   std::int32_t i;
-  // Modulo 2^32: what is far outside an image is held inside it by clamp_index or wrap_index.
+  // Modulo 2^32; clamp_index or wrap_index move indices far outside the image inside.
   friend Index operator+(Index a, std::int32_t b) { return of(word(a.i) + word(b)); }
   friend Index operator+(Index a, Index b) { return of(word(a.i) + word(b.i)); }
   friend Index operator*(Index a, std::int32_t b) { return of(word(a.i) * word(b)); }
   friend Index operator*(Index a, Index b) { return of(word(a.i) * word(b.i)); }
-  /// a moved into [0, size): to the nearer end, or by whole periods. Lanes move by one, which is all that a pass needs of the
-  /// reference's own numbers; here stands also what a port may have stored.
+  /// a moved into [0, size): to the nearer end, or by whole periods. Lanes move by one period only, which is enough for the reference; this
+  /// version also handles values stored by a port.
   friend Index clamp_index(Index a, Index size) { return {a.i < 0 ? 0 : a.i < size.i ? a.i : size.i - 1}; }
   friend Index wrap_index(Index a, Index size) {
     const std::int32_t rest = a.i % size.i;
@@ -86,7 +86,7 @@ struct Scalar {
       return Scalar(__builtin_sqrt(a.v));
   }
   friend Scalar square(Scalar a) { return a * a; }
-  /// Largest integer not above a; the zero is positive.
+  /// Largest integer not above a; a zero is positive.
   friend Scalar floor(Scalar a) {
     constexpr T all_integers = std::is_same_v<T, float> ? T(0x1p23) : T(0x1p52);
     if (!(abs(a).v < all_integers)) return a;
@@ -96,7 +96,7 @@ struct Scalar {
   friend Scalar fract(Scalar a) { return a - floor(a); }
   /// a (1 - t) + b t, in this order.
   friend Scalar mix(Scalar a, Scalar b, Scalar t) { return a * (Scalar(1.0f) - t) + b * t; }
-  /// 0 for what no int32 is near, a NaN included.
+  /// 0 for numbers far outside int32, and for NaN.
   friend Int to_int(Scalar a) { return {a.v > T(-0x1p30) && a.v < T(0x1p30) ? static_cast<std::int32_t>(a.v) : 0}; }
   friend Scalar to_number(Int a) { return Scalar(static_cast<T>(a.i)); }
 
@@ -122,7 +122,7 @@ struct Scalar {
 
 inline bool any(bool m) { return m; }
 
-/// Stores one value in the storage type's own rounding.
+/// Stores one value with the rounding of the storage type.
 inline void store(float* p, Scalar<float> x, Rounding) { *p = x.v + 0.0f; }
 /// A small negative number that rounds to zero is stored as +0.
 inline void store(Half* p, Scalar<float> x, Rounding rounding) {

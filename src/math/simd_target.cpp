@@ -17,7 +17,7 @@ struct Named {
   const char* name;
   std::int64_t bit;
 };
-// EMU128 is what Highway builds in place of SCALAR with clang: the same operations on arrays of four.
+// EMU128 replaces SCALAR in Highway with clang: the same operations on arrays of four.
 constexpr Named known[] = {{"avx3", HWY_AVX3},     {"avx2", HWY_AVX2},     {"sse4", HWY_SSE4}, {"ssse3", HWY_SSSE3},
                            {"scalar", HWY_SCALAR}, {"scalar", HWY_EMU128}, {"neon", HWY_NEON}, {"wasm", HWY_WASM}};
 
@@ -26,7 +26,7 @@ consteval bool has_name(std::int64_t bit) {
     if (target.bit == bit) return true;
   return false;
 }
-// What the compiler's own flags ask for, -march=native among them. HWY_DISABLED_TARGETS leaves the others out.
+// Targets required by the compiler's own flags, including -march=native. HWY_DISABLED_TARGETS removes the others.
 static_assert(has_name(HWY_STATIC_TARGET), "the narrowest target of this build has no name");
 
 std::int64_t usable() {
@@ -60,7 +60,7 @@ void select_simd_target(std::string_view name) {
   }
   if (bit == 0) {
     const std::vector<std::string> here = simd_targets();
-    // AVX-512 is the one target whose usual name is not near the one here.
+    // AVX-512 is the only target whose usual name differs much from the one here.
     const bool is_avx512 =
         name.starts_with("avx512") || name.starts_with("AVX512") || name.starts_with("avx-512") || name.starts_with("AVX-512");
     throw Error(ExitCode::usage, fmt::format("SIMD target '{}': this machine has {}{}", name, fmt::join(here, ", "),

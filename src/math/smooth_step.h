@@ -1,4 +1,4 @@
-// A soft step for what hosts draw in double.
+// A smooth step for host computations in double.
 #pragma once
 
 namespace rainref {

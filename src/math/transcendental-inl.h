@@ -1,19 +1,19 @@
 // The transcendental functions, each formula once: double arithmetic, one rounding to float at the end.
 //
-// Text only: no guard, no includes, no namespace. real64.h and real64_lanes-inl.h include it inside theirs, with
-// RAINREF_FN as the specifier of a function, and read R as one double or as SIMD lanes of double.
+// Text only: no guard, no includes, no namespace. real64.h and real64_lanes-inl.h include it inside their namespaces, with RAINREF_FN as
+// the specifier of a function, and with R as one double or as SIMD lanes of double.
 //
-// R has + - * /, comparisons, select and integer operations on its bits. Nothing here is fused, estimated or taken from
-// the C library, so every evaluation gives the same bits.
+// R has + - * /, comparisons, select and integer operations on its bits. Nothing here is fused, estimated or taken from the C library, so
+// every evaluation gives the same bits.
 //
-// Arguments are finite floats. Every result is finite too, outside the domain as well, so that a lane that is not
-// selected in the end does no harm; what is infinite in mathematics saturates.
+// Arguments are finite floats. Every result is finite, also outside the domain, so that a lane whose result is not selected does no harm;
+// infinite results saturate.
 //
-// Rounded to float, every result is within 0.500001 ULP. The docstrings count the results that are not the nearest
-// float, over all 2^32 floats and against MPFR; `transcendental_full --function NAME` repeats the measurement.
+// Rounded to float, every result is within 0.500001 ULP. The docstrings count the results that are not the nearest float, over all 2^32
+// floats and against MPFR; `transcendental_full --function NAME` repeats the measurement.
 //
-// Where the argument is a double instead (the oracle), it must be 0 or normal and below 2^128, and short of the
-// saturation the result has a relative error of about 2^-50; absolute for sin and cos, and 2^-46 for pow where
+// If the argument is a double (the oracle), it must be 0 or normal and below 2^128. Except for saturation the result has a relative error
+// of about 2^-50; absolute for sin and cos, and 2^-46 for pow where
 // |y log2 x| is near 100.
 
 /// c[0] + c[1] x + c[2] x^2 + ... by Horner's rule.
@@ -26,15 +26,15 @@ RAINREF_FN R polynomial(R x, const double (&c)[Count]) {
   }
 }
 
-/// x, but not beyond +-limit.
+/// x, limited to +-limit.
 template <class R>
 RAINREF_FN R limit_magnitude(R x, double limit) {
   const R not_above = select(x > R(limit), R(limit), x);
   return select(not_above < R(-limit), R(-limit), not_above);
 }
 
-/// x, but not beyond the largest float. Highway's scalar conversion saturates and the processors' give infinity, so
-/// none of them gets to see such a number.
+/// x, limited to the largest float. Highway's scalar conversion saturates and the processors' conversions give infinity, so such a number
+/// must not reach them.
 template <class R>
 RAINREF_FN R saturate_to_float(R x) {
   return limit_magnitude(x, largest_float);
@@ -82,10 +82,10 @@ RAINREF_FN R log_real(R x) {
 }
 
 /// x^y for x >= 0, with x^0 = 1 and x^1 = x; 0^y is 0 for y > 0 and saturates for y < 0. x < 0 is read as 0.
-/// Not nearest: 1 for y = 2.2, 2 for 1/2.2, none for 2.4, 3 for 1/2.4, and 1 when every x has its own y in [-8, 8).
-/// Where x^y lies exactly between two floats, as many squares do, the result may be either.
+/// Not nearest: 1 for y = 2.2, 2 for 1/2.2, none for 2.4, 3 for 1/2.4, and 1 when every x has its own y in [-8, 8). If x^y lies exactly
+/// between two floats, as many squares do, the result may be either.
 ///
-/// x = 2^k m: y k is exact for floats, so only y log2(m), which is at most |y| / 2, carries an error to the exponent.
+/// x = 2^k m: y k is exact for floats, so only y log2(m), at most |y| / 2, adds an error to the exponent.
 template <class R>
 RAINREF_FN R pow_real(R x, R y) {
   const auto inside = x > R(0.0);
@@ -94,7 +94,7 @@ RAINREF_FN R pow_real(R x, R y) {
   const R m = scale_by_power_of_two(positive, whole_bias - k);
   const R whole_part = y * k, other_part = y * (coefficients::two_log2_e * half_log(m));
   const R biased = limit_magnitude(whole_part + other_part, 200.0) + whole_bias;
-  // Beyond the limit the rest is no fraction any more; it only has to stay small.
+  // Beyond the limit the rest is not a fraction; it only has to stay small.
   const R f = limit_magnitude((whole_part - (biased - whole_bias)) + other_part, 1.0);
   const R at_zero = select(y > R(0.0), R(0.0), select(y < R(0.0), R(largest_float), R(1.0)));
   return select(inside, exp2_split(biased, f), at_zero);
@@ -134,16 +134,15 @@ RAINREF_FN R cos_real(R x) {
   return sin_of_split(turns + 1.0, rest);
 }
 
-/// The angle of the point (x, y) in [-pi, pi]. The zeros count with their sign, as in IEEE 754: atan2(+-0, x) is +-0
-/// for x > 0 and x = +0, and +-pi for x < 0 and x = -0. Not nearest: none among 2^32 pairs of any floats, 5 among 2^32
-/// pairs of like size.
+/// The angle of the point (x, y) in [-pi, pi]. The zeros count with their sign, as in IEEE 754: atan2(+-0, x) is +-0 for x > 0 and x = +0,
+/// and +-pi for x < 0 and x = -0. Not nearest: none among 2^32 pairs of any floats, 5 among 2^32 pairs of similar size.
 template <class R>
 RAINREF_FN R atan2_real(R y, R x) {
   const R width = abs(x), height = abs(y);
   const auto steep = width < height;
   const R longer = select(steep, height, width), shorter = select(steep, width, height);
   const R divisor = select(longer > R(0.0), longer, R(1.0));
-  // The angle to the nearer axis lies in [0, pi/4]; above pi/8 it is measured from the diagonal.
+  // The angle to the nearest axis lies in [0, pi/4]; above pi/8 it is measured from the diagonal.
   const auto diagonal = shorter > divisor * coefficients::tan_eighth_pi;
   const R t = select(diagonal, shorter - divisor, shorter) / select(diagonal, shorter + divisor, divisor);
   const R s = t * t;

@@ -1,20 +1,20 @@
-// The named mathematics of passes, written once over a number N and included by every evaluation.
+// The named functions of passes, written once for any number type N and included by every evaluation.
 //
-// Text only: no guard, no includes, no namespace. scalar.h and lanes-inl.h include it inside theirs, with RAINREF_FN as
-// the linkage of a function and RAINREF_LAMBDA as the attribute of a lambda.
+// Text only: no guard, no includes, no namespace. scalar.h and lanes-inl.h include it inside their namespaces, with RAINREF_FN as the
+// linkage of a function and RAINREF_LAMBDA as the attribute of a lambda.
 
-// any(mask) says whether the mask is set in some lane. It may guard work whose result a select of the same mask takes,
-// so that it saves time and never chooses a value.
+// any(mask) says whether the mask is set in some lane. It may skip work whose result is selected by the same mask; so it saves time but
+// never chooses a value.
 
 // ---- guards --------------------------------------------------------------------------------------------------------
-// guard<N>(max(x, least), "why") is max(x, least), and says why no scene takes the other side: of min, max and select the second,
-// of refract total reflection, of a clamp and of a lookup what lies beyond the ends. A number that counts decisions is told.
+// guard<N>(max(x, least), "why") is max(x, least), and states why no scene takes its other side: the second side of min, max and select,
+// total reflection of refract, the range beyond the ends of a clamp or a lookup. A number type that counts decisions records the reason.
 template <class N, class T>
 RAINREF_FN T guard(T decision, const char* reason) {
   if constexpr (requires { N::guarded(reason); }) N::guarded(reason);
   return decision;
 }
-/// The same of the lower end alone.
+/// The same for the lower end only.
 template <class N, class T>
 RAINREF_FN T guard_below(T decision, const char* reason) {
   if constexpr (requires { N::guarded(reason, 0); }) N::guarded(reason, 0);
@@ -45,7 +45,7 @@ RAINREF_FN N minus_four_times(N a, N b) {
 }
 
 // ---- uniforms ------------------------------------------------------------------------------------------------------
-/// a / b of two uniforms: the same for every element, but by the arithmetic of the device.
+/// a / b of two uniforms: the same for every element, but in the arithmetic of the device.
 template <class N>
 RAINREF_FN N uniform_quotient(float a, float b, N) {
   return N(a / b);
@@ -60,15 +60,15 @@ template <class N>
 RAINREF_FN N saturate(N x) {
   return clamp(x, N(0.0f), N(1.0f));
 }
-/// t t (3 - 2 t) with t = saturate((x - edge0) / (edge1 - edge0)). Defined here for edge0 > edge1 too, where GLSL leaves it open.
+/// t t (3 - 2 t) with t = saturate((x - edge0) / (edge1 - edge0)). Also defined for edge0 > edge1, which GLSL leaves undefined.
 template <class N>
 RAINREF_FN N smoothstep(float edge0, float edge1, N x) {
   const N t = saturate((x - N(edge0)) / N(edge1 - edge0));
   return t * t * (N(3.0f) - N(2.0f) * t);
 }
 
-/// floor(log2(x) + 1/2), but not below 0 or above 12: the mip level of x texels to a pixel. By comparison with the powers
-/// of two halfway between whole levels, so that it is exact.
+/// floor(log2(x) + 1/2), clamped to [0, 12]: the mip level for x texels per pixel. It compares with the powers of two halfway between whole
+/// levels, so it is exact.
 template <class N>
 RAINREF_FN N nearest_octave(N x) {
   N level(0.0f);
@@ -119,7 +119,7 @@ template <class N>
 RAINREF_FN Vec3<N> pow(const Vec3<N>& a, N b) {
   return Vec3<N>{pow(a.x, b), pow(a.y, b), pow(a.z, b)};
 }
-/// Two numbers for which a function is wanted; lanes evaluate them side by side.
+/// Two arguments of one function; lanes evaluate them side by side.
 template <class N>
 struct Two {
   N a, b;
@@ -134,8 +134,8 @@ template <class N>
 RAINREF_FN Vec3<N> reflect(const Vec3<N>& v, const Vec3<N>& n) {
   return v - (N(2.0f) * dot(n, v)) * n;
 }
-/// Snell's refraction of unit v at unit n (against v), eta = n1 / n2; zero vector at total internal reflection. The ratio
-/// is a float, or a double where N takes one.
+/// Snell's refraction of unit v at unit n (against v), eta = n1 / n2; zero vector at total internal reflection. The ratio is a float, or a
+/// double if N accepts one.
 template <class N, class Ratio>
 RAINREF_FN Vec3<N> refract(const Vec3<N>& v, const Vec3<N>& n, Ratio eta) {
   const N cosine = dot(n, v);
@@ -146,8 +146,8 @@ RAINREF_FN Vec3<N> refract(const Vec3<N>& v, const Vec3<N>& n, Ratio eta) {
 }
 
 // ---- loops ---------------------------------------------------------------------------------------------------------
-/// At most `limit` rounds of state = body(round, state).state for every lane whose rounds have all said `go` so far.
-/// body returns {go, state}: the round that says stop still counts. The state type has its own select(mask, a, b).
+/// At most `limit` rounds of state = body(round, state).state, for every lane whose rounds have all returned `go` so far. body returns {go,
+/// state}; the state of a round that stops still counts. The state type has its own select(mask, a, b).
 template <class M, class State>
 struct Round {
   M go;

@@ -8,14 +8,15 @@ namespace {
 
 constexpr int tile_side = 32;
 
-/// What is seen at the centre of a texel.
+/// The result at the centre of a texel.
 struct Centre {
   double radiance[3];
-  float tone;  ///< brightness as an eye would rank it, in [0, 1)
+  float tone;  ///< perceived brightness, in [0, 1)
   std::uint32_t object;
   bool is_ground;
 };
-/// The first pass. Its memory is first touched by the threads that fill it: one alone would take as long as they for their rays.
+/// The first pass. Its memory is first touched by the threads that fill it, because one thread alone would take as long for that as all of
+/// them for their rays.
 struct Centres {
   int width, height;
   std::unique_ptr<Centre[]> all =
@@ -32,7 +33,7 @@ float tone_of(const Vec& radiance) {
 
 bool differs(const Centres& centres, int x, int y, Edge edge) {
   const Centre& here = centres.at(x, y);
-  // Wet ground glitters; more rays would buy little there.
+  // Wet ground glitters, and more rays would improve it little.
   const float tolerance = here.is_ground ? 0.16f : 0.1f;
   for (int j = -1; j <= 1; ++j) {
     for (int i = -1; i <= 1; ++i) {

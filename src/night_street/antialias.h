@@ -1,4 +1,4 @@
-// Pictures of the street: one ray for each texel, nine or three where neighbours differ.
+// Pictures of the street: one ray per texel, nine or three if neighbours differ.
 #pragma once
 
 #include <functional>
@@ -15,11 +15,11 @@ using RayOfPart = std::function<Ray(int i, int j)>;
 /// Called once for each texel with its centre ray, from any thread.
 using AtCentre = std::function<void(int x, int y, const Ray& ray, const Seen& seen)>;
 
-/// How a picture is addressed at its left and right edge.
+/// Address rule of a picture at its left and right edge.
 enum class Edge : std::uint8_t { clamp, wrap };
 
-/// An rgba32f image of linear radiance, alpha 1. A texel is the mean of its 9 parts, or of the three on a diagonal, where
-/// it differs from a neighbour in object or in brightness, and its centre alone elsewhere. Nothing is clamped.
+/// An rgba32f image of linear radiance, alpha 1. If a texel differs from a neighbour in object or in brightness, it is the mean of its 9
+/// parts, or of the three on a diagonal; otherwise it is its centre. Nothing is clamped.
 Image antialiased(const City& city, int width, int height, Edge edge, Parts parts, const RayOfPart& ray_of, const AtCentre& at_centre,
                   const parallel::Executor& executor);
 

@@ -43,14 +43,14 @@ Lot draw_lot(const City& city, std::uint64_t id, double z) {
   return lot;
 }
 
-/// A word drawn at random for each house would repeat next door; the list is dealt out in turn from a random start.
+/// Words drawn at random for each house would repeat next door, so the list is used in turn from a random start.
 template <class List>
 std::string_view deal(const City& city, const List& list, Purpose purpose, std::uint64_t turn, std::uint64_t stride) {
   const std::uint64_t start = random_bits(city.seed, 0, purpose) >> 32;
   return list[static_cast<std::size_t>((start + stride * turn) % list.size())];
 }
 
-/// A few signs are about to die.
+/// A few signs are faulty.
 double brightness(const City& city, const Lot& lot) { return city.random(lot.id, Purpose::sign_fault) < 0.07 ? 0.2 : 1; }
 
 void add_fascia(City& city, Lot& lot, double side) {

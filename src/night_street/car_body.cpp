@@ -58,7 +58,7 @@ void add_body(const Car& car, int paint, int cabin) {
 }
 
 void add_wheel(const Car& car, const CarMaterials& materials, double sign, double f) {
-  // The arch is the upper half of a disc that lies on the flank; below the sill there is only the tyre.
+  // The arch is the upper half of a disc on the flank; below the sill only the tyre is visible.
   std::vector<Plane> arch;
   constexpr double radius = 0.40, diagonal = 0.7071067811865476;
   for (const auto& [y, along] : {std::array{1.0, 0.0},
@@ -105,7 +105,7 @@ void add_trim(const Car& car, const CarMaterials& m) {
 bool in_window(double across, double y, double along, const Vec& normal) {
   if (normal.y > 0.93 || y < belt || y > roof_rail) return false;
   if (magnitude(normal.x) > 0.7) return magnitude(along + 0.06) > 0.045 && magnitude(along) < 1.12;  // the pillar between the doors
-  return magnitude(across) < cabin_offset - cabin_lean * y - 0.055;  // those beside windscreen and rear window
+  return magnitude(across) < cabin_offset - cabin_lean * y - 0.055;  // the pillars beside windscreen and rear window
 }
 
 CarMaterials::CarMaterials(City& city)

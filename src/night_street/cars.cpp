@@ -1,4 +1,4 @@
-// Where cars drive and where they are parked.
+// Positions of moving and parked cars.
 #include "night_street/cars.h"
 
 #include "night_street/city.h"
@@ -21,7 +21,7 @@ void build_cars(City& city, bool clear_lane) {
   constexpr std::array<Vec, 6> paints{Vec{0.010, 0.011, 0.013}, Vec{0.22, 0.22, 0.23}, Vec{0.14, 0.008, 0.008},
                                       Vec{0.012, 0.025, 0.07},  Vec{0.35, 0.35, 0.34}, Vec{0.03, 0.035, 0.03}};
   const auto paint_of = [&](std::uint64_t id) { return paints[static_cast<std::size_t>(6 * city.random(id, Purpose::car_paint))]; };
-  // Driving cars keep clear of |z| < 10: a camera starts there.
+  // Moving cars keep clear of |z| < 10, where a camera starts.
   constexpr std::array<double, 6> away{-15, -38, -70, -150, 22, 75}, oncoming{-31, -54, -92, -190, 16, 110};
   for (std::size_t i = 0; i < away.size(); ++i) {
     const double jitter_away = 3 * city.random(4000 + i, Purpose::car_place);

@@ -1,4 +1,4 @@
-// What stands in the street: plain data, drawn once from the seed, read by everything else.
+// The objects of the street as plain data, drawn once from the seed and used by everything else.
 #pragma once
 
 #include <array>
@@ -38,19 +38,19 @@ struct Material {
   bool glass = false;  ///< a car's cabin: dark glass in its windows
 };
 
-/// A lit text of tubes. Letters stand 4 units wide on a pitch of 6, 6 units tall.
+/// An illuminated text of tubes. Letters are 4 units wide with a pitch of 6, and 6 units tall.
 struct Sign {
   std::string_view text;
   Vec colour;         ///< radiance of the tube's core
-  bool upright;       ///< letters below one another
-  double unit;        ///< metres of one letter unit
-  Box board;          ///< metres; the face that carries the text is its two largest sides
+  bool upright;       ///< letters are stacked vertically
+  double unit;        ///< size of one letter unit [m]
+  Box board;          ///< metres; the text is on its two largest faces
   double brightness;  ///< share of the nominal brightness, [0, 1]
 };
 
 enum class Shop : std::uint8_t { glazed, cafe, shutter, entrance };
 
-/// One building of one side of the street. Distances from the street's axis are |x|.
+/// A building on one side of the street. Distances from the street's axis are |x|.
 struct Lot {
   double z0, z1;  ///< extent along the street, z0 < z1
   double front;   ///< |x| of its facade
@@ -58,7 +58,7 @@ struct Lot {
   double storey;                       ///< height of one storey above the ground floor
   int bays;                            ///< window columns
   double window_width, window_height;  ///< share of the bay and of the storey
-  double lit_share;                    ///< how many windows are lit, [0, 1]
+  double lit_share;                    ///< share of lit windows, [0, 1]
   int style;                           ///< 0 punched windows, 1 ribbon glazing, 2 tall sash pairs
   Shop shop;
   Vec wall;         ///< albedo
@@ -67,7 +67,7 @@ struct Lot {
   std::uint64_t id;
 };
 
-/// A source for the light map and the haze: a small sphere, brighter along an axis.
+/// A light source for the light map and the haze: a small sphere, brighter along an axis.
 struct Source {
   Vec position;
   Vec intensity;  ///< radiance x m^2 towards a viewer off the axis
@@ -75,7 +75,7 @@ struct Source {
   double gain;    ///< intensity on the axis / off the axis - 1
   int focus;      ///< the gain falls as cos^(2^focus) from the axis
   double radius;  ///< metres, for highlights
-  bool compact;   ///< makes its own highlight on wet asphalt and a halo in the haze
+  bool compact;   ///< has its own highlight on wet asphalt and a halo in the haze
 };
 
 struct City {
@@ -92,18 +92,19 @@ struct City {
   Noise clouds, clouds_large, puddles, asphalt, ripple, stain, skyline;
 
   City(std::uint64_t street_seed, bool clear_lane);
-  /// Made when it is first asked for: a street whose pictures were kept (cache/kept_images.h) needs none. Any thread may ask.
+  /// Made on the first call, because a street with kept pictures (cache/kept_images.h) does not need it. Thread-safe.
   const LightMap& light() const;
-  /// Makes it beforehand, on all threads. light() does not: whoever waited in it would take tiles of others, and might ask for it again.
+  /// Makes it in advance, on all threads. light() does not use all threads, because a caller that waits there would run tiles of others,
+  /// which might call it again.
   void light_up(const Rows& rows) const;
   double random(std::uint64_t object, Purpose purpose) const { return random01(seed, object, purpose); }
   int add_material(const Material& material);
-  /// Adds a solid whose planes are already in `planes`, from first_plane on, or that has none.
+  /// Adds a solid whose planes are already in `planes` from first_plane on, or that has no planes.
   void add(Solid solid, int material);
   void add_box(const Vec& low, const Vec& high, int material);
   void add_pole(const Vec& foot, double radius, double height, int material);
   void add_convex(const std::vector<Plane>& sides, const Box& bounds, int material);
-  /// A sphere that emits; listed as a lamp and as a compact source. gain and focus as in Source.
+  /// Adds an emissive sphere; it is listed as a lamp and as a compact source. gain and focus as in Source.
   void add_lamp(const Vec& centre, double radius, const Vec& radiance, const Vec& axis, double gain, int focus);
 
  private:

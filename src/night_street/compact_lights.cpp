@@ -1,5 +1,5 @@
-// The sums over lights are compiled once for each SIMD target, as plain loops over eight lanes that the compiler turns into
-// vectors. No operation crosses lanes before the one fixed sum at the end, so the bits are the same for all.
+// The sums over lights are compiled once for each SIMD target, as plain loops over eight lanes that the compiler vectorizes. No operation
+// crosses lanes before the one fixed sum at the end, so the bits are the same for all targets.
 #include "night_street/compact_lights.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double halo_reach = 30;                         ///< metres from a sou
 constexpr float aureole = 0.0040f, aureole_core = 0.03f;  ///< the tight glow: weight, and squared metres of its core
 constexpr float veil = 0.0070f, veil_core = 5.0f;         ///< the wide one
 constexpr float faded = aureole / (900 + aureole_core) + veil / (900 + veil_core);  ///< both at halo_reach
-constexpr double lobe_reach = 5.4;  ///< slopes, in units of roughness, at which the lobe ends
+constexpr double lobe_reach = 5.4;                                                  ///< slope at which the lobe ends, in units of roughness
 constexpr float lobe_end = 1 / (1 + 5.4f * 5.4f);
 
 struct Sum {
@@ -71,14 +71,14 @@ Vec Highlight(const LightGroup* groups, std::size_t count, const Vec& point, con
   const auto alpha = static_cast<float>(roughness);
   const float nv = positive(nx * vx + ny * vy + nz * vz) + 1e-3f, k = 0.5f * alpha;
   const float view_shadow = 4 * (nv * (1 - k) + k);
-  // For passing over groups: the horizontal direction away from the viewer, and the tilt of the normal.
+  // For skipping groups: the horizontal direction away from the viewer, and the tilt of the normal.
   const double level = std::sqrt(view.x * view.x + view.z * view.z) + 1e-9;
   const double ax = -view.x / level, az = -view.z / level;
   const double tilt = std::sqrt(normal.x * normal.x + normal.z * normal.z) / normal.y;
   Sum sum;
   for (const LightGroup& g : std::span(groups, count)) {
-    // The half vector (l + v) of a source at horizontal offset r, height y, distance d leans across the view by
-    // |r x a| / (y + v.y d); a lobe reaches no farther than `slope`.
+    // The half vector (l + v) of a source at horizontal offset r, height y, distance d leans across the view by |r x a| / (y + v.y d); a
+    // lobe reaches at most `slope`.
     const double cx = 0.5 * (g.bounds.low.x + g.bounds.high.x) - point.x, ex = 0.5 * (g.bounds.high.x - g.bounds.low.x);
     const double cz = 0.5 * (g.bounds.low.z + g.bounds.high.z) - point.z, ez = 0.5 * (g.bounds.high.z - g.bounds.low.z);
     const double reach = std::sqrt(cx * cx + cz * cz), extent = ex + ez;

@@ -43,7 +43,7 @@ Vec building_radiance(const City& city, const Hit& hit, const Vec& point, const 
   const Lot& lot = city.lots[static_cast<std::size_t>(hit.side)][static_cast<std::size_t>(hit.index)];
   if (magnitude(hit.normal.x) < 0.5) return blank_wall(city, lot, hit, point);
   FacadePoint at;
-  const bool is_right = hit.side == 1;  // whoever looks at the right row sees +z on the right
+  const bool is_right = hit.side == 1;  // a viewer of the right row sees +z on the right
   at.u = is_right ? point.z - lot.z0 : lot.z1 - point.z;
   at.y = point.y;
   at.into = {is_right ? d.z : -d.z, d.y, magnitude(d.x)};

@@ -1,4 +1,4 @@
-// Facades: windows with rooms behind them, shop fronts, walls. All procedural on one plane for each building.
+// Facades: windows with rooms behind them, shop fronts, walls. All procedural, on one plane per building.
 #pragma once
 
 #include "night_street/trace.h"
@@ -8,7 +8,7 @@ namespace rainref::night_street {
 
 struct Lot;
 
-/// A point of the street-side face of a building, in the frame of somebody who looks at it.
+/// A point of the street-side face of a building, in the frame of a viewer facing it.
 struct FacadePoint {
   double u;     ///< metres from the left edge
   double y;     ///< height, metres
@@ -17,16 +17,16 @@ struct FacadePoint {
   double soft;  ///< [0, 1] fades fine detail (far away, or a rough reflection)
 };
 
-/// Radiance towards the viewer of a building hit at `point` by a ray in direction d from `distance` metres.
+/// Radiance toward the viewer of a building hit at `point` by a ray in direction d from `distance` metres.
 Vec building_radiance(const City& city, const Hit& hit, const Vec& point, const Vec& d, double soft);
 /// The storeys above the shop.
 Vec storey_radiance(const City& city, const Lot& lot, const FacadePoint& at);
 /// The ground floor, y in [0, plan::ground_floor].
 Vec shop_radiance(const City& city, const Lot& lot, const FacadePoint& at);
-/// What dark glass shows: a weak reflection of the sky and of the lit street.
+/// Reflection in dark glass: weak sky and lit street.
 Vec glass_reflection(const FacadePoint& at);
 
-/// Where a ray from (u, y) on the front of a room (width x height x depth metres) ends inside.
+/// The point where a ray from (u, y) on the front of a room (width x height x depth metres) ends inside.
 struct RoomPoint {
   enum Surface : std::uint8_t { back_wall, side_wall, ceiling, floor } surface;
   Vec p;  ///< metres: x from the left wall, y from the floor, z from the front

@@ -48,7 +48,7 @@ void build_lamps(City& city) {
     for (int k = -11; k <= 11; ++k) {
       const auto id = static_cast<std::uint64_t>(1000 + row * 100 + k);
       const double z = (row == 0 ? -8 : 5) + 26.0 * k + 1.2 * (city.random(id, Purpose::lamp_offset) - 0.5);
-      // Most of the left row is old sodium, most of the right row has been replaced.
+      // Most lamps of the left row are old sodium lamps; most of the right row have been replaced.
       const bool is_sodium = city.random(id, Purpose::lamp_kind) < (row == 0 ? 0.85 : 0.35);
       add_street_lamp(city, side, z, is_sodium ? 170.0 * sodium : 130.0 * white, steel);
     }
@@ -61,7 +61,7 @@ void build_signals(City& city) {
   for (std::size_t i = 0; i < plan::crossings.size(); ++i) {
     const int state = city.random(2000 + i, Purpose::signal_state) < 0.5 ? 0 : 2;
     for (const double facing : {1.0, -1.0}) {
-      // Traffic that sees the face comes from its side: it keeps right, so its kerb is at sign(x) = facing.
+      // Traffic that sees the face comes from its side; it keeps right, so its kerb is at sign(x) = facing.
       const double x = facing * 5.0, z = plan::crossings[i] - facing * (plan::crossing_half_length + 0.7);
       city.add_pole({x, plan::kerb_height, z}, 0.07, 5.9, steel);
       const double tip = facing * 2.0;

@@ -26,7 +26,7 @@ Hierarchy::Hierarchy(const std::vector<Solid>& solids) {
   std::vector<Box> boxes;
   for (const Solid& solid : solids) {
     Box box = solid.bounds();
-    // A skin far above rounding, so that a box never culls a solid that the exact test would meet.
+    // A margin far above rounding, so that a box never culls a solid that the exact test would hit.
     const Vec skin{1e-6, 1e-6, 1e-6};
     boxes.push_back({box.low - skin, box.high + skin});
   }

@@ -10,12 +10,12 @@ namespace rainref::night_street {
 class Hierarchy {
  public:
   Hierarchy() = default;
-  /// Splits where the surface area heuristic is least, ties by axis and index: a fixed tree for a list of solids
-  /// (Goldsmith and Salmon 1987; MacDonald and Booth 1990).
+  /// Splits at the minimum of the surface area heuristic, ties by axis and index: a fixed tree for a list of solids (Goldsmith and Salmon
+  /// 1987; MacDonald and Booth 1990).
   explicit Hierarchy(const std::vector<Solid>& solids);
 
-  /// Calls visit(solid index, farthest) for every solid whose box the ray crosses before `farthest`; visit may lower
-  /// `farthest` and thereby cull what lies behind.
+  /// Calls visit(solid index, farthest) for every solid whose box the ray crosses before `farthest`; visit may reduce `farthest` to cull
+  /// everything behind.
   template <class Visit>
   void walk(const Ray& ray, double& farthest, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -40,7 +40,7 @@ class Hierarchy {
     Box box;
     int first = 0;  ///< leaf: first entry of order_; inner node: first child (low side of the split)
     int second_child = 0;
-    int count = 0;  ///< solids of a leaf, 0 for an inner node
+    int count = 0;  ///< number of solids of a leaf, 0 for an inner node
     int axis = 0;
   };
   static double axis_of(const Vec& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }

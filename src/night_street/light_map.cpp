@@ -1,5 +1,5 @@
-// The sums over sources are compiled once for each SIMD target: points of a grid's row in lanes of doubles, each with the operations of
-// one point by itself.
+// The sums over sources are compiled once for each SIMD target: points of a grid's row in lanes of doubles, each with the operations of a
+// single point.
 #include "night_street/light_map.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 RAINREF_TARGET_BEGIN(night_street)
 
-/// What sources give the points of a row, divided by pi.
+/// Light of the sources at the points of a row, divided by pi.
 void Receive(const Source* const* sources, std::size_t count, const LightRow& row, Vec* out) {
   constexpr double one_over_pi = 0.31830988618379067;
   const hn::ScalableTag<double> d;

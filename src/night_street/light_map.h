@@ -1,4 +1,4 @@
-// Light that lamps, shops and signs throw on the street, computed once on grids and looked up by every shading.
+// Light from lamps, shops and signs on the street, computed once on grids and looked up in shading.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@ namespace rainref::night_street {
 
 struct Source;
 
-/// Irradiance / pi on the ground and on the two building lines (so that albedo times it is radiance), without shadows.
+/// Irradiance / pi on the ground and on the two building lines (radiance is albedo times it), without shadows.
 class LightMap {
  public:
   LightMap() = default;
-  /// `rows` says who sums it up; the bits do not hang on it.
+  /// `rows` runs the summation and does not affect the bits.
   explicit LightMap(const std::vector<Source>& sources, const Rows& rows = rows_here);
 
   /// On the horizontal ground at (x, z).

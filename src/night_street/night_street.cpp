@@ -15,14 +15,14 @@ namespace {
 
 struct Laid {
   std::shared_ptr<const City> city;
-  std::size_t bytes() const { return std::size_t{16} << 20; }  // about, light map included
+  std::size_t bytes() const { return std::size_t{16} << 20; }  // approximate, including the light map
 };
 Laid lay_out(const int&, const std::uint64_t& seed, const bool& clear_lane) { return {std::make_shared<const City>(seed, clear_lane)}; }
 
 }  // namespace
 
 Street::Street(const Options& options) : options_(options) {
-  FloatingPointGuard guard;  // the street is laid out here, outside the tiles that pin the state
+  FloatingPointGuard guard;  // the street is built here, outside the tiles, which set the state themselves
   city_ = cache::prepared("street", 0, lay_out, options.seed, options.clear_lane)->city;
   lamps_ = city_->lamps;
 }

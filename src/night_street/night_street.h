@@ -1,9 +1,8 @@
-// A procedural city street at night in the rain: the picture that every effect can use with no asset.
+// A procedural city street at night in the rain, which every effect can use without an asset.
 //
-// World: right-handed, y up, metres. The road (y = 0, 9 m wide, centred on x = 0) runs along z both ways; kerbs are
-// 0.12 m high, pavements 3 m wide, facades stand beyond |x| = 7.5. Traffic keeps right: a driver who looks along -z
-// has x > 0. Radiance is linear, relative: 1 displays as white at exposure 0. The same seed gives the same bits on
-// every machine, compiler and number of threads.
+// World: right-handed, y up, metres. The road (y = 0, 9 m wide, centred on x = 0) runs along z both ways; kerbs are 0.12 m high, pavements
+// 3 m wide, facades stand beyond |x| = 7.5. Traffic keeps right: a driver who looks along -z has x > 0. Radiance is linear, relative: 1
+// displays as white at exposure 0. The same seed gives the same bits on every machine, compiler and number of threads.
 #pragma once
 
 #include <memory>
@@ -33,9 +32,9 @@ class Street final : public scene::Scenery {
   /// Street lamps first.
   const std::vector<Lamp>& lamps() const override { return lamps_; }
 
-  /// A puddle on the road sees it from (0, 0.05, 0). Antialiased, and kept for other runs (cache/kept_images.h).
+  /// View of a puddle on the road, from (0, 0.05, 0). Antialiased, and kept for other runs (cache/kept_images.h).
   Image panorama(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const override;
-  /// The same; kept when it has nine parts: other views pass.
+  /// The same; kept only with nine parts, because other views are transient.
   View view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor,
             Parts parts = Parts::nine) const override;
   /// Sharp lamps, no filtering, dimmed by haze.
@@ -45,7 +44,7 @@ class Street final : public scene::Scenery {
   View rendered(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor, Parts parts) const;
   Image traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const;
   Options options_;
-  std::shared_ptr<const City> city_;  // which the streets of a process that remembers share
+  std::shared_ptr<const City> city_;  // shared by equal streets of a process that caches
   std::vector<Lamp> lamps_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace rainref::night_street {
 
-/// What a random number decides: one object draws one number for each purpose.
+/// Purposes of random numbers: one object draws one number for each.
 enum class Purpose : std::uint32_t {
   alley,
   asphalt,
@@ -61,7 +61,7 @@ enum class Purpose : std::uint32_t {
   window_level,
   window_lit,
   window_tone,
-  walker_heading,  // new ones go to the end: the numbers of the others stay
+  walker_heading,  // add new ones at the end, so that the numbers of the others stay
   walker_size
 };
 
@@ -74,12 +74,12 @@ inline double random01(std::uint64_t seed, std::uint64_t object, Purpose purpose
   return static_cast<double>(random_bits(seed, object, purpose) >> 11) * 0x1p-53;
 }
 
-/// One key for a pair of integers, order matters.
+/// One key for a pair of integers; the order matters.
 inline std::uint64_t pair_key(std::int64_t a, std::int64_t b) {
   return static_cast<std::uint64_t>(a) * scramble_step ^ scramble(static_cast<std::uint64_t>(b) + 0x7f4a7c15u);
 }
 
-/// A field of smooth noise. The salt is mixed once, a lattice point costs one 32-bit hash.
+/// A field of smooth noise. The salt is mixed once; a lattice point costs one 32-bit hash.
 class Noise {
  public:
   Noise(std::uint64_t seed, Purpose purpose) : salt_(static_cast<std::uint32_t>(random_bits(seed, 0, purpose) >> 32)) {}

@@ -11,13 +11,13 @@ namespace rainref::night_street {
 
 namespace {
 
-enum class Bounce : std::uint8_t { none, mirror, rough };  ///< how the ray came to be
+enum class Bounce : std::uint8_t { none, mirror, rough };  ///< origin of the ray
 
 Vec surface(const City& city, const Ray& ray, const Hit& hit, Bounce bounce);
 
 double fifth(double a) { return a * a * a * a * a; }
 
-/// Light along a reflected ray, haze included, halos left to the caller.
+/// Light along a reflected ray, including haze; the caller adds halos.
 Vec reflected(const City& city, const Ray& ray, Bounce bounce, Hit& hit) {
   hit = trace(city, ray, bounce == Bounce::mirror);
   if (!hit.is_surface()) return sky_gradient(ray.direction);
@@ -32,11 +32,11 @@ Vec ground_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce bou
 
   const WetGround ground = wet_ground(city, hit.kind, p, hit.t);
   const double rough = ground.roughness;
-  // A rough film sends less to the mirror side at grazing view: its slopes shade one another.
+  // At grazing view a rough film reflects less in the mirror direction, because its slopes shadow each other.
   const double share = (0.02 + 0.98 * fifth(1 - steep) / (1 + 3.5 * rough)) * mix(0.8, 1, ground.water);
 
-  // Slopes spread like the film's, in pairs that lean opposite ways; keyed by the place, so that every picture of the
-  // street agrees. The key is finer than any texel.
+  // Slopes distributed like the film's, in pairs that lean in opposite directions; keyed by position, so that all pictures of the street
+  // agree. The key is finer than any texel.
   const std::uint64_t place = pair_key(floor_int(p.x * 32768), floor_int(p.z * 32768));
   const std::uint64_t bits = random_bits(city.seed, place, Purpose::jitter);
   const auto draw = [bits](int shift) { return static_cast<double>(bits >> shift & 0xffff) * (1.0 / 65536); };
@@ -58,9 +58,9 @@ Vec ground_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce bou
   const Ray mean(p, off_ground(reflect(ray.direction, ground.normal)));
   const double end = first.is_surface() ? first.t : 400;
   const Vec mirror = (1.0 / samples) * sum + city.lights.halo(mean, end);
-  // Luminaires send more light down to the road than they show to a viewer.
+  // Luminaires emit more light down to the road than toward a viewer.
   Vec highlight = 1.7 * city.lights.highlight(p, -1.0 * ray.direction, ground.normal, rough);
-  // What stands on the road hides the lamps behind it.
+  // An object on the road hides the lamps behind it.
   if (first.kind == Hit::solid && first.t < 6) highlight = mix(0.15, 1, first.t / 6) * highlight;
   return ground.albedo * light + share * mirror + mix(0.75, 1, ground.water) * highlight;
 }
@@ -77,7 +77,7 @@ Vec solid_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce boun
     const double width = solid.b.x - solid.a.x, u = hit.normal.z > 0 ? p.x - solid.a.x : solid.b.x - p.x;
     emitted = tube_radiance(sign, width, solid.b.y - solid.a.y, u, p.y - solid.a.y, soft);
   }
-  // The map holds light from above; sides get about half of it, undersides what the wet road throws back.
+  // The map contains light from above; sides get about half of it, undersides the light reflected by the wet road.
   const double side = 0.42 + 0.38 * hit.normal.y;
   const Vec light = side * city.light().ground(p.x, p.z) + Vec{0.006, 0.005, 0.008};
   const Vec middle = 0.5 * (solid.a + solid.b);
@@ -85,7 +85,7 @@ Vec solid_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce boun
   const Vec albedo = glass ? Vec{0.004, 0.004, 0.005} : material.albedo;
   Vec radiance = emitted + albedo * light;
   if (material.shine > 0) {
-    // Bodywork is curved: the flat faces of the solid shade as if they bulged, which bends what they mirror.
+    // Bodywork is curved: the flat faces of the solid are shaded as if convex, which bends their reflections.
     Vec normal = hit.normal;
     if (solid.shape == Solid::convex) {
       const Vec half = 0.5 * (solid.b - solid.a), from_middle = p - middle;
@@ -94,7 +94,7 @@ Vec solid_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce boun
     const double facing = clamp01(-dot(ray.direction, normal));
     const double fresnel = material.shine + (1 - material.shine) * 0.8 * fifth(1 - facing);
     Vec direction = reflect(ray.direction, normal);
-    // Never into the solid.
+    // Not into the solid.
     direction = unit(direction + (max_of(0, 0.02 - dot(direction, hit.normal))) * hit.normal);
     Vec mirror = 1.5 * sky_gradient(direction) + 0.12 * light;
     if (bounce == Bounce::none && material.shine >= 0.05 && solid.shape == Solid::convex) {

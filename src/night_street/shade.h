@@ -6,7 +6,7 @@
 
 namespace rainref::night_street {
 
-/// Linear radiance that reaches the ray's origin, and what the ray met. A pure function of the street and the ray.
+/// Linear radiance that reaches the ray's origin, and the object that the ray hit. A pure function of the street and the ray.
 struct Seen {
   Vec radiance;
   Hit hit;

@@ -4,7 +4,7 @@ namespace rainref::night_street {
 
 namespace {
 
-/// First crossing of a circle of this radius round the origin by (p, q) + t (dp, dq); false when missed or inside.
+/// First crossing of a circle of this radius round the origin by (p, q) + t (dp, dq); false if it is missed or the start is inside.
 bool enter_circle(double p, double q, double dp, double dq, double radius, double& t) {
   const double a = dp * dp + dq * dq, b = p * dp + q * dq, c = p * p + q * q - radius * radius;
   const double under = b * b - a * c;
@@ -35,7 +35,7 @@ bool enter_pole(const Solid& s, const Ray& ray, SolidHit& hit) {
 
 bool enter_wheel(const Solid& s, const Ray& ray, SolidHit& hit) {
   const Vec o = ray.origin - s.a;
-  // The flat side first: it is the one that the street sees.
+  // The flat side first, because it is the one that faces the street.
   const double side = o.x > 0 ? s.b.y : -s.b.y;
   const double t = (side - o.x) * ray.reciprocal.x;
   if (t > 0 && magnitude(o.x) > s.b.y) {

@@ -1,4 +1,4 @@
-// The solids that stand in the street, and where a ray meets them.
+// The solids of the street, and their intersections with rays.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct Box {
   Vec low, high;
 };
 
-/// One solid. The meaning of `a` and `b` hangs on the shape.
+/// One solid. The meaning of `a` and `b` depends on the shape.
 struct Solid {
   enum Shape : std::uint8_t {
     sphere,  ///< a = centre, b.x = radius
@@ -39,11 +39,11 @@ struct SolidHit {
   Vec normal;  ///< unit, outward
 };
 
-/// The first entry of the ray into the solid with t in (nearest, farthest); false when there is none. A ray that
-/// starts inside a solid does not see it.
+/// The first entry of the ray into the solid with t in (nearest, farthest); false if there is none. A ray that starts inside a solid does
+/// not see it.
 bool intersect(const Solid& solid, const std::vector<Plane>& planes, const Ray& ray, double nearest, double farthest, SolidHit& hit);
 
-/// Whether the ray crosses the box within (0, farthest), and where it enters; entry < 0 when it starts inside.
+/// Whether the ray crosses the box within (0, farthest), and the t of its entry; entry < 0 if it starts inside.
 inline bool crosses(const Box& box, const Ray& ray, double farthest, double& entry) {
   const double x0 = (box.low.x - ray.origin.x) * ray.reciprocal.x, x1 = (box.high.x - ray.origin.x) * ray.reciprocal.x;
   const double y0 = (box.low.y - ray.origin.y) * ray.reciprocal.y, y1 = (box.high.y - ray.origin.y) * ray.reciprocal.y;

@@ -45,7 +45,7 @@ Vec interior(const City& city, const Lot& lot, const FacadePoint& at, double wid
   return shade * mix(shown, Vec{0.34, 0.30, 0.27}, 0.7 * at.soft) * lot.shop_light;
 }
 
-/// Things that stand in the window, dark against the light: they give the shop depth.
+/// Objects in the window, dark against the light, which give the shop depth.
 bool is_display(const City& city, const Lot& lot, double u, double y) {
   const std::int64_t i = floor_int(u / 0.42);
   const std::uint64_t key = scramble(lot.id * 131 + static_cast<std::uint64_t>(i + 64));

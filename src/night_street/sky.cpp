@@ -18,12 +18,12 @@ Vec sky_gradient(const Vec& d) {
 
 Vec sky(const City& city, const Vec& d) {
   const double up = clamp01(d.y);
-  // Clouds lie on a flat ceiling; the offset keeps them finite at the horizon.
+  // Clouds are on a flat ceiling; the offset keeps them finite at the horizon.
   const double reach = 1.9 / (up + 0.14);
   const double large = city.clouds_large.value(0.35 * reach * d.x, 0.35 * reach * d.z);
   const double small = city.clouds.layered(reach * d.x + 1.6 * large, reach * d.z, 4);
   const double cover = smooth_step(0.32, 0.74, 0.6 * small + 0.4 * large);
-  const double near_horizon = 1 - smooth_step(0.0, 0.12, up);  // the clouds melt into the haze
+  const double near_horizon = 1 - smooth_step(0.0, 0.12, up);  // the clouds fade into the haze
   const double light = mix(0.45 + 1.25 * cover, 1, near_horizon);
   const Vec warm{0.0070, 0.0034, 0.0030};  // street light on the underside of the clouds
   return light * sky_gradient(d) + (cover * (1 - near_horizon)) * warm;

@@ -7,10 +7,10 @@ namespace rainref::night_street {
 
 struct City;
 
-/// What the haze itself shows where it hides everything: the city's glow on rain, linear radiance.
+/// Radiance of the haze where it hides everything: the city's glow on rain, linear.
 inline constexpr Vec haze_glow{0.027, 0.0195, 0.0245};
 
-/// Share of a surface's light that crosses `distance` metres of haze: 1 at 0, falling without bound.
+/// Share of a surface's light that passes `distance` metres of haze: 1 at 0, decreasing toward 0.
 inline double clear_share(double distance) { return 1 / (1 + distance * (1.0 / 130) + square(distance * (1.0 / 150))); }
 
 /// Cloudless sky in direction d (unit): blue-violet overhead, glow near the horizon. For weak reflections.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nothing = 1e9;
 
-/// The ray crosses the plane where its coordinate is `level`, going from o by d; t <= 0 when it does not.
+/// t at which the ray crosses the plane where its coordinate is `level`, from o in direction d; t <= 0 if it does not.
 double cross_at(double level, double o, double d, double reciprocal) { return magnitude(d) < 1e-12 ? -1 : (level - o) * reciprocal; }
 
 void trace_ground(const Ray& ray, Hit& hit) {
@@ -33,7 +33,7 @@ void trace_ground(const Ray& ray, Hit& hit) {
   }
 }
 
-/// The lot that holds z, clamped to the first and the last.
+/// The lot that contains z, clamped to the first and the last.
 int lot_at(const std::vector<Lot>& lots, double z) {
   const auto after = std::upper_bound(lots.begin(), lots.end(), z, [](double a, const Lot& lot) { return a < lot.z0; });
   return std::max(0, static_cast<int>(after - lots.begin()) - 1);
@@ -76,11 +76,11 @@ Hit trace(const City& city, const Ray& ray, bool with_lamps) {
   Hit hit;
   hit.t = nothing;
   trace_ground(ray, hit);
-  // Big things first: they shorten the walk through the small ones.
+  // Large objects first, because they shorten the search among the small ones.
   for (const int side : {0, 1}) trace_buildings(city, ray, side, hit);
   trace_skyline(city, ray, hit);
   double farthest = hit.t;
-  int first = 0;  // of solids at the same distance the one with the lowest index, whatever the order of the walk
+  int first = 0;  // of solids at the same distance the one with the lowest index, whatever the order of the search
   city.hierarchy.walk(ray, farthest, [&](int index, double& limit) {
     const Solid& solid = city.solids[static_cast<std::size_t>(index)];
     if (!with_lamps && solid.shape == Solid::sphere && city.materials[static_cast<std::size_t>(solid.material)].emission.x > 0) return;

@@ -1,4 +1,4 @@
-// What a ray meets first in the street.
+// The first hit of a ray in the street.
 #pragma once
 
 #include "night_street/vec.h"
@@ -14,11 +14,11 @@ struct Hit {
   int side = 0;   ///< building: row 0 (x < 0) or 1
   int index = 0;  ///< building: lot; solid: index in City::solids
   bool is_surface() const { return kind != sky; }
-  /// Equal for two hits only when they lie on the same object.
+  /// Equal for two hits only if they are on the same object.
   std::uint32_t object() const { return static_cast<std::uint32_t>(kind) << 24 ^ static_cast<std::uint32_t>(2 * index + side); }
 };
 
-/// The nearest surface. Lamps (emissive spheres) are left out when with_lamps is false.
+/// The nearest surface. Lamps (emissive spheres) are ignored if with_lamps is false.
 Hit trace(const City& city, const Ray& ray, bool with_lamps = true);
 
 }  // namespace rainref::night_street

@@ -6,7 +6,7 @@ namespace rainref::night_street {
 
 namespace {
 
-/// Strokes of a letter on a grid 4 wide and 6 tall: "x0 y0 x1 y1" in one digit each, strokes parted by a space.
+/// Strokes of a letter on a grid 4 wide and 6 tall: "x0 y0 x1 y1" in one digit each, strokes separated by a space.
 std::string_view strokes(char letter) {
   switch (letter) {
     case 'A':
@@ -106,7 +106,7 @@ Vec tube_radiance(const Sign& sign, double width, double height, double u, doubl
   }
   const double core = 1 - smooth_step(0.05, 0.17, squared);
   const double glow = 0.11 / (1 + square(squared * 0.9)) + 0.022 / (1 + 0.12 * squared * squared);
-  const double white = 0.28 * core * core;  // the middle of a tube burns out towards white
+  const double white = 0.28 * core * core;  // the centre of a tube is overexposed toward white
   const Vec burnt{sign.colour.x + white * 4, sign.colour.y + white * 4, sign.colour.z + white * 4};
   const Vec sharp = core * burnt + glow * sign.colour;
   return sign.brightness * mix(sharp, 0.26 * sign.colour, soft);

@@ -7,8 +7,8 @@ namespace rainref::night_street {
 
 struct Sign;
 
-/// Radiance of the sign's lit side at (u, v) metres from the lower left corner of its board, as the reader sees it.
-/// soft in [0, 1] fades the strokes into their mean: far signs and rough reflections must not alias.
+/// Radiance of the sign's lit side at (u, v) metres from the lower left corner of its board, from the reader's view. soft in [0, 1] fades
+/// the strokes into their mean, so that far signs and rough reflections do not alias.
 Vec tube_radiance(const Sign& sign, double width, double height, double u, double v, double soft);
 
 }  // namespace rainref::night_street

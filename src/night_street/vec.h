@@ -1,4 +1,4 @@
-// Small vectors and the few scalar shapes of the street. Only + - * / sqrt and comparisons: the bits are portable.
+// Small vectors and a few scalar functions of the street. Only + - * / sqrt and comparisons, so the bits are portable.
 #pragma once
 
 #include <array>

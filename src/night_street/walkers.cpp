@@ -9,18 +9,18 @@ constexpr double diagonal = 0.7071067811865476;
 constexpr std::array<std::array<double, 2>, 8> around{
     {{1, 0}, {diagonal, diagonal}, {0, 1}, {-diagonal, diagonal}, {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}}};
 
-/// Somebody who walks along z; measures of a person of 1.75 m: s sideways, y up from the ground, f forward.
+/// A person who walks along z. Measures are for a height of 1.75 m: s sideways, y up from the ground, f forward.
 struct Walker {
   City& city;
   double x, z, heading, size;
 
   Vec at(double s, double y, double f) const { return {x + size * s, plan::kerb_height + size * y, z + heading * size * f}; }
 
-  /// Of eight sides between two levels; half widths across and along at the lower and at the upper one.
+  /// A trunk of eight sides between two levels; half widths across and along at the lower and at the upper level.
   void trunk(double y0, double y1, std::array<double, 2> low, std::array<double, 2> high, int material) const {
     std::vector<Plane> planes;
     for (const auto& [cx, cz] : around) {
-      // The side touches both ellipses at this angle: its normal is across both the rim and the line from one to the other.
+      // The side touches both ellipses at this angle: its normal is perpendicular to the rim and to the line between the two points.
       const Vec lower = at(low[0] * cx, y0, low[1] * cz), upper = at(high[0] * cx, y1, high[1] * cz);
       const Vec out = unit({cx / low[0], 0, heading * cz / low[1]}), up = unit(upper - lower);
       const Vec normal = unit(out - dot(out, up) * up);
@@ -71,7 +71,7 @@ struct Clothes {
 };
 
 void add_person(const Walker& w, const Clothes& of, bool holds_umbrella) {
-  // In the middle of a step.
+  // In mid-stride.
   w.limb(w.at(-0.085, 0.92, 0), w.at(-0.085, 0.50, 0.17), 0.085, 0.06, of.trousers);
   w.limb(w.at(-0.085, 0.52, 0.16), w.at(-0.085, 0.07, 0.26), 0.06, 0.045, of.trousers);
   w.shoe(-0.085, 0, 0.27, of.shoes);

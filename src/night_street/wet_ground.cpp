@@ -23,7 +23,7 @@ double road_paint(double x, double z) {
   return paint;
 }
 
-/// Slope of the ring that a fresh drop drives over standing water; one ring lives in each cell of 0.3 m.
+/// Slope of the ring that a fresh drop makes on standing water; there is one ring in each cell of 0.3 m.
 void add_ring(const City& city, const Vec& point, double strength, double& slope_x, double& slope_z) {
   constexpr double cell = 0.3;
   const std::int64_t i = floor_int(point.x / cell), j = floor_int(point.z / cell);
@@ -69,7 +69,7 @@ WetGround wet_ground(const City& city, Hit::Kind kind, const Vec& point, double 
   const double swell = mix(0.030, 0.010, ground.water) / (1 + square(distance * (1.0 / 70)));
   double slope_x = swell * (city.ripple.value(point.x * 1.3, point.z * 1.3) - 0.5);
   double slope_z = 2.2 * swell * (city.ripple.value(point.x * 1.3 + 71.2, point.z * 1.3 - 33.9) - 0.5);
-  // Slopes of some centimetres are finer than a texel beyond some metres, where they would show as streaks across the view.
+  // Beyond some metres slopes of centimetres are finer than a texel, and would show as streaks across the view.
   const double fine = mix(0.10, 0.012, ground.water) / (1 + square(distance * (1.0 / 6)));
   slope_x += fine * (city.asphalt.value(point.x * 14, point.z * 14) - 0.5);
   slope_z += fine * (city.asphalt.value(point.x * 14 + 53.7, point.z * 14 + 11.4) - 0.5);

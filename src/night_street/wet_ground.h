@@ -1,4 +1,4 @@
-// Wet asphalt and paving: where water stands, how rough the film is, what is painted on it.
+// Wet asphalt and paving: standing water, roughness of the film, road markings.
 #pragma once
 
 #include "night_street/trace.h"

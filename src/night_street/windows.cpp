@@ -1,4 +1,4 @@
-// The storeys above the shops: walls, cornices, and windows that somebody may be awake behind.
+// The storeys above the shops: walls, cornices, and windows, some of them lit.
 #include "night_street/city.h"
 #include "night_street/facade.h"
 

@@ -35,7 +35,7 @@ void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::func
     std::iota(order.begin(), order.end(), std::int64_t{0});
     std::uint64_t state = shuffle_seed_;
     for (std::size_t i = order.size(); i > 1; --i) {
-      state = state * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator; only the order hangs on it
+      state = state * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator; it only affects the order
       std::swap(order[i - 1], order[(state >> 33) % i]);
     }
   }

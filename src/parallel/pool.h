@@ -1,9 +1,9 @@
 // The threads behind an Executor: oneTBB's, plain ones under the thread sanitizer, or none. CMake compiles one of pool_tbb.cpp,
 // pool_threads.cpp and pool_serial.cpp.
 //
-// oneTBB is not built with that sanitizer, which therefore sees no order in what its workers do: either everything is reported or,
-// with the library suppressed, nothing. Plain threads that take turns with the tiles order nothing but start and end of a loop, so that
-// neighbouring tiles which touch the same memory are reported.
+// oneTBB is not built with that sanitizer, which therefore sees no order between its workers: it reports either everything or, with the
+// library suppressed, nothing. Plain threads that take tiles in turn are ordered only by the start and end of a loop. So neighbouring tiles
+// that touch the same memory are reported.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@
 namespace rainref::parallel {
 
 struct Executor::Pool {
-  /// 0 threads: one for each processor that this process may use. The serial pool has one whatever it is told.
+  /// 0 threads: one for each processor that this process may use. The serial pool always has one.
   explicit Pool(int threads);
   ~Pool();
   int threads() const;
   static constexpr std::int64_t most_pieces = std::int64_t{1} << 31;
   /// Calls body(i) for i in [0, count), count <= most_pieces, each on any thread. Rethrows the first exception of a body; pieces that have
-  /// not begun by then may be left out.
+  /// not started by then may be skipped.
   void run(std::int64_t count, const std::function<void(std::int64_t)>& body) const;
 
  private:

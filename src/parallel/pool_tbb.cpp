@@ -15,13 +15,13 @@
 namespace rainref::parallel {
 namespace {
 
-// Longer than what lies between the loops of a frame.
+// Longer than the time between the loops of a frame.
 constexpr std::chrono::microseconds patience{200};
 
 struct Helpers {
   explicit Helpers(int threads) : team(threads) {}
   Team team;
-  std::atomic<int> count{0};  // those that help, or will
+  std::atomic<int> count{0};  // helpers that run or will run
 };
 
 }  // namespace
@@ -34,12 +34,12 @@ struct Executor::Pool::Threads {
 
 Executor::Pool::Pool(int threads)
     : threads_(new Threads{oneapi::tbb::task_arena(threads == 0 ? oneapi::tbb::info::default_concurrency() : threads), {}, nullptr}) {
-  // The scheduler starts no more workers than the machine has processors unless told to, and a proof over 8 threads on
-  // 2 processors needs 8. One limit for the process: of several, the smallest would hold for every pool.
+  // The scheduler starts at most as many workers as the machine has processors unless told otherwise, and a test with 8 threads on 2
+  // processors needs 8. There is one limit for the process, because of several the smallest would apply to every pool.
   static const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, max_threads);
   threads_->arena.initialize();
   threads_->helpers = std::make_shared<Helpers>(this->threads());
-  // Who waits on a processor keeps others from it: only where each thread has its own.
+  // A waiting thread keeps others from its processor, so threads only wait if each has its own.
   if (this->threads() <= oneapi::tbb::info::default_concurrency()) threads_->patience = patience;
 }
 Executor::Pool::~Pool() { threads_->helpers->team.stop(); }

@@ -1,4 +1,4 @@
-// Plain threads that take turns with the pieces, for the thread sanitizer: parallel/pool.h.
+// Plain threads that take the pieces in turn, for the thread sanitizer: parallel/pool.h.
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -14,7 +14,7 @@ struct Executor::Pool::Threads {
   int count;
 };
 
-// The library may not know how many processors there are.
+// The library may not know the number of processors.
 Executor::Pool::Pool(int threads)
     : threads_(new Threads{threads == 0 ? std::max(1, static_cast<int>(std::thread::hardware_concurrency())) : threads}) {}
 Executor::Pool::~Pool() = default;

@@ -6,7 +6,7 @@
 
 namespace rainref::parallel {
 
-/// The executor has to outlive it.
+/// The executor must outlive the result.
 inline Rows rows_of(const Executor& executor) {
   return [&executor](int count, const std::function<void(int, int)>& body) {
     constexpr int chunk = 16;

@@ -5,7 +5,7 @@
 namespace rainref::parallel {
 namespace {
 
-constexpr unsigned looks = 4096;  // some microseconds, before others may have the processor for a moment
+constexpr unsigned looks = 4096;  // some microseconds of polling, before the processor is yielded
 
 }  // namespace
 
@@ -19,8 +19,8 @@ std::int64_t Team::Share::take(bool is_own) {
   }
 }
 
-// A thread begins with its own share, the same in each loop over as many rows, so that much of what it reads lies in its cache; then it
-// takes from the others'.
+// A thread begins with its own share, which is the same in each loop over this number of pieces, so that its cache holds much of the data;
+// then it takes from the others.
 void Team::work(Loop& loop, std::size_t place) {
   try {
     const std::size_t all = loop.shares.size();
@@ -39,11 +39,11 @@ bool Team::run(std::int64_t count, const std::function<void(std::int64_t)>& body
   Loop loop{body, std::vector<Share>(threads_), {}, {}};
   for (std::size_t k = 0; k < threads_; ++k) loop.shares[k].set(pieces * k / threads_, pieces * (k + 1) / threads_);
   loop_ = &loop;
-  const std::uint64_t last = state_.load(std::memory_order_relaxed);  // closed, and nobody takes part
+  const std::uint64_t last = state_.load(std::memory_order_relaxed);  // closed, and no thread takes part
   state_.store((last / one_loop + 1) * one_loop | open, std::memory_order_release);
   begun();
   work(loop, 0);
-  // Nothing is left to take; what is taken must be done before the loop's memory goes.
+  // Nothing is left to take; pieces already taken must finish before the loop's memory is freed.
   state_.fetch_and(~open, std::memory_order_relaxed);
   for (unsigned k = 0; (state_.load(std::memory_order_acquire) & taking_part) != 0; ++k) {
     if (k % looks == looks - 1) std::this_thread::yield();
@@ -56,7 +56,7 @@ bool Team::run(std::int64_t count, const std::function<void(std::int64_t)>& body
 
 void Team::help(int place, std::chrono::nanoseconds patience) {
   using Clock = std::chrono::steady_clock;
-  std::uint64_t seen = 0;  // the loop of which this thread has had its part
+  std::uint64_t seen = 0;  // the last loop in which this thread took part
   Clock::time_point idle_since = Clock::now();
   for (unsigned k = 0; !stopped_.load(std::memory_order_relaxed); ++k) {
     std::uint64_t state = state_.load(std::memory_order_relaxed);

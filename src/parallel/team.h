@@ -1,5 +1,5 @@
-// The threads that take part in loops one after another. A frame runs dozens of short loops, and to wake a thread takes time as
-// well. Here a thread that has done its part waits for the next loop for a moment before it goes.
+// The threads that take part in consecutive loops. A frame runs dozens of short loops, and waking a thread takes time. So a thread that has
+// done its part waits briefly for the next loop before it leaves.
 #pragma once
 
 #include <atomic>
@@ -12,25 +12,27 @@
 
 namespace rainref::parallel {
 
-/// Any thread may run loops; one at a time gets the team. Any other thread may help. Threads are the caller's.
+/// Any thread may run loops; one at a time gets the team. Any other thread may help. The caller owns the threads.
 class Team {
  public:
-  /// Up to `threads` take part in a loop: the one that runs it and helpers of places 1 to threads - 1.
+  /// At most `threads` take part in a loop: the one that runs it, and helpers with places 1 to threads - 1.
   explicit Team(int threads) : threads_(static_cast<std::size_t>(threads)) {}
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  /// Calls body(i) for i in [0, count), count < 2^32, here and wherever a thread helps; begun() once others may take pieces. Returns when
-  /// all are done. Rethrows the first exception of a body; pieces that have not begun by then may be left out. False, with nothing done,
-  /// while another loop is under way.
+  /// Calls body(i) for i in [0, count), count < 2^32, on this thread and on all helpers. Calls begun() when others may take pieces. Returns
+  /// when all are done. Rethrows the first exception of a body; pieces that have not started by then may be skipped. Returns false, without
+  /// doing anything, while another loop runs.
   bool run(std::int64_t count, const std::function<void(std::int64_t)>& body, const std::function<void()>& begun);
-  /// Takes part in every loop until there has been none for `patience`, or stop(). place: 1 to threads - 1, of one thread at a time.
+  /// Takes part in every loop until there has been none for `patience`, or until stop(). place: 1 to threads - 1, used by one thread at a
+  /// time.
   void help(int place, std::chrono::nanoseconds patience);
-  /// Helpers go as soon as they have no loop.
+  /// Makes helpers leave as soon as they have no loop.
   void stop() { stopped_.store(true, std::memory_order_relaxed); }
 
  private:
-  /// Pieces [first, end) that are left of a thread's share, in one word: it takes the first, others the last. A cache line for each.
+  /// Remaining pieces [first, end) of a thread's share, in one word. The owner takes the first, others the last. Each has its own cache
+  /// line.
   struct alignas(64) Share {
     std::atomic<std::uint64_t> left{0};
 
@@ -46,13 +48,13 @@ class Team {
   };
   static void work(Loop& loop, std::size_t place);
 
-  // The number of the loop, whether threads may begin to take part in it, and how many do.
+  // The number of the loop, whether threads may still join it, and how many take part.
   static constexpr std::uint64_t one_loop = std::uint64_t{1} << 32, open = std::uint64_t{1} << 31, taking_part = open - 1;
 
   const std::size_t threads_;
   std::atomic<bool> taken_{false}, stopped_{false};
   alignas(64) std::atomic<std::uint64_t> state_{0};
-  Loop* loop_ = nullptr;  // of whom `state_` counts
+  Loop* loop_ = nullptr;  // whose participants `state_` counts
 };
 
 }  // namespace rainref::parallel

@@ -1,4 +1,4 @@
-// How a pass's arithmetic loads texels, with any number N. Text only, like math/vocabulary-inl.h; load4 stands before it.
+// How the arithmetic of a pass loads texels, for any number type N. Text only, like math/vocabulary-inl.h; include load4 before it.
 template <class N, class Storage, int channels, int reach>
 struct TexelCursor : pass::RowPointers<Storage, channels, reach> {
   using Base = pass::RowPointers<Storage, channels, reach>;
@@ -8,7 +8,7 @@ struct TexelCursor : pass::RowPointers<Storage, channels, reach> {
     static_assert(channels == 1);
     return N::load(this->row[dy + reach] + (this->x + dx));
   }
-  /// The four channels of its own texel.
+  /// The four channels of the cursor's own texel.
   RAINREF_FN void load(N (&c)[4]) const {
     static_assert(channels == 4);
     load4(this->row[reach] + 4 * this->x, c);

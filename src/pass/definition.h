@@ -1,15 +1,14 @@
-// A pass as one definition. Its file has two parts, which a room includes where it needs them:
+// A pass as one definition. Its file has two parts, which a room includes where it needs them.
 //
-//   outside every namespace        what the pass is: a struct that Takes a block, with `about`, uniforms() and Io<B>;
-//                                                                with fault(bound): why a case whose buffers fit does not, or "";
-//                                                                with rounds_inside(uniforms): whether it rounds on its way as it
-//                                                                stores what it gives;
-//                                                                with near(uniforms, list, corrected, columns, tile): those of a
-//                                                                list that may count in a tile; the others change no bit there
-//   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y) of a texel;
-//                                                                with views(io), which is asked once a row: run(u, io, views, x, y);
-//                                                                with State<N>, a record of numbers, run_record<N, corrected>(u, io,
-//                                                                record) of a record, or (u, io) where there is none before
+// Outside every namespace: the declaration, a struct that Takes a block, with `about`, uniforms() and Io<B>, and optionally
+//   fault(bound)                                       why a case is invalid although its buffers fit, or ""
+//   rounds_inside(uniforms)                            whether it rounds intermediate values as it rounds its stores
+//   near(uniforms, list, corrected, columns, tile)     the records of a list that may count in a tile; the others change no bit there
+//
+// Inside the namespace of a number type (RAINREF_FN defined): the arithmetic, a struct with one of
+//   run<N, corrected>(u, io, x, y)                     a texel
+//   run(u, io, views, x, y)                            the same with views(io), which is computed once per row
+//   run_record<N, corrected>(u, io, record)            a record, whose numbers are State<N>; (u, io) if there is no record before
 //
 // Io<B> names each buffer once. The binding B says what a buffer is: its declaration (Declared), the host's images (Host), the
 // arrays of a captured case (model.h), or a cursor over rows of lanes or of another number (cursor-inl.h). Everything here is
@@ -36,7 +35,7 @@
 
 namespace rainref::pass {
 
-/// How a variant runs a pass. revision counts up whenever the order of operations or a constant changes; 0: it does not run it.
+/// How a variant runs a pass. revision is raised when the order of operations or a constant changes; 0: the variant does not run it.
 struct VariantOf {
   int revision = 0;
   capture::Judge judge = capture::Judge::envelope;
@@ -45,47 +44,47 @@ struct About {
   std::string_view name, sentence;
   VariantOf as_published, corrected;
   std::array<std::string_view, 4> order_free_sums{};  ///< sums whose terms a port may add in any order
-  std::string_view independence = "gather";           ///< as capture::PassInfo
+  std::string_view independence = "gather";           ///< see capture::PassInfo
 };
-/// What a definition begins with: its uniform block, and words to list the members in.
+/// Base of a definition: its uniform block, and functions to list its members.
 template <class Block>
 struct Takes {
   using Uniforms = Block;
   using U = Block;
-  /// As scene::member.
+  /// See scene::member.
   template <auto P>
   static scene::Member member(std::string unit, scene::Range range, std::string sentence) {
     return scene::member<P>(std::move(unit), range, std::move(sentence));
   }
   static scene::UniformBlock block(std::vector<scene::Member> members) { return scene::uniform_block<Block>(std::move(members)); }
 };
-/// Whether a variant has a buffer that is of this one alone, or of both ("").
+/// True if a buffer of `variant` ("" means both) exists in this variant.
 constexpr bool is_of(std::string_view variant, bool corrected) { return variant.empty() || (variant == "corrected") == corrected; }
 
 /// A buffer that a pass reads.
 struct In {
   std::string_view name;
-  std::string_view from = "";     ///< the pass that wrote it; "": the host
-  bool previous = false;          ///< from the run of that pass before this one
-  std::string_view variant = "";  ///< the one that reads it; "": both
+  std::string_view from = "";     ///< the pass that wrote it; "": written by the host
+  bool previous = false;          ///< as the previous run of that pass wrote it
+  std::string_view variant = "";  ///< the variant that reads it; "": both
   bool optional = false;          ///< the host may leave it out
-  bool same_size = false;         ///< as the pass's outputs, though it is looked up by coordinates
-  std::string_view count = "";    ///< of records: the uniform that says how many of them count
-  std::size_t records = 0;        ///< of records: exactly so many; 0: any number
+  bool same_size = false;         ///< of the size of the pass's outputs, although it is looked up by coordinates
+  std::string_view count = "";    ///< for records: the uniform that says how many of them are used
+  std::size_t records = 0;        ///< for records: exact number; 0: any number
   Filter filter = Filter::none, mip_filter = Filter::none;
 };
-/// A buffer that a pass writes. Without a sentence it is one that another pass declares, and this one writes anew.
+/// A buffer that a pass writes. Without a sentence it is declared by another pass, and this pass writes it again.
 struct Out {
   std::string_view name, sentence = "", unit = "1";
   std::array<double, 2> range{0, 1};
   std::string_view encoding = "none", colour_space = "none", alpha = "none";
-  std::string_view variant = "";     ///< the one that writes it; "": both
+  std::string_view variant = "";     ///< the variant that writes it; "": both
   std::string_view format_key = "";  ///< the scene key that chooses one of several formats
-  std::string_view record = "";      ///< of a list: the layout in EffectInfo::records
+  std::string_view record = "";      ///< for a list: the layout in EffectInfo::records
   bool operator==(const Out&) const = default;
 };
 
-/// The storage type of a format's channels.
+/// Storage type of a format's channels.
 template <Format f>
 struct StorageOf;
 // clang-format off
@@ -97,8 +96,8 @@ template <> struct StorageOf<Format::r32f>    { using type = float;  static cons
 template <> struct StorageOf<Format::rgba32f> { using type = float;  static constexpr int channels = 4; };
 // clang-format on
 
-// ---- the members of Io, without naming them again ------------------------------------------------------------------------
-// What the compiler does not see through here, it keeps in memory in the inner loop: always inlined, no library in between.
+// ---- iteration over the members of Io -------------------------------------------------------------------------------------
+// Always inlined and without library code: the compiler must see through it, or it keeps members in memory in the inner loop.
 #define RAINREF_FLAT __attribute__((always_inline)) inline
 #define RAINREF_FLAT_LAMBDA __attribute__((always_inline))
 
@@ -118,7 +117,7 @@ constexpr int count() {
   else
     return count<T, n - 1>();
 }
-/// f(member, ...) with all n members.
+/// Calls f(member, ...) with all n members.
 template <int n, class S, class F>
 constexpr RAINREF_FLAT void unpack(S& s, const F& f) {
   // clang-format off
@@ -136,9 +135,9 @@ constexpr RAINREF_FLAT void unpack(S& s, const F& f) {
 }
 }  // namespace detail
 
-/// What list, describe and layouts say.
+/// Declarations for list, describe and layouts.
 struct Declared {
-  /// Loaded by integer texel, its own or one up to `around` columns and rows away, where the nearest texel stands beyond the ends.
+  /// Loaded by integer texel: its own, or one up to `around` columns and rows away. Beyond the ends the nearest texel is used.
   template <Format f, int around = 0>
   struct Texels : In {
     static constexpr Format format = f;
@@ -149,13 +148,13 @@ struct Declared {
   struct Sampled : In {
     constexpr Sampled(In in) : In(in) {}
   };
-  /// The same of an image and its mip levels that lanes need not have decoded.
+  /// The same for an image and its mip levels, which need not be decoded for lanes.
   template <Format f>
   struct Stored : In {
     constexpr Stored(In in) : In(in) {}
   };
-  /// Channels of an image of one of these formats, each a plane by itself, loaded by integer texel; beyond the ends by the image's
-  /// address rule. No lanes are made of them.
+  /// Channels of an image of one of these formats, each a separate plane, loaded by integer texel; beyond the ends by the image's address
+  /// rule. Not available in lanes.
   template <Format...>
   struct Planes : In {
     static constexpr int reach = 0;
@@ -166,11 +165,11 @@ struct Declared {
     constexpr Records(In in) : In(in) {}
   };
   struct Written {
-    Out outs[2];  ///< as published, corrected: its meaning may differ
+    Out outs[2];  ///< as published, corrected: the meaning may differ
     constexpr Written(Out both) : outs{both, both} {}
     constexpr Written(Out as_published, Out corrected) : outs{as_published, corrected} {}
   };
-  /// An image of this format, or of one of several.
+  /// An image of this format, or of one of several formats.
   template <Format f, Format...>
   struct Result : Written {
     static constexpr Format format = f;
@@ -180,7 +179,7 @@ struct Declared {
   struct List : Written {
     using Written::Written;
   };
-  /// A list that the pass takes and gives anew; what stays of a record keeps its id.
+  /// A list that the pass reads and writes again; remaining records keep their id.
   template <class Record>
   struct Changed : In, Written {
     constexpr Changed(In in, Out both) : In(in), Written(both) {}
@@ -190,19 +189,19 @@ struct Declared {
 
 template <class P>
 constexpr int count_of = detail::count<typename P::template Io<Declared>>();
-/// f(member) of each member of io.
+/// Calls f(member) for each member of io.
 template <class P, class Io, class F>
 constexpr RAINREF_FLAT void each(Io& io, const F& f) {
   detail::unpack<count_of<P>>(io, [&](auto&... member) RAINREF_FLAT_LAMBDA { (f(member), ...); });
 }
-/// f(member of a, member of b) of two structs of one definition.
+/// Calls f(member of a, member of b) for two structs of one definition.
 template <class P, class IoA, class IoB, class F>
 constexpr RAINREF_FLAT void each(IoA& a, IoB& b, const F& f) {
   detail::unpack<count_of<P>>(a, [&](auto&... of_a) RAINREF_FLAT_LAMBDA {
     detail::unpack<count_of<P>>(b, [&](auto&... of_b) RAINREF_FLAT_LAMBDA { (f(of_a, of_b), ...); });
   });
 }
-/// How many texels away the pass loads at most.
+/// Largest distance [texels] of a load.
 template <class P>
 constexpr int reach_of = [] {
   int most = 0;
@@ -213,7 +212,7 @@ constexpr int reach_of = [] {
   return most;
 }();
 
-/// The images that a run takes and gives. A member that is not set is not of this variant.
+/// The images that a run reads and writes. A member that is not set does not belong to this variant.
 struct Host {
   template <Format f, int around = 0>
   struct Texels {
@@ -227,7 +226,7 @@ struct Host {
     In is;
     const Texture* texture = nullptr;
     const BufferView* recorded = nullptr;  ///< the buffer that the texture was decoded from; null: the texture itself
-    Address address = Address::clamp;      ///< of the recorded buffer where no texture was made of it
+    Address address = Address::clamp;      ///< for the recorded buffer if no texture was made from it
     constexpr Sampled(In in) : is(in) {}
     void operator=(const Texture& t) { texture = &t; }
   };
@@ -239,19 +238,19 @@ struct Host {
     StoredTexture<Storage> view;
     const Image* image = nullptr;
     std::span<const Image> levels{};
-    Address address = Address::clamp;  ///< of a single image, as it is recorded
+    Address address = Address::clamp;  ///< of a single image, as recorded
     constexpr Stored(In in) : is(in) {}
     void operator=(const Image& i) {
       view = stored_texture<Storage>(i);
       image = &i;
     }
-    /// All levels of one image.
+    /// Sets all levels of one image.
     void set(const StoredTexture<Storage>& all, std::span<const Image> images) {
       view = all;
       levels = images;
     }
   };
-  /// Of a pass whose lanes are written by hand, as it is recorded.
+  /// For a pass whose lanes are written by hand: the image as recorded.
   template <Format...>
   struct Planes {
     In is;
@@ -263,7 +262,7 @@ struct Host {
     In is;
     std::span<const Record> records{};
     bool is_set = false;
-    std::vector<Record> near{};  ///< where records are those of a tile
+    std::vector<Record> near{};  ///< for records of one tile
     Records(In in) : is(in) {}
     void operator=(std::span<const Record> all) {
       records = all;
@@ -279,17 +278,17 @@ struct Host {
     static constexpr std::array formats{f...};
     Out is;
     Image* image = nullptr;
-    const BufferView* planes = nullptr;  ///< instead of an image, of a pass whose lanes are written by hand
+    const BufferView* planes = nullptr;  ///< instead of an image, for a pass whose lanes are written by hand
     constexpr Result(Out both) : is(both) {}
     constexpr Result(Out, Out corrected) : is(corrected) {}
     void operator=(Image& i) { image = &i; }
   };
-  /// Records as they are when it is asked for them, and what lanes take of them.
+  /// Records made on demand, and their columns for lanes.
   struct Listed {
     std::function<RecordView()> list{};
-    std::vector<float*> columns{};  ///< of each float of a record, in its order and without padding: where that of record 0 lies
+    std::vector<float*> columns{};  ///< address of record 0's value for each float of a record, in its order and without padding
   };
-  /// Asked for when the run is finished.
+  /// Called when the run is finished.
   template <class Record>
   struct List : Listed {
     Out is;
@@ -298,7 +297,7 @@ struct Host {
       list = [&all] { return RecordView{all.data(), all.size(), sizeof(Record)}; };
     }
   };
-  /// Asked for before the run and after it, where a recorder reads it.
+  /// Called before and after the run, if a recorder reads the list.
   template <class Record>
   struct Changed : Listed {
     static constexpr std::size_t record_bytes = sizeof(Record);

@@ -19,8 +19,8 @@ Run<DisplayPass> display_run(double exposure, Rounding rounding, const Image& co
 /// The same by table, for pictures of this size.
 CodeTable display_table(int width, int height, double exposure, Rounding rounding);
 
-/// A run that gives `colour`, and display after it by table. display reads no neighbours, so that a tile goes through both while it
-/// lies in the cache; what they read, neither overwrites, so that their starts may be recorded after both have run.
+/// A run that writes `colour`, followed by display by table. display reads no neighbours, so both run on a tile while it is in the cache.
+/// Neither overwrites its inputs, so both starts may be recorded after both have run.
 template <class P>
 void run_and_display(Run<P>& run, const CodeTable& table, double exposure, const Image& colour, Image& picture,
                      const parallel::Executor& executor, int tile_rows, const Moment& now) {
@@ -35,9 +35,9 @@ void run_and_display(Run<P>& run, const CodeTable& table, double exposure, const
   display.finish(now, executor.threads());
 }
 
-/// It reads the colour of the pass `from`.
+/// The pass reads the colour of the pass `from`.
 capture::PassInfo display_info(const std::string& from);
-/// The picture that it gives.
+/// The picture that it writes.
 capture::BufferInfo display_buffer();
 std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c);
 

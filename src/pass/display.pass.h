@@ -12,7 +12,7 @@ struct DisplayUniforms {
 };
 static_assert(sizeof(DisplayUniforms) == 16);
 
-/// What each effect calls its picture, it declares itself; from which pass the colour comes, display_info says.
+/// Each effect declares its picture itself; display_info names the pass that the colour comes from.
 struct DisplayPass : pass::Takes<DisplayUniforms> {
   static constexpr About about{"display", "Display code.", {1}, {1}};
   static scene::UniformBlock uniforms() { return block({member<&U::exposure>("1", scene::exposure_factor, "Factor of the radiance.")}); }

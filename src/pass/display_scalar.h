@@ -1,4 +1,4 @@
-// The text of display with every number but lanes: Scalar, Enclosure and Perturbed; like puddle::scalar.
+// The text of display for every number type except lanes: Scalar, Enclosure and Perturbed; like puddle::scalar.
 #pragma once
 
 #include "math/numbers.h"

@@ -1,4 +1,4 @@
-// Whether what a pass takes fits together.
+// Checks whether the inputs of a pass fit together.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace rainref::pass {
 
-/// Why a list is not as declared, or "": "uniform tap_count: expected 0 to 4, the records of in.taps, found 5".
+/// Returns how a list violates its declaration, or "": "uniform tap_count: expected 0 to 4, the records of in.taps, found 5".
 std::string records_fault(const scene::UniformBlock& block, std::span<const std::byte> uniforms, const In& list, std::size_t records);
 
 }  // namespace rainref::pass

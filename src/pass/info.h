@@ -1,4 +1,4 @@
-// What list, describe, packs and layouts say of a pass, from its definition.
+// Descriptions of a pass for list, describe, packs and layouts, made from its definition.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ capture::PassInfo info_of() {
   return all;
 }
 
-/// Of a pass that each variant defines by itself: as published, corrected.
+/// For a pass with one definition for each variant: as published, corrected.
 template <class P, class Q>
 capture::PassInfo info_of() {
   static_assert(P::about.corrected.revision == 0 && Q::about.as_published.revision == 0);
@@ -60,12 +60,12 @@ capture::PassInfo info_of() {
   return all;
 }
 
-/// A pass that several effects run, in the one where these passes write what it reads.
+/// Sets the passes that write the inputs of a pass shared by several effects.
 inline void set_source(capture::PassInfo& pass, const std::string& buffer, const std::string& from) {
   for (capture::ReadInfo& r : pass.reads)
     if (r.buffer == buffer) r.from = from;
 }
-/// The same where the variants have other ones.
+/// The same if the variants have different ones.
 inline void set_sources(capture::PassInfo& pass, const std::string& buffer, const std::string& as_published, const std::string& corrected) {
   const auto at = std::find_if(pass.reads.begin(), pass.reads.end(), [&](const capture::ReadInfo& r) { return r.buffer == buffer; });
   at->variant = "as-published";
@@ -76,7 +76,7 @@ inline void set_sources(capture::PassInfo& pass, const std::string& buffer, cons
   pass.reads.insert(at + 1, other);
 }
 
-/// Adds these behind the others.
+/// Appends these to the others.
 template <class T>
 void append(std::vector<T>& all, std::vector<T> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -106,7 +106,7 @@ std::vector<capture::BufferInfo> buffers_of() {
   });
   return all;
 }
-/// Of both variants' definitions: one entry where they agree.
+/// For the definitions of both variants: one entry if they agree.
 template <class P, class Q>
 std::vector<capture::BufferInfo> buffers_of() {
   std::vector<capture::BufferInfo> all;

@@ -12,7 +12,7 @@ void require_image(const capture::PassCase& c, const capture::CaseInput& image, 
   const FormatInfo &expected = info(formats.front()), &found = info(image.array.format);
   const capture::Array* const like = first_image(c);
   has_size = has_size && like;
-  // What is looked up by coordinates may have been captured decoded.
+  // An input that is looked up by coordinates may have been captured in decoded form.
   const auto is_code = [](const FormatInfo& f) { return f.kind == FormatInfo::unorm8; };
   const bool fits = std::any_of(formats.begin(), formats.end(), [&](Format f) {
     return info(f).channels == found.channels && (!is_loaded || is_code(info(f)) == is_code(found));

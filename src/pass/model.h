@@ -1,4 +1,4 @@
-// A pass bound to a captured case from its definition: what the judge evaluates. Lists record by record: record_model.h.
+// A pass bound to a captured case, made from its definition, for the judge to evaluate. record_model.h handles lists record by record.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Captured {
   struct Texels {
     In is;
     std::shared_ptr<const std::vector<DecodedOf<f>>>
-        texels;  ///< row-major, `around` texels before and behind each row, where the nearest one stands again
+        texels;  ///< row-major, with `around` copies of the nearest texel before and behind each row
     int width = 0, height = 0;
     static constexpr std::array formats{f};
     static constexpr int channels = StorageOf<f>::channels;
@@ -42,7 +42,7 @@ struct Captured {
       else
         frame(capture::shared_decoded(input.array)->data());
     }
-    /// Column x of the row y or the nearest one.
+    /// Column x of row y, or of the nearest row.
     const DecodedOf<f>* at(int x, int y) const {
       return texels->data() + channels * (static_cast<std::ptrdiff_t>(std::clamp(y, 0, height - 1)) * (width + 2 * around) + around + x);
     }
@@ -85,8 +85,8 @@ struct Captured {
   struct Records {
     In is;
     std::vector<Record> records;
-    std::vector<std::vector<Record>> near;  ///< those that may count in each block of texels; empty: all of them everywhere
-    int columns = 0;                        ///< of blocks
+    std::vector<std::vector<Record>> near;  ///< records that may count in each block of texels; empty: all of them everywhere
+    int columns = 0;                        ///< number of blocks in a row
     Records(In in) : is(in) {}
     void read(const capture::CaseInput& input) { records = capture::records_of<Record>(input); }
     template <class Near>
@@ -96,7 +96,7 @@ struct Captured {
         for (int x = 0; x < width; x += block)
           near.push_back(of_tile(parallel::Tile{x, y, std::min(x + block, width), std::min(y + block, height)}));
     }
-    /// reaches_all: those too that change nothing there, unless a mistake makes them.
+    /// reaches_all: also records that change nothing there unless a mistake makes them.
     std::span<const Record> at(int x, int y, bool reaches_all) const {
       if (near.empty() || reaches_all) return records;
       return near[static_cast<std::size_t>(y / block) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / block)];
@@ -131,14 +131,14 @@ struct Captured {
   };
 };
 
-/// The first of its outputs that is an image; null: all are lists.
+/// The first output that is an image; null if all are lists.
 const capture::Array* first_image(const capture::PassCase& c);
-/// Throws Error(port_files) unless the image has the channels of one of these formats, codes where it is loaded texel by texel as codes,
-/// and where it must the size of the outputs.
+/// Throws Error(port_files) unless the image has the channels of one of these formats, is stored as codes if it is loaded as codes, and has
+/// the size of the outputs if it must.
 void require_image(const capture::PassCase& c, const capture::CaseInput& image, std::span<const Format> formats, bool is_loaded,
                    bool has_size);
 
-/// What a case holds, by the names of the definition. width and height: of the images that the pass gives.
+/// Contents of a case, by the names of the definition. width and height: of the images that the pass writes.
 template <class P>
 struct Inputs {
   int width, height, values = 0;
@@ -147,10 +147,10 @@ struct Inputs {
   typename P::template Io<Captured> captured;
 };
 
-/// Text: the arithmetic of P in the namespace that holds every number but lanes.
+/// Text: the arithmetic of P in the namespace of every number type except lanes.
 template <class P, class Text>
 struct Bound : Inputs<P> {
-  /// f(io) with the cursors of an invocation, which give to out.
+  /// Calls f(io) with the cursors of an invocation, which write to out.
   template <class N, class F>
   auto with_cursors(int x, int y, N* out, const F& f) const {
     typename P::template Io<NumberCursors<N>> io;
@@ -159,7 +159,7 @@ struct Bound : Inputs<P> {
         to.out = out;
         to.channels = from.channels;
         to.rounding = from.rounding;
-        if (out && from.is_given) out += from.channels;  // null: a pass over records gives no texels
+        if (out && from.is_given) out += from.channels;  // null: a pass over records writes no texels
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
       } else if constexpr (requires { to.records; }) {
@@ -169,13 +169,13 @@ struct Bound : Inputs<P> {
         to.y = y;
       } else if constexpr (requires { to.x; }) {
         to.x = x;
-        if (from.width == 0) return;  // not of this variant
+        if (from.width == 0) return;  // not in this variant
         for (int k = 0; k < to.rows; ++k) to.row[k] = from.at(0, y + k - to.reach);
       }
     });
     return f(io);
   }
-  /// The input that a lookup reads, by a pointer to a channel of its first texel.
+  /// Finds the input that a lookup reads, by a pointer to a channel of its first texel.
   std::string_view input_of(const float* texel) const {
     std::string_view found;
     each<P>(this->captured, [&](const auto& m) {
@@ -198,7 +198,7 @@ struct Bound : Inputs<P> {
       if constexpr (P::about.as_published.revision != 0) run(std::false_type());
     });
   }
-  /// What the text gives of a record; of the only one, where it takes none.
+  /// Result of the text for a record, or for its only record if it takes none.
   template <class N, bool is_corrected, class Record>
   auto record(const Record& from) const {
     return with_cursors(0, 0, static_cast<N*>(nullptr), [&](const auto& io) {
@@ -211,8 +211,7 @@ struct Bound : Inputs<P> {
                         [&](const auto& io) { return Text::template run_record<N, is_corrected>(this->uniforms, io); });
   }
 };
-/// Throws Error(port_files) where the pass does not run in the case's variant, the case lacks an input of its variant, or has one of
-/// another shape.
+/// Throws Error(port_files) if the pass does not run in the case's variant, or if the case lacks an input or has one of another shape.
 template <class P>
 Inputs<P> inputs_of(const capture::PassCase& c) {
   if ((c.corrected() ? P::about.corrected : P::about.as_published).revision == 0)

@@ -1,4 +1,4 @@
-// When a pass runs, and who records it.
+// The time at which a pass runs, and its recorder.
 #pragma once
 
 #include <initializer_list>
@@ -11,11 +11,11 @@ namespace rainref::pass {
 
 /// time and dt [s] as in PassStart.
 struct Moment {
-  Recorder* recorder;  ///< or null
+  Recorder* recorder;  ///< may be null
   int frame, step;
   double time, dt;
   Rounding rounding;
-  int level = -1;  ///< the mip level, where the pass runs once for each
+  int level = -1;  ///< the mip level, if the pass runs once for each
 
   template <class Uniforms>
   void before(std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs) const {

@@ -1,4 +1,4 @@
-// Cursors of every number but lanes, over decoded rows.
+// Cursors over decoded rows for every number type except lanes.
 #pragma once
 
 #include "math/scalar.h"
@@ -18,7 +18,7 @@ inline void load4(const Storage* p, N (&c)[4]) {
 #undef RAINREF_FN
 }  // namespace number_text
 
-/// Decoded texels are floats, but a code stays one: to load it is an operation that devices may do in their own way.
+/// Decoded texels are floats, but a code stays a code, because devices may convert it in different ways when they load it.
 template <Format f>
 using DecodedOf = std::conditional_t<std::is_same_v<typename StorageOf<f>::type, Unorm8>, Unorm8, float>;
 
@@ -34,8 +34,7 @@ struct NumberCursors {
   template <class Record>
   struct Records : RecordPointer<Record> {
     using RecordPointer<Record>::RecordPointer;
-    /// Whether an invocation takes a record, of which the pass says whether it is near enough to count. A number that makes mistakes may
-    /// ask for all.
+    /// Returns whether an invocation uses a record; the pass says whether the record is near enough. A number with faults may use all.
     static bool takes(bool is_near) {
       if constexpr (requires { N::meets_all(); })
         return is_near || N::meets_all();
@@ -51,8 +50,8 @@ struct NumberCursors {
   struct Result {
     N* out = nullptr;
     int channels = 0;
-    Rounding rounding = Rounding::rne;  ///< of the store that follows
-    /// A number that follows what is done sees the place.
+    Rounding rounding = Rounding::rne;  ///< rounding of the store that follows
+    /// A number that tracks operations sees the store.
     static N to_result(const N& value) {
       if constexpr (requires { value.as_stored(); })
         return value.as_stored();
@@ -62,7 +61,7 @@ struct NumberCursors {
     Result(Out) {}
     Result(Out, Out) {}
     void operator()(N v) const { out[0] = to_result(v); }
-    /// The first two channels of a format that may have more; those are 0.
+    /// Stores the first two channels of a format; any others are 0.
     void operator()(N first, N second) const {
       out[0] = to_result(first);
       out[1] = to_result(second);

@@ -1,4 +1,4 @@
-// Channels of an image as planes of their own, readable beyond the ends by the image's address rule.
+// Channels of an image as separate planes, readable beyond the ends by the image's address rule.
 #pragma once
 
 #include <algorithm>
@@ -11,30 +11,30 @@
 
 namespace rainref::pass {
 
-/// f(Storage()) with the type of a format's channels: halves, floats or codes.
+/// Calls f(Storage()) with the type of a format's channels: half, float or code.
 template <class F>
 void in_storage(Format format, const F& f) {
   const FormatInfo::Kind kind = info(format).kind;
   return kind == FormatInfo::float16 ? f(Half()) : kind == FormatInfo::float32 ? f(float()) : f(Unorm8());
 }
-/// Fills the margins of a row with what stands beyond its ends; a mirrored image counts as a clamped one.
+/// Fills the margins of a row by the address rule; a mirrored image is treated as clamped.
 template <class Storage>
 void fill_margins(Storage* row, int width, Address address, Storage border) {
   constexpr int margin = Image::left_margin;
   if (address != Address::repeat) {
-    // Copies: what a loop stores might be the number that it reads.
+    // Copies, because the loop might overwrite the number that it reads.
     const Storage before = address == Address::border ? border : row[0], after = address == Address::border ? border : row[width - 1];
     std::fill_n(row - margin, margin, before);
     std::fill_n(row + width, margin, after);
     return;
   }
-  // Outwards, so that a row shorter than a margin repeats what was filled before.
+  // Outwards, so that a row shorter than a margin repeats values already filled in.
   for (int k = 0; k < margin; ++k) {
     row[-1 - k] = row[width - 1 - k];
     row[width + k] = row[k];
   }
 }
-/// The row that stands for row y. border_row: one row of the border's value.
+/// The row used for row y. border_row: a row of border values.
 template <class Storage>
 const Storage* row_at(const Image& plane, const Image& border_row, Address address, int y) {
   const int height = plane.height();
@@ -53,17 +53,17 @@ struct Planes {
   Planes() = default;
   explicit Planes(const capture::CaseInput& input);
 };
-/// What a text sees of them from row y.
+/// The planes as a text sees them from row y.
 struct PlanesPointer {
   const Planes* planes = nullptr;
   int y = 0;
   PlanesPointer(In) {}
-  /// The row dy rows away, readable Image::left_margin texels beyond both ends.
+  /// The row dy rows away, readable for Image::left_margin texels beyond both ends.
   template <class Storage>
   const Storage* row(int channel, int dy) const {
     return row_at<Storage>(planes->channels[static_cast<std::size_t>(channel)], planes->border_row, planes->address, y + dy);
   }
-  /// f(Storage()) with the type of the channels.
+  /// Calls f(Storage()) with the type of the channels.
   template <class F>
   void in_storage(const F& f) const {
     pass::in_storage(planes->channels.front().format(), f);

@@ -1,4 +1,4 @@
-// A pass that treats each record of a list by itself, bound to a captured case: what the judge evaluates of its list.
+// A pass that treats each record of a list separately, bound to a captured case, for the judge to evaluate its list.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace rainref::pass {
 
-/// Whether the list still has what a text gives: lives(), where it says so.
+/// Returns whether a record stays in the list: lives() of the text's result, if it has that.
 template <class Given>
 auto lives(const Given& given) {
   if constexpr (requires { given.lives(); })
@@ -29,7 +29,7 @@ capture::KeyedRecord keyed_record(const State& given, bool lives, std::uint32_t 
   return out;
 }
 
-/// Whether P takes records, or gives one from its uniforms alone.
+/// True if P takes records, or makes one from its uniforms alone.
 template <class P>
 constexpr bool changes_records = [] {
   bool found = false;
@@ -46,7 +46,7 @@ template <class P, class Text>
 class RecordModel : public capture::KeyedModel {
  public:
   using Record = typename P::Record;
-  /// records: those that the pass takes, or one without content.
+  /// records: the input records, or one without content.
   RecordModel(Bound<P, Text> pass, std::vector<Record> records) : pass_(std::move(pass)), records_(std::move(records)) {}
   int groups() const override { return static_cast<int>(records_.size()); }
   const std::vector<capture::FieldRange>& ranges() const override { return Record::ranges(pass_.corrected); }
@@ -59,7 +59,7 @@ class RecordModel : public capture::KeyedModel {
   std::optional<std::vector<std::byte>> perturbed() const override { return list<perturbed::Perturbed>(); }
 
  private:
-  /// f(what the text gives of record i).
+  /// Calls f(result of the text for record i).
   template <class N, class F>
   void with_given(std::size_t i, const F& f) const {
     const auto run = [&](auto is_corrected) {
@@ -91,7 +91,7 @@ class RecordModel : public capture::KeyedModel {
   Bound<P, Text> pass_;
   std::vector<Record> records_;
 };
-/// Of a pass that gives no image.
+/// For a pass that writes no image.
 template <class P, class Text>
 std::unique_ptr<capture::PassModel> bind_records(const capture::PassCase& c) {
   Bound<P, Text> pass = bound<P, Text>(c);

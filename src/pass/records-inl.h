@@ -1,4 +1,4 @@
-// The records of a list in lanes: the shell of every pass that treats each record by itself. Re-included for every target, like
+// Records of a list in lanes: the shell of every pass that treats each record separately. Re-included for every target, like
 // math/lanes-inl.h; after pass/rows-inl.h.
 #if defined(RAINREF_PASS_RECORDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_PASS_RECORDS_INL_H_
@@ -32,13 +32,14 @@ HWY_INLINE HWY_ATTR N load_some_of(const float* p, int count) {
   else
     return N(load_some(p, std::min(count, n)), load_some(p + n, std::max(count - n, 0)));
 }
-/// Records [begin, end) of the columns, in place; a vector that holds none is left as it is. then(first, count, before, given) sees what
-/// the text gives of `count` records from `first` on, whatever it is beside the record. N: Lanes, or LanePair where the text is long.
+/// Changes records [begin, end) of the columns in place; a vector without records is left unchanged. then(first, count, before, given)
+/// receives the text's results for `count` records from `first` on, including results beside the record. N: Lanes, or LanePair for a long
+/// text.
 template <class P, class Text, bool corrected, class N = Lanes, class Then>
 HWY_INLINE HWY_ATTR void change_records(const typename P::Uniforms& uniforms, const pass::HostIo<P>& host,
                                         const std::vector<float*>& columns, std::int64_t begin, std::int64_t end, const Then& then) {
   using State = typename Text::template State<N>;
-  const typename P::Uniforms u = uniforms;  // no store to a column may change it
+  const typename P::Uniforms u = uniforms;  // a copy, because stores to a column must not seem to change it
   typename P::template Io<LaneCursors> io;
   pass::begin_row<P>(host, io, 0, Rounding::rne);
   float* const* const column = columns.data();
@@ -57,7 +58,7 @@ HWY_INLINE HWY_ATTR void change_records(const typename P::Uniforms& uniforms, co
     then(i, count, before, given);
   }
 }
-/// The only record of a pass that takes none.
+/// For a pass that takes no records and makes one.
 template <class P, class Text, bool corrected>
 HWY_INLINE HWY_ATTR void give_record(const typename P::Uniforms& u, const pass::HostIo<P>& host, const std::vector<float*>& columns) {
   typename P::template Io<LaneCursors> io;

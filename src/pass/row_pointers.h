@@ -1,6 +1,6 @@
-// The part of a cursor that knows no number: pointers to a row, moved along it. Small and without buffers of their own, so that
-// a compiler keeps them in registers; made for the base target, because a constructor that a default member initializer calls
-// is never one of another target.
+// The part of a cursor that does not depend on the number type: pointers to a row, moved along it. It is small and has no buffers, so that
+// a compiler keeps it in registers. It is compiled for the base target, because a constructor called by a default member initializer never
+// belongs to another target.
 #pragma once
 
 #include <cstring>
@@ -17,18 +17,18 @@ struct RowPointers {
   int x = 0;
 
   constexpr RowPointers(In) {}
-  /// Rows y - reach … y + reach, the nearest one standing where there is none.
+  /// Sets rows y - reach … y + reach, using the nearest row beyond the ends.
   void begin_row(const Image& image, int y) {
     for (int k = 0; k < rows; ++k) {
       const int wanted = y + k - reach, last = image.height() - 1;
       row[k] = image.row<Storage>(wanted < 0 ? 0 : wanted < last ? wanted : last);
     }
   }
-  /// Bytes that copy_ends takes for n texels.
+  /// Bytes that copy_ends needs for n texels.
   static constexpr std::size_t copied_bytes(int n) { return static_cast<std::size_t>(rows * channels * (n + 2 * reach)) * sizeof(Storage); }
-  /// Reads columns x - reach … x + n - 1 + reach from copies in `room`, the nearest texel standing beyond the ends.
+  /// Reads columns x - reach … x + n - 1 + reach from copies in `room`, using the nearest texel beyond the ends.
   void copy_ends(std::byte* room, int width, int n) {
-    const int first = x < reach ? 0 : x - reach, end = x + n + reach < width ? x + n + reach : width;  // what there is
+    const int first = x < reach ? 0 : x - reach, end = x + n + reach < width ? x + n + reach : width;  // the columns that exist
     for (int k = 0; k < rows; ++k) {
       Storage* const copy = reinterpret_cast<Storage*>(room) + static_cast<std::ptrdiff_t>(k) * channels * (n + 2 * reach);
       const auto texel = [&](int column) RAINREF_FLAT_LAMBDA { return copy + channels * (column - x + reach); };
@@ -43,7 +43,7 @@ struct SampledPointer {
   const Texture* texture = nullptr;
   constexpr SampledPointer(In) {}
   operator const Texture&() const { return *texture; }
-  /// Address rules and channels as the pass knows them. A texture that this variant does not have gives an empty view.
+  /// Address rules and channels as the pass knows them. A texture that this variant lacks gives an empty view.
   template <Address u, Address v, int count>
   RAINREF_FLAT FixedTexture<u, v, count> fixed() const {
     return texture ? fixed_texture<u, v, count>(*texture) : FixedTexture<u, v, count>();
@@ -65,7 +65,7 @@ struct RecordPointer {
   const Record* data() const { return records.data(); }
   int size() const { return static_cast<int>(records.size()); }
 };
-/// Of a list whose records the shell loads and stores.
+/// For a list whose records the shell loads and stores.
 struct NoCursor {
   constexpr NoCursor(Out) {}
   constexpr NoCursor(In, Out) {}
@@ -111,7 +111,7 @@ RAINREF_FLAT void move_to(Io& io, int x, int count) {
     if constexpr (requires { cursor.count; }) cursor.count = count;
   });
 }
-/// Bytes that copy_ends takes for n texels.
+/// Bytes that copy_ends needs for n texels.
 template <class P, class Io>
 constexpr std::size_t copied_bytes(int n) {
   std::size_t bytes = 0;
@@ -131,7 +131,7 @@ RAINREF_FLAT void copy_ends(const HostIo<P>& host, Io& io, std::byte* room, int 
     }
   });
 }
-/// Of every image of a run.
+/// For every image of a run.
 template <class P>
 int width_of(const HostIo<P>& host) {
   int width = 0;

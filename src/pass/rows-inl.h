@@ -1,4 +1,4 @@
-// The rows of a pass in lanes: the shell of every pass that gives each texel by itself. Re-included for every target, like
+// The rows of a pass in lanes: the shell of every pass that computes each texel separately. Re-included for every target, like
 // math/lanes-inl.h.
 #if defined(RAINREF_PASS_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAINREF_PASS_ROWS_INL_H_
@@ -31,7 +31,7 @@ struct LaneCursors {
   using List = pass::NoCursor;
   template <class>
   using Changed = pass::NoCursor;
-  /// Stores when it is called: to hold the lanes instead would need a constructor of this target.
+  /// Stores at once, because keeping the lanes would need a constructor of this target.
   template <Format f, Format... others>
   struct Result : pass::ResultPointers<f, others...> {
     using Base = pass::ResultPointers<f, others...>;
@@ -60,7 +60,7 @@ struct LaneCursors {
   };
 };
 
-/// What a text makes of its textures once for a row: views(io), where it has them.
+/// Result of views(io), which a text computes once for a row; this is the default.
 struct NoViews {};
 template <class Text, class Io>
 HWY_INLINE HWY_ATTR auto views_of(const Io& io) {
@@ -70,8 +70,8 @@ HWY_INLINE HWY_ATTR auto views_of(const Io& io) {
     return NoViews();
 }
 
-/// The vector at x, whose neighbours lie beyond an end of the row. It makes cursors of its own: were those of the row handed to
-/// it, they would live in memory.
+/// The vector at x, whose neighbours may lie beyond an end of the row. It makes its own cursors: passing those of the row would force them
+/// into memory.
 template <class P, class Text, bool corrected>
 HWY_NOINLINE HWY_ATTR void at_an_end(const typename P::Uniforms& u, Rounding rounding, const pass::HostIo<P>& host, int x, int y, int x1) {
   using Io = typename P::template Io<LaneCursors>;
@@ -90,7 +90,7 @@ HWY_NOINLINE HWY_ATTR void at_an_end(const typename P::Uniforms& u, Rounding rou
 template <class P, class Text, bool corrected>
 HWY_ATTR void rows_of(const typename P::Uniforms& uniforms, Rounding rounding, const pass::HostIo<P>& host, const parallel::Tile& tile) {
   constexpr int n = Lanes::size(), reach = pass::reach_of<P>;
-  const typename P::Uniforms u = uniforms;  // no store to an image may change it
+  const typename P::Uniforms u = uniforms;  // a copy, because stores to an image must not seem to change it
   const int width = pass::width_of<P>(host), x1 = tile.x1;
   for (int y = tile.y0; y < tile.y1; ++y) {
     typename P::template Io<LaneCursors> io;
@@ -114,7 +114,7 @@ HWY_ATTR void rows_of(const typename P::Uniforms& uniforms, Rounding rounding, c
 }  // namespace rainref
 HWY_AFTER_NAMESPACE();
 
-// Inside the target's namespace of a room, after the arithmetic of pass P.
+// For the target's namespace of a room, after the arithmetic of pass P.
 #undef RAINREF_PASS_ROWS
 #define RAINREF_PASS_ROWS(P)                                                                                                              \
   HWY_ATTR void P##Rows(const P::Uniforms& u, bool corrected, Rounding rounding, const pass::HostIo<P>& io, const parallel::Tile& tile) { \
@@ -123,7 +123,7 @@ HWY_AFTER_NAMESPACE();
     if constexpr (P::about.as_published.revision != 0)                                                                                    \
       if (!corrected) return rows_of<P, P##Text, false>(u, rounding, io, tile);                                                           \
   }
-// Once, outside every namespace. What is dispatched stands in the room: where one target alone is compiled, its namespace is named.
+// Once, outside every namespace. The dispatch table is in the room, because if only one target is compiled, its namespace is named.
 #undef RAINREF_PASS_DISPATCH
 #define RAINREF_PASS_DISPATCH(room, P)                                                                                                 \
   namespace rainref::room {                                                                                                            \

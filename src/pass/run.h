@@ -1,4 +1,4 @@
-// A run of a pass, from its definition: checked, computed tile by tile, timed and recorded.
+// A run of a pass, made from its definition: checked, computed tile by tile, timed and recorded.
 #pragma once
 
 #include <algorithm>
@@ -18,16 +18,16 @@
 
 namespace rainref::pass {
 
-/// The rows of a tile in the SIMD target in use; RAINREF_PASS_DISPATCH makes one for each pass.
+/// Rows of a tile in the SIMD target in use; RAINREF_PASS_DISPATCH makes one for each pass.
 template <class P>
 void rows(const typename P::Uniforms& uniforms, bool corrected, Rounding rounding, const HostIo<P>& io, const parallel::Tile& tile);
 
-/// One run of P. What it reads must not be written before start() is called; what it writes is recorded by finish().
+/// One run of P. Its inputs must not be written before start() is called; finish() records its outputs.
 template <class P>
 class Run {
  public:
-  /// Throws Error(internal) where the variant does not run it, an image is missing or of another format or size than the others, or a
-  /// uniform counts more records than there are.
+  /// Throws Error(internal) if the variant does not run P, an image is missing or differs in format or size, or a uniform counts more
+  /// records than exist.
   Run(const typename P::Uniforms& uniforms, bool corrected, Rounding rounding, const HostIo<P>& io)
       : uniforms_(uniforms), corrected_(corrected), rounding_(rounding), io_(io) {
     if ((corrected ? P::about.corrected : P::about.as_published).revision == 0)
@@ -74,7 +74,7 @@ class Run {
     });
   }
 
-  /// Some of its texels; thread-safe.
+  /// Computes some of its texels; thread-safe.
   void tile(const parallel::Tile& t) {
     clock_.add([&] {
       if constexpr (requires { &P::near; })
@@ -83,17 +83,17 @@ class Run {
         rows<P>(uniforms_, corrected_, rounding_, io_, t);
     });
   }
-  /// The same, by what computes them in the place of the pass's own rows; body() gives the same values.
+  /// The same with `body` in place of the pass's own rows; body() must give the same values.
   template <class Body>
   void tile(const Body& body) {
     clock_.add(body);
   }
-  /// All of them. tile_columns 0: whole rows.
+  /// Computes all texels. tile_columns 0: whole rows.
   void tiles(const parallel::Executor& executor, int tile_rows, int tile_columns = 0) {
     const capture::Stopwatch watch;
     if (tile_columns <= 0) tile_columns = width_;
     if constexpr (requires { &P::near; }) {
-      // What is near a tile is near its band of rows: each band asks the whole list, and its tiles the band's.
+      // Records near a tile are near its band of rows: each band searches the whole list, and its tiles search the band's list.
       executor.for_tiles(width_, height_, width_, tile_rows, [&](const parallel::Tile& band) {
         const HostIo<P> io = near(io_, band);
         for (int x = band.x0; x < band.x1; x += tile_columns) {
@@ -135,7 +135,7 @@ class Run {
     });
     m.before(P::about.name, uniforms_, std::span<const PassInput>(inputs));
   }
-  /// more: seconds that the host spent on it besides; threads: that worked on its tiles.
+  /// more: additional host time [s]; threads: number that worked on its tiles.
   void finish(const Moment& m, int threads = 1, double more = 0) const {
     if (!m.recorder) return;
     std::vector<PassOutput> outputs;
@@ -152,12 +152,12 @@ class Run {
   }
 
  private:
-  /// To list them costs more than some passes take.
+  /// Done on demand, because listing records costs more than some passes.
   template <class Changed>
   static RecordView records_of(const Moment& m, const Changed& member) {
     return m.is_read(P::about.name) ? member.list() : RecordView{nullptr, 0, member.record_bytes};
   }
-  /// The lists that P chooses from, with what may count in a tile.
+  /// The lists that P selects from, with the records that may count in a tile.
   HostIo<P> near(const HostIo<P>& all, const parallel::Tile& t) const {
     HostIo<P> io = all;
     each<P>(io, [&](auto& member) {

@@ -1,5 +1,5 @@
-// A record between its bytes and a pass's numbers. A record that passes change says itself what it is: static layout() and
-// ranges(corrected); State, its numbers in a text, has each(state, f): f(number) of each float, in the order of declaration.
+// Conversion of a record between bytes and the numbers of a pass. A record that passes change has static layout() and ranges(corrected).
+// State holds its numbers in a text; each(state, f) calls f(number) for each float, in the order of declaration.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace rainref::pass {
 
-/// Where the floats of a record lie, in the order of declaration, without padding [byte].
+/// Offsets of the floats of a record, in the order of declaration, without padding [byte].
 std::vector<std::size_t> float_offsets(const scene::UniformBlock& record);
 template <class Record>
 const std::vector<std::size_t>& float_offsets_of() {
   static const std::vector<std::size_t> all = float_offsets(Record::layout());
   return all;
 }
-/// One record as Host::Listed::columns takes it.
+/// One record, in the form of Host::Listed::columns.
 template <class Record>
 std::vector<float*> columns_of(Record& one) {
   std::vector<float*> all;
@@ -39,13 +39,13 @@ State loaded(const Record& from) {
   });
   return state;
 }
-/// The record with the floats of numbers that have a value v; the rest of it is `like`'s. Stored zeros are positive.
+/// The record with floats from numbers that have a value v; the rest is copied from `like`. Stored zeros are positive.
 template <class State, class Record>
 Record stored(const State& state, Record like) {
   auto at = float_offsets_of<Record>().begin();
   State::each(state, [&](const auto& number) {
     float value;
-    // A number that follows what is done sees the place.
+    // A number that tracks operations sees the store.
     if constexpr (requires { number.as_stored(); })
       value = number.as_stored().v + 0.0f;
     else
@@ -54,7 +54,7 @@ Record stored(const State& state, Record like) {
   });
   return like;
 }
-/// Their bytes, as a list of a case holds them.
+/// Bytes of the records, as a list of a case holds them.
 template <class Record>
 std::vector<std::byte> bytes_of(const std::vector<Record>& records) {
   std::vector<std::byte> bytes(records.size() * sizeof(Record));
@@ -62,7 +62,7 @@ std::vector<std::byte> bytes_of(const std::vector<Record>& records) {
   return bytes;
 }
 
-/// Why these are no ids of a list, or "": "in.drops: expected each id once, found 7 twice".
+/// Returns why these ids are not valid for a list, or "": "in.drops: expected each id once, found 7 twice".
 std::string ids_fault(std::string_view list, std::vector<std::uint32_t> ids);
 template <class Record>
 std::string ids_fault(std::string_view list, const std::vector<Record>& records) {

@@ -23,9 +23,9 @@ struct PixelFormat {
   Kind kind;
   std::size_t channels;
   bool is_bgra = false;
-  std::size_t unused_bytes = 0;  // behind the channels of a texel
+  std::size_t unused_bytes = 0;  // after the channels of a texel
 };
-// DXGI_FORMAT values. Typeless ones are named as the type that rainref has for them.
+// DXGI_FORMAT values. Typeless formats have the name of rainref's type for them.
 constexpr std::array<PixelFormat, 23> dxgi_formats{{{1, "R32G32B32A32_TYPELESS", Kind::float32, 4},
                                                     {2, "R32G32B32A32_FLOAT", Kind::float32, 4},
                                                     {6, "R32G32B32_FLOAT", Kind::float32, 3},
@@ -54,7 +54,7 @@ struct Reader {
   std::span<const std::byte> bytes;
   const std::string& file;
 
-  std::uint32_t u32(std::size_t at) const {  // at + 4 lies in the bytes
+  std::uint32_t u32(std::size_t at) const {  // requires at + 4 within the bytes
     std::uint32_t value;
     std::memcpy(&value, bytes.data() + at, sizeof value);
     return value;
@@ -145,7 +145,7 @@ Dds parse_dds(std::span<const std::byte> bytes, const std::string& file) {
   if (caps2 & volume) in.refuse("a volume; save its slices one by one");
   const PixelFormat format = format_of_header(in);
   const std::size_t start = in.u32(80) & 0x4 && in.u32(84) == 0x30315844 ? dx10_end : header_end;
-  // Writers leave the flag or the count out where there is one level.
+  // Writers omit the flag or the count if there is one level.
   const std::uint32_t count = (flags & has_levels) || in.u32(28) > 1 ? std::max<std::uint32_t>(in.u32(28), 1) : 1;
   if (count > 17) in.refuse(fmt::format("{} mip levels; {}x{} has at most 17", count, width, height));
 

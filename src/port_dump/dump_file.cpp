@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 5> extensions{".npy", ".exr", ".dds", ".png", ".bin"};  // by FileType
-// More names than this are no dump of one pass, and each costs a comparison.
+// A folder with more names is not the dump of one pass, and each name costs a comparison.
 constexpr std::size_t most_names = 1000;
 
 struct RefusedType {

@@ -11,7 +11,7 @@
 namespace rainref::port_dump {
 namespace {
 
-/// In lower case, letters and digits alone, without what stands before the format itself.
+/// In lower case, only letters and digits, without the prefix before the format itself.
 std::string plain(std::string_view name) {
   if (const std::size_t scope = name.find_last_of(".:"); scope != std::string_view::npos) name.remove_prefix(scope + 1);
   std::string out;
@@ -26,7 +26,7 @@ std::string plain(std::string_view name) {
   return out;
 }
 
-/// Channels, bits of each and what they hold: of "r16g16sfloat" "rg", "16", "sfloat"; of "rghalf" "rg", "", "half".
+/// Channels, bits of each and their type: "rg", "16", "sfloat" for "r16g16sfloat"; "rg", "", "half" for "rghalf".
 struct Parts {
   std::string channels, bits, holds;
   bool is_uniform = true;  ///< all channels have these bits
@@ -48,7 +48,7 @@ Parts parts_of(const std::string& text) {
 }
 
 struct Meaning {
-  std::string_view holds, bits, own_bits;  ///< own_bits: what stands behind the channels in rainref's name
+  std::string_view holds, bits, own_bits;  ///< own_bits: the suffix after the channels in rainref's name
 };
 constexpr std::array<Meaning, 16> meanings{{{"unorm", "8", "8"},
                                             {"", "8", "8"},

@@ -1,4 +1,4 @@
-// What a port says about itself: port.json beside its dumps.
+// Information of a port about itself: port.json beside its dumps.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace rainref::port_dump {
 
-/// Which row of v lies first in a file. top_left: the first row stored is row 0, v = 0 of the pass. bottom_left: the
-/// last row stored is row 0; the exporter turned the picture over.
+/// The row that is first in a file. top_left: the first stored row is row 0, v = 0 of the pass. bottom_left: the last stored row is row 0,
+/// because the exporter flipped the picture.
 enum class Origin : std::uint8_t { top_left, bottom_left };
 
 struct PortInfo {
   std::string api, device, driver;      ///< for reports
-  std::optional<Rounding> half_store;   ///< how a store to binary16 rounds; nothing when unknown
-  std::optional<bool> flush_denormals;  ///< subnormal results become zero; nothing when unknown
-  Origin origin = Origin::top_left;     ///< of every image of the dump whose sidecar says nothing else
-  bool precise = false;                 ///< the port claims that it asked for no contraction and no reassociation
+  std::optional<Rounding> half_store;   ///< how a store to binary16 rounds; nothing if unknown
+  std::optional<bool> flush_denormals;  ///< subnormal results become zero; nothing if unknown
+  Origin origin = Origin::top_left;     ///< for every image of the dump unless its sidecar overrides it
+  bool precise = false;                 ///< the port states that it requested no contraction and no reassociation
   std::string notes;
 };
 
-/// The keys api, device, driver, half_store ("rne", "rtz", "unknown"), flush_denormals, origin ("top-left",
-/// "bottom-left"), precise and notes, each optional; `file` is quoted and starts every message. Throws
-/// Error(port_files) naming the key, what was expected and found, and the nearest known key.
+/// The keys api, device, driver, half_store ("rne", "rtz", "unknown"), flush_denormals, origin ("top-left", "bottom-left"), precise and
+/// notes, each optional; `file` is quoted and starts every message. Throws Error(port_files) with the key, expected, found, and the nearest
+/// known key.
 PortInfo parse_port_info(std::string_view text, const std::string& file);
 
-/// port.json of the folder; the defaults above where there is none. Throws Error(io) when it cannot be read.
+/// port.json of the folder; the defaults above if there is none. Throws Error(io) if it cannot be read.
 PortInfo read_port_info(const std::filesystem::path& folder);
 
 }  // namespace rainref::port_dump

@@ -11,8 +11,8 @@ namespace {
   throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why));
 }
 
-/// "; row_pitch 256 would fit": rows of this many bytes, with or without padding behind the last one, are all that was found; "" where no
-/// multiple of 4 bytes does that. Of two that do, a multiple of 256 is meant.
+/// "; row_pitch 256 would fit" if rows of this many bytes, with or without padding after the last one, match the number of bytes found; ""
+/// if no multiple of 4 bytes does. If several do, a multiple of 256 is preferred.
 std::string fitting_pitch(std::size_t found, std::size_t row, std::size_t height) {
   constexpr std::size_t most_padding = 4096;
   std::size_t best = 0;

@@ -1,4 +1,4 @@
-// Raw bytes, seen as their sidecar says.
+// Raw bytes with the layout given by their sidecar.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace rainref::port_dump {
 
-/// A level of the expected image in raw bytes; bottom_up is left to the caller. Throws Error(port_files) when the size
-/// is not the level's, the encoding contradicts the buffer's, a row does not fit the pitch, or the bytes end too early
-/// or go on behind the last row; the message names the pitch that would fit.
+/// A level of the expected image in raw bytes; the caller handles bottom_up. Throws Error(port_files) if the size is not the level's, the
+/// encoding contradicts the buffer's, a row does not fit the pitch, or there are too few or surplus bytes; the message gives the pitch that
+/// would fit.
 StoredImage image_in(std::span<const std::byte> bytes, const std::string& file, const Sidecar& sidecar, const capture::Array& expected,
                      int level);
 
-/// Records in raw bytes; without stride and fields they lie as `record` declares. Throws Error(port_files) when the
-/// bytes go on behind the last record; canonical_records checks the rest.
+/// Records in raw bytes; without stride and fields they have the layout of `record`. Throws Error(port_files) for surplus bytes after the
+/// last record; canonical_records checks the rest.
 StoredRecords records_in(std::span<const std::byte> bytes, const std::string& file, const Sidecar& sidecar,
                          const scene::UniformBlock& record);
 

@@ -46,7 +46,7 @@ StoredImage npy_image(const FileBytes& file) {
   return out;
 }
 
-// What an 8-bit file says about its encoding is a label: the codes are taken as they are, and a contradiction is named.
+// The encoding of an 8-bit file is only a label: the codes are used unchanged, and a contradiction is noted.
 void note_encoding(const FileBytes& file, bool is_srgb, std::string_view label, Format expected, ReadNotes& notes) {
   if (info(expected).channel_bytes != 1 || is_srgb == (info(expected).kind == Kind::srgb8)) return;
   notes.lines.push_back(fmt::format("{}: {}, the buffer is {}: the codes are taken as they are", file.file, label, info(expected).name));
@@ -68,7 +68,7 @@ std::vector<StoredImage> dds_levels(const FileBytes& file, const capture::Array&
   return std::move(dds.levels);
 }
 
-// A picture file, decoded only when its size is right.
+// A picture file, decoded only if its size is right.
 StoredImage picture(const FileBytes& file, const capture::Array& expected, int level, image_io::Evidence& storage) {
   const image_io::EvidenceSize size = image_io::evidence_size(file.file, file.bytes);
   check_level_size(file.file, size.width, size.height, expected, level);
@@ -88,9 +88,9 @@ StoredImage picture(const FileBytes& file, const capture::Array& expected, int l
   return out;
 }
 
-// A file this long holds more than any accepted layout of the buffer; it is refused before it is read.
+// A longer file than any accepted layout of the buffer is refused before it is read.
 std::size_t longest_file(const capture::Array& expected) {
-  if (expected.is_records) return std::numeric_limits<std::size_t>::max();  // any number of them
+  if (expected.is_records) return std::numeric_limits<std::size_t>::max();  // any number of records
   std::size_t texels = 0;
   for (std::size_t l = 0; l < expected.levels.size(); ++l) {
     texels += static_cast<std::size_t>(expected.level_width(static_cast<int>(l))) *
@@ -128,7 +128,7 @@ struct LoadedFile {
 
 void read_levels(const FileBytes& file, const capture::Array& expected, int level, const PortInfo& port, capture::Array& out,
                  ReadNotes& notes, Alpha alpha) {
-  image_io::Evidence storage;  // outlives what looks into it
+  image_io::Evidence storage;  // outlives the views of it
   std::vector<StoredImage> levels;
   Origin origin = port.origin;
   switch (file.type) {

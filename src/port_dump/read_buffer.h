@@ -1,4 +1,4 @@
-// A buffer that a port dumped, as the array that it should be compared with.
+// Reads a buffer that a port dumped, in the form of the array to compare it with.
 #pragma once
 
 #include <filesystem>
@@ -13,21 +13,21 @@
 
 namespace rainref::port_dump {
 
-/// Reads the buffer `stem` ("out.wave") of a case's folder. `expected` says what it must be: format, size and number of
-/// mip levels, or the record's declaration; its values are not looked at. Mip level l > 0 is <stem>.L<l>; a DDS with
-/// several levels holds them all. Rows come out with v = 0 first, by the origin of the sidecar or of `port`.
+/// Reads the buffer `stem` ("out.wave") of a case's folder. `expected` gives the required format, size and number of mip levels, or the
+/// record's declaration; its values are not used. Mip level l > 0 is <stem>.L<l>; a DDS with several levels holds them all. The returned
+/// rows begin with v = 0, by the origin of the sidecar or of `port`.
 ///
-/// Images have exactly the size of `expected`. Records may be more or fewer: width says how many. NaN and infinity are
-/// kept. Every bit is as the port stored it: no conversion but from a float to the half that it equals. `alpha`: where the buffer's fourth
-/// channel is the constant 1, an image of the other three is taken for it.
+/// Images have exactly the size of `expected`. The number of records may differ: width gives it. NaN and infinity are kept. Every bit is as
+/// the port stored it; the only conversion is from a float to the half that it equals. `alpha`: if the buffer's fourth channel is the
+/// constant 1, an image of the other three is accepted.
 ///
-/// Throws Error(port_files) with one sentence that names the file, what was expected and what was found; Error(io) when
-/// a file cannot be read. Memory goes with the size of `expected` and of the file, not with what a header claims.
+/// Throws Error(port_files) with one sentence that names the file, what was expected and what was found; Error(io) if a file cannot be
+/// read. Memory depends on the sizes of `expected` and of the file, not on the header.
 capture::Array read_port_buffer(const std::filesystem::path& folder, std::string_view stem, const capture::Array& expected,
                                 const PortInfo& port, ReadNotes& notes, Alpha alpha = Alpha::stored);
 
-/// The same for the bytes of one file, as a level or as records. `sidecar` is the text beside a .bin. This is what
-/// read_port_buffer does to each file, for callers that hold the bytes.
+/// The same for the bytes of one file, as a level or as records. `sidecar` is the text beside a .bin. read_port_buffer does this for each
+/// file; this is for callers that already have the bytes.
 struct FileBytes {
   FileType type;
   std::string file;  ///< quoted, for messages
@@ -35,7 +35,7 @@ struct FileBytes {
   std::string_view sidecar;
   std::string sidecar_file;  ///< quoted
 };
-/// Fills out.levels from `level` on: one level, or all that a DDS holds. `out` is `expected` without levels at first.
+/// Fills out.levels from `level` on: one level, or all levels of a DDS. `out` is initially `expected` without levels.
 void read_levels(const FileBytes& file, const capture::Array& expected, int level, const PortInfo& port, capture::Array& out,
                  ReadNotes& notes, Alpha alpha = Alpha::stored);
 /// Fills out.levels[0] and out.width.

@@ -21,7 +21,7 @@ constexpr std::string_view channel_names = "rgba";
   throw Error(ExitCode::port_files, fmt::format("{}: {}", stored.file, why));
 }
 
-// Why a channel of kind `found` cannot hold what a buffer of this format stored, or "".
+// Why a channel of kind `found` cannot hold the values of a buffer of this format, or "".
 std::string mismatch(Kind found, Format format) {
   const Kind expected = info(format).kind;
   const bool codes = expected == Kind::unorm8 || expected == Kind::srgb8;
@@ -74,8 +74,8 @@ std::uint16_t exact_half(const StoredImage& stored, const std::byte* from, std::
   return half.bits;
 }
 
-// Texels of the same size with channels at the same places: with the kinds that check_channels lets through, the same
-// bytes.
+// True for texels of the same size with channels at the same offsets. For the kinds that check_channels accepts, the bytes are then the
+// same.
 bool is_same_layout(const StoredImage& stored, const FormatInfo& format) {
   if (stored.texel_bytes != static_cast<std::size_t>(format.texel_bytes())) return false;
   if (stored.channels.size() < static_cast<std::size_t>(format.channels)) return false;
@@ -160,7 +160,7 @@ std::vector<std::byte> canonical_level(const StoredImage& stored, const capture:
   check_level_size(stored.file, stored.width, stored.height, expected, level);
   check_channels(stored, expected.format, alpha, notes);
   const FormatInfo& format = info(expected.format);
-  // Readers have checked this against their own headers; a defect there must not become a read out of bounds.
+  // Readers have checked this against their own headers; this keeps a defect there from reading out of bounds.
   if (stored.height > 0 && stored.rows.size() < (stored.height - 1) * stored.row_pitch + stored.width * stored.texel_bytes) {
     throw Error(ExitCode::internal, fmt::format("{}: rows do not lie in the file", stored.file));
   }

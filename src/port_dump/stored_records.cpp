@@ -24,7 +24,7 @@ const capture::NpyField* find(const StoredRecords& stored, const std::string& na
   return found == stored.fields.end() ? nullptr : &*found;
 }
 
-// Where the member lies in a stored record.
+// Offset of the member in a stored record.
 std::size_t offset_of(const StoredRecords& stored, const scene::Member& member) {
   const capture::NpyField* field = find(stored, member.name);
   if (!field) {

@@ -1,4 +1,4 @@
-// Records as some file stores them.
+// Records as a file stores them.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,19 @@
 
 namespace rainref::port_dump {
 
-/// Records somewhere in memory that outlives this.
+/// Records in memory that outlives this.
 struct StoredRecords {
   std::string file;                       ///< quoted, for messages
   std::vector<capture::NpyField> fields;  ///< a field of type "" has the type that the pack declares
   std::size_t stride = 0, count = 0;
-  std::span<const std::byte> bytes;  ///< from the first record
+  std::span<const std::byte> bytes;  ///< from the first record on
 };
 
-/// The records as the pack declares them, padding zero. Fields are matched by name; an int32 member is stored as <u4,
-/// its bits. Fields that the pack does not declare are left out: those named padding without a word, others with a
-/// note.
+/// The records as the pack declares them, padding zero. Fields are matched by name; an int32 member is stored as <u4, its bits. Fields that
+/// the pack does not declare are ignored: those named padding silently, others with a note.
 ///
-/// Throws Error(port_files) when a field is missing or has another type or number of components, or when a field or the
-/// last record does not lie within the stride or the bytes.
+/// Throws Error(port_files) if a field is missing or has another type or number of components, or if a field or the last record does not
+/// fit into the stride or the bytes.
 std::vector<std::byte> canonical_records(const StoredRecords& stored, const scene::UniformBlock& record, ReadNotes& notes);
 
 }  // namespace rainref::port_dump

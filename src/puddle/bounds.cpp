@@ -56,7 +56,7 @@ TextureData surface_bounds(const Settings& s, const float* decoded, const parall
   u.surface_slope = b.slope;
   u.bounds_scale[0] = static_cast<float>(static_cast<double>(width) / (columns * extent_block));
   u.bounds_scale[1] = static_cast<float>(static_cast<double>(height) / (rows * extent_block));
-  // Half a texel less than a block would do; the rest is for rounding.
+  // Half a texel less than a block would suffice; the rest is for rounding.
   u.bounds_reach = static_cast<float>((extent_block - 1) * s.cell_size);
   return TextureData(texels, 2, columns, rows, Address::clamp, Address::clamp);
 }
@@ -70,7 +70,7 @@ std::string doubt_bounds(const capture::PassCase& c) {
   const int columns = (width + extent_block - 1) / extent_block, rows = (height + extent_block - 1) / extent_block;
   if (said.width[0] != columns || said.height[0] != rows)
     return fmt::format("in.bounds is {}x{}, a wave of {}x{} has {}x{} blocks", said.width[0], said.height[0], width, height, columns, rows);
-  // Without the margins of surface_bounds, which cover the rounding of whoever computes them otherwise.
+  // Without the margins of surface_bounds, which cover the rounding of other implementations.
   const double to_slope = 2.0 * u.normal_gain * u.height_scale * 0x1.6a09e667f3bcdp+0;
   const float rest = -u.height_bias / u.height_scale;
   std::vector<Extent> blocks(static_cast<std::size_t>(columns));

@@ -8,7 +8,7 @@
 
 namespace rainref::puddle {
 
-/// The members of a block whose first is a CameraUniforms named camera, and these behind it.
+/// The members of a block whose first member is a CameraUniforms named camera, followed by these.
 template <class Block>
 std::vector<scene::Member> with_camera(std::vector<scene::Member> rest) {
   using scene::member;

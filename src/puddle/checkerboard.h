@@ -3,7 +3,7 @@
 
 namespace rainref::puddle {
 
-/// Of its tiles, linear RGB; the tile at the origin is dark.
+/// Colours of its tiles, linear RGB; the tile at the origin is dark.
 constexpr double checkerboard_dark[3] = {0.15, 0.12, 0.10}, checkerboard_light[3] = {0.25, 0.22, 0.20};
 
 }  // namespace rainref::puddle

@@ -1,8 +1,9 @@
-// Where the march of surface_hit, corrected, may end.
+// The possible ends of the march of surface_hit, corrected.
 //
-// It stops at the first place that it visits where the gap is under epsilon, and passes no crossing. The stretches of the ray where that
-// may be are the alternatives; within one the pass's own text makes the last step. Where the ray meets the plane, intervals of t and d lose
-// that their errors cancel: that place has an enclosure of its own. March steps are free: they depend on every decision on the way.
+// It stops at the first visited point where the gap is under epsilon, and does not step over a crossing. The stretches of the ray where it
+// may stop are the alternatives; within one, the pass's own text makes the last step. If the ray meets the plane, intervals of t and d do
+// not know that their errors cancel, so that point has its own enclosure. The number of march steps is not checked, because it depends on
+// every decision on the way.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 namespace rainref::puddle {
 
-/// What it is asked of must outlive it.
+/// The arguments must outlive it.
 class CorrectedDescent {
   using Enclosure = enclosed::Enclosure;
   using Vector = scalar::Vec3<Enclosure>;
@@ -40,9 +41,9 @@ class CorrectedDescent {
     if (chosen.leaves) return on_plane(ray, over, chosen.t, px, py);
     return hit_near(ray, over, port, chosen, beside_reference(bounds, px, py));
   }
-  /// What lies between some results that every device may give: a part of what hit_beside_reference() gives.
+  /// Results between some that every device may give: a part of the result of hit_beside_reference().
   Hit between_members(const Texture& bounds, int px, int py) const { return DescentMembers(u_, wave_, bounds, px, py).box(); }
-  /// The ends of a march that ends as the reference's does, or within some roundings of it: a part of what hit() gives.
+  /// The ends of a march that ends as the reference's does, or within some roundings of it: a part of the result of hit().
   std::optional<Hit> hit_beside_reference(const Texture& bounds, int px, int py, const float* port) const {
     const scalar::Descent<Enclosure> ray = scalar::descent<Enclosure>(u_, px, py);
     if (!ray.down) return scalar::surface_missed(ray);
@@ -56,7 +57,7 @@ class CorrectedDescent {
   }
 
  private:
-  /// Where the port's position lies along the ray: the interval of t that any coordinate allows.
+  /// Position of the port's hit along the ray: the interval of t that any coordinate allows.
   static Enclosure along(const Vector& origin, const Vector& d, const float* port) {
     double low = -1e30, high = 1e30;
     const Enclosure o[3] = {origin.x, origin.y, origin.z}, dir[3] = {d.x, d.y, d.z};
@@ -71,17 +72,17 @@ class CorrectedDescent {
     if (!(low <= high)) return Enclosure::vacuous();
     return enclosed::rounded_outward(low, high);
   }
-  /// Around the place where the reference's march stops on the water; nothing where it meets the plane.
+  /// The interval around the reference's stop on the water; nothing if its ray meets the plane.
   std::optional<Enclosure> beside_reference(const Texture& bounds, int px, int py) const {
     const std::optional<double> t = DescentMembers(u_, wave_, bounds, px, py).stop();
     if (!t) return std::nullopt;
     return enclosed::rounded_outward(*t * (1 - DescentMembers::roundings), *t * (1 + DescentMembers::roundings));
   }
-  /// Where a ray is that has passed the water.
+  /// Position of a ray that has passed the water.
   static Enclosure leaving(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over) {
     return Enclosure(over.t_out.hi, std::max(over.t_out.hi, ray.t_plane.hi) + 1);
   }
-  /// The hit of a ray that meets the plane: no march, or one that has come to t.
+  /// The hit of a ray that meets the plane: without a march, or after a march to t.
   Hit on_plane(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over, Enclosure t, int px, int py) const {
     const Enclosure zero(0.0f);
     Hit out = scalar::landed(u_, wave_, ray, over, {t, zero, zero, zero});
@@ -89,9 +90,8 @@ class CorrectedDescent {
     return out;
   }
 
-  /// Where the ray meets y = 0: o + (o_y / f) d with f = -d_y. So o_y / f d_y is -o_y but for the roundings of a
-  /// division and two products, and d_x / f = v_x / -v_y for v the ray before it was normalized, but for those of two
-  /// components.
+  /// The point where the ray meets y = 0: o + (o_y / f) d with f = -d_y. So o_y / f d_y is -o_y except for the roundings of a division and
+  /// two products. d_x / f = v_x / -v_y for v the ray before normalization, except for the roundings of two components.
   Vector plane_point(int px, int py, const scalar::Descent<Enclosure>& ray) const {
     const enclosed::Profile& p = enclosed::profile();
     const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
@@ -119,13 +119,13 @@ class CorrectedDescent {
     return Vector(of(a.x, b.x), of(a.y, b.y), of(a.z, b.z));
   }
 
-  /// A stretch of the ray where the march may stop.
+  /// A stretch of the ray in which the march may stop.
   struct Landing {
     Enclosure t, above;
     bool leaves;  ///< past the water: the ray meets the plane
   };
 
-  /// Top and slope from every texel of `bounds` that may be read, and from the uniforms where they may hold instead.
+  /// Top and slope, from every texel of `bounds` that may be read and from the uniforms if they may apply instead.
   scalar::WaterBounds<Enclosure> bounds_of(const Texture& bounds, const scalar::Descent<Enclosure>& ray) const {
     enclosed::PathEnumeration paths;
     scalar::WaterBounds<Enclosure> all{Enclosure(u_.surface_top), Enclosure(u_.surface_slope)};
@@ -153,7 +153,7 @@ class CorrectedDescent {
       const Enclosure gap = scalar::gap_above(u_, wave_, ray, piece);
       if (gap.is_vacuous()) return {};
       if (gap.lo < u_.epsilon) {
-        // Once under the water for sure, no march gets further, but by the steps whose proof allows for rounding.
+        // Once it is certainly under the water, no march gets further, except by the steps whose proof allows for rounding.
         const Enclosure after = scalar::gap_above(u_, wave_, ray, Enclosure(piece.hi));
         crossed = after.hi < -std::min(0.5 * u_.epsilon, 4 * enclosed::width_of(after) + 1e-5 * u_.surface_top);
         if (!found.empty() && found.back().t.hi >= piece.lo) {
@@ -169,7 +169,7 @@ class CorrectedDescent {
       if (!l.leaves) refine(ray, l);
     return found;
   }
-  /// Cuts off the ends of a stretch where no march stops: too high above, or surely under the water.
+  /// Cuts off the ends of a stretch where no march stops: too high above, or certainly under the water.
   void refine(const scalar::Descent<Enclosure>& ray, Landing& l) const {
     constexpr int pieces = 32;
     const double begin = l.t.lo, step = enclosed::width_of(l.t) / pieces;
@@ -183,12 +183,12 @@ class CorrectedDescent {
       low = std::min(low, static_cast<double>(piece.lo));
       high = std::max(high, static_cast<double>(piece.hi));
     }
-    if (low > high) return;  // what the coarse pieces saw was their own width
+    if (low > high) return;  // the coarse pieces were too wide, nothing remains
     l.t = enclosed::rounded_outward(low, high);
     l.above = above;
   }
-  /// The hit of a march that stopped in this stretch: of those pieces whose last step may end where the port's did,
-  /// each by itself, because t and the gap depend on each other. All of the stretch where no piece does.
+  /// The hit of a march that stopped in this stretch. It covers those pieces whose last step may end at the port's position, each one
+  /// separately, because t and the gap depend on each other. If no piece does, it covers the whole stretch.
   Hit hit_near(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over, const float* port, const Landing& stretch,
                const std::optional<Enclosure>& reference) const {
     const Enclosure zero(0.0f), own = along(ray.origin, ray.d, port);
@@ -204,7 +204,7 @@ class CorrectedDescent {
       const double step = (high - low) / pieces;
       return enclosed::rounded_outward(low + k * step, low + (k + 1) * step);
     };
-    // The outermost of coarse pieces where the port's end may lie; then all of the fine ones between them.
+    // First the outermost coarse pieces that may contain the port's end, then all fine pieces between them.
     constexpr int coarse = 16, fine = 48;
     std::optional<Hit> all;
     if (low <= high) {
@@ -221,13 +221,13 @@ class CorrectedDescent {
     }
     const Hit ends =
         all && is_settled ? *all : scalar::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
-    // What hit_beside_reference() gives is a part of this.
+    // The result of hit_beside_reference() is a part of this.
     if (!reference || reference->hi < stretch.t.lo || stretch.t.hi < reference->lo) return ends;
     const std::optional<Hit> beside = end_of(*reference);
     return beside ? hull_of(ends, *beside) : ends;
   }
-  /// What a march that stopped at t may end with, where the port's end is among it; nothing where it is not. Clears `is_settled` where too
-  /// much of it is open.
+  /// The possible ends of a march that stopped at t, if they contain the port's end; otherwise nothing. Clears `is_settled` if too much is
+  /// open.
   std::optional<Hit> end_near(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over, const float* port,
                               const Enclosure& t, bool& is_settled) const {
     std::optional<Hit> out;

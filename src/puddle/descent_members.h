@@ -1,9 +1,9 @@
-// Results of surface_hit, corrected, that every device of a profile may give, found in plain floats: what lies between them lies in the
-// envelope (CorrectedDescent), too.
+// Results of surface_hit, corrected, that every device of a profile may give, computed in plain floats. Values between them are in the
+// envelope (CorrectedDescent) too.
 //
-// A march that stops on the water has such results at the ends of the stretch that the envelope takes around the reference's own stop. A
-// ray that meets the plane has those of devices: they normalize its direction by each formula, divide with the largest error that the
-// profile allows, and fuse or do not. All results come from the same decisions, so they lie in one alternative.
+// For a march that stops on the water they are at the ends of the stretch that the envelope allows around the reference's stop. For a ray
+// that meets the plane they come from simulated devices, which normalize its direction by each formula, divide with the largest error that
+// the profile allows, and fuse or do not. All results come from the same decisions, so they lie in one alternative.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,8 @@ class DescentMembers {
   using Enclosure = enclosed::Enclosure;
 
  public:
-  /// A march may stop this much beside the reference's, relative to the way so far: its steps add up, each rounded.
+  /// Largest distance of a march's stop from the reference's, relative to the distance so far, because its steps add up with a rounding
+  /// each.
   static constexpr double roundings = 16 * 0x1p-23;
 
   DescentMembers(const SurfaceHitUniforms& u, const FixedTexture<Address::clamp, Address::clamp, 1>& wave, const Texture& bounds, int px,
@@ -35,13 +36,13 @@ class DescentMembers {
         ray_(scalar::descent<Single>(u, px, py)),
         over_(scalar::stretch(u, ray_, scalar::water_bounds(u, bounds, ray_))) {}
 
-  /// Where the reference's march stops on the water; nothing where it meets the plane.
+  /// Where the reference's march stops on the water; nothing if its ray meets the plane.
   std::optional<double> stop() const {
     if (!over_.enters) return std::nullopt;
     const float t = scalar::marched(u_, wave_, ray_, over_).t.v;
     return t < over_.t_out.v ? std::optional<double>(t) : std::nullopt;
   }
-  /// The least box around the members, under the profile in force.
+  /// The smallest box around the members, under the current profile.
   scalar::SurfaceHit<Enclosure> box() {
     if (!ray_.down) {
       add(scalar::surface_missed(ray_));
@@ -55,7 +56,7 @@ class DescentMembers {
 
  private:
   void add_stops(double stop) {
-    constexpr double within = 7.0 / 8 * roundings;  // leaves room for rounding it to a float, and for the float beside that
+    constexpr double within = 7.0 / 8 * roundings;  // leaves room for rounding to a float and for its neighbour
     scalar::Descent<Single> fused = ray_;
     const std::vector<Vector> views = directions(true);
     fused.d = views.back();
@@ -87,13 +88,13 @@ class DescentMembers {
       }
     }
   }
-  /// origin + t d, rounded twice, or once where that is allowed.
+  /// origin + t d, rounded twice, or once if that is allowed.
   void add_place(const Vector& d, Single t, const Vector& normal) {
     const Vector& o = ray_.origin;
     add(o + t * d, normal);
     if (enclosed::profile().contraction) add(Vector(fused(t, d.x, o.x), fused(t, d.y, o.y), fused(t, d.z, o.z)), normal);
   }
-  /// The ray's direction as devices have it: the reference's first, one that fuses last where it may.
+  /// Directions of the ray on different devices: the reference's first, one with fused operations last if that is allowed.
   std::vector<Vector> directions(bool fuses) const {
     std::vector<Vector> all{ray_.d};
     const CameraUniforms& c = u_.camera;
@@ -110,7 +111,7 @@ class DescentMembers {
     normalized(Vector(axis(0), axis(1), axis(2)));
     return all;
   }
-  /// 1 / x with the largest errors that the profile in force allows, and the nearest.
+  /// 1 / x with the largest errors that the current profile allows, and the nearest.
   static std::array<float, 3> quotients(double exact) {
     const double error = std::max(0.0, enclosed::profile().division.ulp) * enclosed::ulp_of(exact);
     const float nearest = static_cast<float>(exact);

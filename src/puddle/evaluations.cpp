@@ -70,7 +70,7 @@ struct DropByDrop {
 class Raindrops : public capture::ModelOf<DropByDrop> {
  public:
   explicit Raindrops(const RaindropsUniforms& u) : ModelOf({u}) {}
-  /// A drop lies somewhere on the wave, and is at most as strong as the scene says.
+  /// A drop lies somewhere on the wave, and its strength is at most the scene's.
   std::optional<double> extent(int value) const override {
     const RaindropsUniforms& u = pass().uniforms;
     const double extents[] = {static_cast<double>(u.width), static_cast<double>(u.height), u.drop_intensity, raindrop_radius};

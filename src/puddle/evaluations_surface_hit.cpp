@@ -1,5 +1,5 @@
-// surface_hit as conformance takes it. A march repeats rounding errors until an interval says nothing, so that its end
-// is enclosed instead, by what every march must satisfy.
+// Judging of surface_hit. A march accumulates rounding errors until an interval is useless, so its end is enclosed instead, by conditions
+// that every march must satisfy.
 #include <algorithm>
 
 #include "capture/bound_texture.h"

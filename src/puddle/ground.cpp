@@ -20,8 +20,8 @@ double lattice(std::uint64_t seed, int x, int y, std::uint32_t layer) {
 }
 double ease(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
-// One layer of value noise in [-1, 1]. It keeps the corners of the cell that it met last: neighbouring texels mostly share one, and
-// drawing corners is nearly all that noise costs.
+// One layer of value noise in [-1, 1]. It caches the corners of the last cell, because neighbouring texels mostly share a cell, and drawing
+// corners is nearly all of the cost.
 class Noise {
  public:
   Noise(std::uint64_t seed, std::uint32_t layer) : seed_(seed), layer_(layer) { meet(0, 0); }
@@ -75,7 +75,7 @@ Image natural_bed(const int&, const DepthReads& reads) {
     for (int x = 0; x < width; ++x) {
       const double u = 2 * (x + 0.5) / width - 1, v = 2 * (y + 0.5) / height - 1;
       const double mx = u * half_x, mz = v * half_z;
-      // A bowl that ends before the rectangle does, pushed about by noise at the scale of a step, roughened by grain.
+      // A bowl that ends inside the rectangle, distorted by noise at the scale of a step, roughened by grain.
       const double bowl = 1.0 - 1.55 * (u * u + v * v) + 0.8 * fractal(octaves, 1.7 * mx + 40, 1.7 * mz + 40);
       const double window = 1 - std::max(u * u * u * u * u * u, v * v * v * v * v * v);
       const double grain = 0.0012 * grains(90 * mx, 90 * mz);
@@ -89,7 +89,7 @@ constexpr int asphalt_texels = 512;  // a side
 Image asphalt(const int&, const std::uint64_t& seed) {
   constexpr int size = asphalt_texels, cells = 80;
   Image tile(Format::rgba32f, size, size);
-  // Stones: one jittered point in each cell, the tile joined at its edges.
+  // Stones: one jittered point in each cell; the tile wraps at its edges.
   std::vector<random::Block> stones;
   for (std::uint32_t y = 0; y < cells; ++y)
     for (std::uint32_t x = 0; x < cells; ++x) stones.push_back(random::block(seed, random::Purpose::puddle_ground, x, y));

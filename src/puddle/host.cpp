@@ -13,7 +13,7 @@ namespace rainref::puddle {
 namespace {
 
 constexpr double stability_limit = 0x1.6a09e667f3bcdp-1;   // sqrt(1/2): five-point leapfrog in two dimensions
-constexpr double rim_echo = 1e-3;                          // of a wave's height, out of the rim and its wall, at normal incidence
+constexpr double rim_echo = 1e-3;                          // remaining height of a normally incident wave after the rim and the wall
 constexpr double box_half_side = 42, box_half_height = 5;  // the article's box of 84 x 10 x 84
 
 bool corrected(const Settings& s) { return s.variant == Variant::corrected; }
@@ -30,7 +30,7 @@ std::array<int, 2> wave_size(const Settings& s) { return corrected(s) ? s.grid :
 Encoding encoding(const Settings& s) {
   if (!corrected(s)) return {2, -1, 0.5f};
   if (s.storage != Format::rgba8) return {1, 0, 0.0f};
-  // Level water is code 128, so that it is stored exactly.
+  // Level water is code 128, so it is stored exactly.
   const float rest = 128.0f / 255.0f;
   return {2 * rgba8_range, -2 * rgba8_range * static_cast<double>(rest), rest};
 }
@@ -44,7 +44,7 @@ double courant_number(const Settings& s) { return corrected(s) ? s.wave_speed / 
 
 std::int64_t steps_until(const Settings& s, int frames) {
   if (!corrected(s)) return frames;
-  // Exact whenever the quotient is whole, because n * rate is exact and division is correctly rounded.
+  // Exact if the quotient is a whole number, because n * rate is exact and division is correctly rounded.
   return static_cast<std::int64_t>(static_cast<double>(frames) * s.step_rate / s.fps);
 }
 
@@ -57,7 +57,7 @@ void check(const Settings& s) {
                     "number sqrt(1/2) = 0.707107; raise puddle.step_rate to {:.0f} or more",
                     courant, std::ceil(s.wave_speed / (stability_limit * s.cell_size))));
   }
-  camera_uniforms(s);  // throws for a camera that looks nowhere
+  camera_uniforms(s);  // throws for an invalid camera
 }
 
 RaindropsUniforms raindrops_uniforms(const Settings& s, int frame) {
@@ -79,10 +79,11 @@ WaveStepUniforms wave_step_uniforms(const Settings& s) {
   u.rest = encoding(s).rest;
   if (corrected(s)) {
     u.courant_sq = static_cast<float>(courant * courant * (1 + gamma) / 2);
-    // Above (1 + gamma) / 4 of the rounded gamma the shortest wave would grow; the two roundings pass it by less than an ulp.
+    // Above (1 + gamma) / 4, with the rounded gamma, the shortest wave would grow; the two roundings exceed it by less than an ulp.
     if (4.0 * u.courant_sq > 1.0 + u.damping) u.courant_sq = std::nextafter(u.courant_sq, 0.0f);
-    if (s.rim_width > 0.5 * s.cell_size) {  // or else no cell's centre lies in it
-      // A wave fades by exp(-integral of sigma / c) on its way: for sigma = rate depth^2 by rim_echo on the way to the edge and back.
+    if (s.rim_width > 0.5 * s.cell_size) {  // otherwise no cell's centre lies in it
+      // A wave fades by exp(-integral of sigma / c) on its way. With sigma = rate depth^2 it fades by rim_echo on the way to the edge and
+      // back.
       const double rate = 1.5 * -log_real(Real64(rim_echo)).v * s.wave_speed / s.rim_width;
       u.rim_damping = static_cast<float>(1 - exp_real(Real64(-rate / s.step_rate)).v);
       u.rim_inverse = static_cast<float>(s.cell_size / s.rim_width);
@@ -160,11 +161,12 @@ ShadeUniforms shade_uniforms(const Settings& s) {
   u.use_checkerboard = s.use_checkerboard;
   u.inverse_size[0] = static_cast<float>(1 / (s.grid[0] * s.cell_size));
   u.inverse_size[1] = static_cast<float>(1 / (s.grid[1] * s.cell_size));
-  u.shore_width = corrected(s) ? static_cast<float>(s.shore_width) : 0.002f;  // as published unused; what packs have always held
+  u.shore_width = corrected(s) ? static_cast<float>(s.shore_width) : 0.002f;  // as published unused; kept because packs have always
+                                                                              // contained it
   u.gloss_level = 4.0f;  // corrected: gloss_level() of the environment, which the caller knows
   u.wetness = 0.45f;
   u.background_level = 0.0f;
-  // A pixel of rippled water sees a patch of the environment, not a point.
+  // A pixel of rippled water reflects an area of the environment, not a point.
   u.mirror_level = 1.0f;
   u.ground_reach = corrected(s) ? static_cast<float>(s.ground_reach) : 0.0f;
   u.exact_fresnel = s.exact_fresnel;

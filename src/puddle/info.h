@@ -1,4 +1,4 @@
-// The puddle described to others.
+// The description of the puddle.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace rainref::puddle {
 /// Passes, buffers and GPU layouts of the puddle.
 const capture::EffectInfo& effect_info();
 
-/// All of them, of both variants; corrected raindrops is compared by bits. ground_noise is taken as data.
+/// Evaluations of all passes, of both variants; corrected raindrops is compared by bits. ground_noise is taken as data.
 const std::vector<capture::PassEvaluations>& evaluations();
 
 /// raindrops as published: record i is drop i.

@@ -17,8 +17,8 @@
 namespace rainref::puddle {
 namespace {
 
-/// Columns and rows of the panorama of the street: as named, or the power of two in [1024, 4096] that comes next below a column for each
-/// pixel at the middle of the picture. Coarser ones show the road beyond the puddle out of focus.
+/// Columns and rows of the panorama of the street: as given, or the largest power of two in [1024, 4096] below one column per pixel at the
+/// centre of the picture. Coarser panoramas show the road beyond the puddle out of focus.
 std::array<int, 2> street_size(const scene::Config& config) {
   int width = static_cast<int>(config.integer("environment.width"));
   if (width == 0) {
@@ -31,10 +31,10 @@ std::array<int, 2> street_size(const scene::Config& config) {
   return {width, std::max(1, width / 2)};
 }
 
-/// Where the street is seen from. corrected: the camera's place in it, so that the road beyond the puddle lies where its rays meet the
-/// ground; as published, and for a camera that stands outside the street: over the middle of the puddle.
+/// Viewpoint in the street. corrected: the camera's position in it, so that the road beyond the puddle appears where its rays meet the
+/// ground. as published, and for a camera outside the street: over the centre of the puddle.
 scene::Vector3 street_eye(const Settings& s) {
-  constexpr double lowest = 0.05, widest = 7, farthest = 280;  // before the facades and the street's ends
+  constexpr double lowest = 0.05, widest = 7, farthest = 280;  // inside the facades and the street's ends
   const auto& [x, y, z] = s.camera_position;
   const double c = cos_real(Real64(s.env_rotation)).v, n = sin_real(Real64(s.env_rotation)).v;
   const scene::Vector3 eye{c * x + n * z, std::max(y, lowest), c * z - n * x};  // the shade pass's rotate
@@ -50,7 +50,7 @@ Surroundings surroundings(const scene::Config& config, const parallel::Executor&
   } else {
     image_io::Picture picture = effect::read_input(config, "environment.image", inputs);
     s.environment_is_cube = config.text("environment.layout") == "cube";
-    // A panorama's v = 0 looks down; a cube's faces start at their top row, as graphics APIs have it.
+    // A panorama's v = 0 looks down; the faces of a cube start at their top row, as in graphics APIs.
     s.environment = s.environment_is_cube ? std::move(picture.image) : flipped(picture.image);
     s.environment_is_encoded = picture.srgb_encoded;
   }
@@ -110,7 +110,7 @@ std::optional<effect::Display> Instance::display() const {
 }
 
 effect::Effect entry() {
-  // What the street is seen with where environment.width is 0.
+  // Inputs of the view of the street if environment.width is 0.
   const std::vector<std::string> panorama{"environment.width", "puddle.env_rotation", "run.size",
                                           "run.supersample",   "camera.position",     "camera.vertical_fov_deg"};
   const std::vector<std::string> depths{

@@ -1,4 +1,4 @@
-// The puddle as a scene says it: opened, run and written like every effect.
+// The puddle of a scene, with the common interface of all effects.
 #pragma once
 
 #include "effect/effect.h"
@@ -6,7 +6,7 @@
 
 namespace rainref::puddle {
 
-/// What the registry holds.
+/// Entry of the registry.
 effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<Puddle> {

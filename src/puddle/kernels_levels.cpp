@@ -1,4 +1,4 @@
-// Shells of raindrops as published, and what reads and writes levels of the wave; compiled once for each SIMD target.
+// Shells of raindrops as published, and functions that read and write levels of the wave; compiled once for each SIMD target.
 #include <algorithm>
 
 #include "pass/planes.h"
@@ -67,7 +67,7 @@ void ExtentsOfRows(const float* decoded, int width, int height, float rest, cons
     float tail_top = 0, tail_step = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
       const float *row = decoded + static_cast<std::size_t>(y) * width, *next = y + 1 < height ? row + width : row;
-      // The water falls to the rest level beyond its edge.
+      // The water drops to the rest level beyond its edge.
       if (x0 == 0) tail_step = std::max(tail_step, magnitude(row[0] - rest));
       if (x1 == width) tail_step = std::max(tail_step, magnitude(row[width - 1] - rest));
       if (y == 0 || y + 1 == height) {

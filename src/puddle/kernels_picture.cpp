@@ -42,7 +42,8 @@ RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
   const auto a = sample_neighbours<Channel, Lanes>(t, u.a, v.a), b = sample_neighbours<Channel, Lanes>(t, u.b, v.b);
   return {N(a.left, b.left), N(a.right, b.right), N(a.down, b.down), N(a.up, b.up)};
 }
-// Called, not inlined, as the loops below: shade looks up twice, and engines of WebAssembly keep the vectors of a huge function in memory.
+// Called, not inlined, like the loops below: shade has two lookups, and engines of WebAssembly keep the vectors of a huge function in
+// memory.
 inline HWY_NOINLINE HWY_ATTR Vec3<Lanes> sample_environment(const Texture& t, bool is_cube, const Vec3<Lanes>& d, Lanes lod) {
   return sample_environment<Lanes>(t, is_cube, d, lod);
 }
@@ -66,8 +67,8 @@ HWY_INLINE HWY_ATTR void give_hit(HitIo& io, int x, int count, const Vec3<Lanes>
   io.hit(position, iterations);
   io.normal(normal, flag);
 }
-// A round of the march waits for the one before: for quotients, a lookup, a root. Two rays of a row side by side, in each lane, keep the
-// processor busy meanwhile.
+// A round of the march waits for the one before: for quotients, a lookup, a root. Two rays of a row side by side in each lane keep the
+// processor busy.
 template <bool corrected, Address edge>
 HWY_NOINLINE HWY_ATTR void paired_hit_rows(const SurfaceHitUniforms& uniforms, Rounding rounding, const pass::HostIo<SurfaceHitPass>& host,
                                            const parallel::Tile& tile) {
@@ -108,8 +109,8 @@ RAINREF_PASS_ROWS(GroundNoisePass)
 RAINREF_PASS_ROWS(ShadePass)
 RAINREF_PASS_ROWS(DisplayPass)
 
-// Where nothing of ours is seen in any lane, the picture behind is all that shade gives: what it would make of the ground there has the
-// weight 0, and is finite, as the caller knows. That picture hangs on nothing that moves: `kept` holds what is known of it, with alpha 1.
+// If no lane sees the puddle's ground or water, the picture behind is the whole result of shade: the ground would have the weight 0, and is
+// finite, which the caller ensures. That picture never changes; `kept` holds its known parts, with alpha 1.
 HWY_NOINLINE HWY_ATTR void ShadeOrBackground(const ShadeUniforms& uniforms, Rounding rounding, const pass::HostIo<ShadePass>& host,
                                              Image& colour, Image& kept, const parallel::Tile& tile) {
   const ShadeUniforms u = uniforms;
@@ -149,7 +150,7 @@ void DisplayCodes(Rounding rounding, const float* x, std::uint8_t* code, int cou
 /// The bits of a code in each lane.
 HWY_INLINE HWY_ATTR hn::Vec<Lanes::DI> code_of(const CodeSteps::Bucket* buckets, Lanes x) {
   const Lanes::DI d;
-  // Without numbers that are none: the function gives 0 for them.
+  // Without NaN, for which the function gives 0.
   const Lanes zero(0.0f), held = min(select(x > zero, x, zero), Lanes(1.0f));
   const auto bucket = hn::Max(hn::Sub(hn::ShiftRight<CodeSteps::shift>(hn::BitCast(d, held.v)), hn::Set(d, CodeSteps::first)), hn::Zero(d));
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128

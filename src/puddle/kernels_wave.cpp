@@ -24,7 +24,7 @@ void drops_in_rows(std::span<const Drop> drops, int y0, int y1, std::vector<Drop
   for (const Drop& d : drops)
     if (reaches_rows(d, y0, y1)) out.push_back(d);
 }
-/// Those that reach into columns [x0, x1], in their order. Not std::views::filter, with which GCC makes a slower loop of step_block.
+/// The drops that reach into columns [x0, x1], in order. Not std::views::filter, with which GCC makes a slower loop of step_block.
 class DropsInColumns {
  public:
   DropsInColumns(std::span<const Drop> drops, int x0, int x1) : drops_(drops), x0_(static_cast<float>(x0)), x1_(static_cast<float>(x1)) {}
@@ -54,7 +54,7 @@ class DropsInColumns {
   std::span<const Drop> drops_;
   float x0_, x1_;
 };
-/// The first vector from column x on that a drop of the row may reach into; end if none does. x is a multiple of a vector's length.
+/// The first vector from column x on that a drop of the row may reach; end if there is none. x is a multiple of a vector's length.
 HWY_INLINE HWY_ATTR int next_vector(std::span<const Drop> in_row, int x, int end) {
   const int n = Lanes::size();
   int next = end;
@@ -68,20 +68,20 @@ HWY_INLINE HWY_ATTR int next_vector(std::span<const Drop> in_row, int x, int end
 }
 
 // ---- rows at a time --------------------------------------------------------------------------------------------------
-// A vector of a row and its neighbours, in registers: a load at an odd place takes as long as two, and may have to wait for a store that
-// has the same place in another page.
+// A vector of a row and its neighbours, in registers. An unaligned load takes as long as two, and may have to wait for a store with the
+// same offset in another page.
 struct LoadedRow {
   Lanes left, here, right;
   int x;
 };
 template <class N>
 HWY_INLINE HWY_ATTR N element(const LoadedRow& row, int x) {
-  return x == row.x ? row.here : x < row.x ? row.left : row.right;  // known when it is compiled
+  return x == row.x ? row.here : x < row.x ? row.left : row.right;  // known at compile time
 }
-// What a step of the corrected pass reads besides the two levels. As constants, for each costs much of the time of a step.
+// Inputs of a step of the corrected pass besides the two levels. Compile-time constants, because each costs much of the time of a step.
 enum class Edges { none, shore, rim };
 
-// Without it the compiler calls some of these, and what they refer to lives in memory.
+// Without it the compiler calls some of these functions, and their references live in memory.
 #undef RAINREF_INLINED
 #define RAINREF_INLINED HWY_ATTR __attribute__((always_inline))
 
@@ -89,12 +89,12 @@ template <int... Rows, class F>
 HWY_INLINE HWY_ATTR void for_each_row(std::integer_sequence<int, Rows...>, const F& f) {
   (f(std::integral_constant<int, Rows>()), ...);
 }
-// Where the rows of both levels begin that a later call reads: with every vector a line of each is fetched. Among the other instructions
-// and not one after another, for a core waits for few lines at once.
+// Start of the rows of both levels that a later call reads; with every vector a cache line of each is fetched. The fetches are spread among
+// the other instructions, because a core can wait for only a few lines at once.
 using Fetched = std::array<const std::byte*, 2>;
-constexpr int line = 64;  // bytes of a cache
-// Whole vectors of columns [0, end) of R rows from y on, into which `drops` reach: each vector of the newest level is loaded once.
-// Returns the first column that is left. Neighbours are one texel away.
+constexpr int line = 64;  // bytes of a cache line
+// Whole vectors of columns [0, end) in R rows from y on, which `drops` reach; each vector of the newest level is loaded once. Returns the
+// first remaining column. Neighbours are one texel away.
 template <int R, bool corrected, Edges edges, Rounding rounding, class Storage>
 HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storage*, R + 2> newest, std::array<Storage*, R> out,
                                      std::array<const float*, R> shore, std::span<const Drop> drops, Fetched fetched, int end, int y) {
@@ -128,7 +128,7 @@ HWY_NOINLINE HWY_ATTR int step_block(WaveStepUniforms u, std::array<const Storag
         next[k] = wave_step_as_published<Lanes>(u, rows, near, x, y + k);
     });
     for_each_row(each, [&](auto k) RAINREF_INLINED {
-      // Nothing stored is -0, so that neither is a sum that begins with what is stored, or with 1/2.
+      // No stored value is -0, so a sum that begins with a stored value, or with 1/2, is not -0 either.
       store_without_minus_zero(out[k] + x, next[k], rounding);
       before[k] = here[k];
       here[k] = after[k];
@@ -149,7 +149,7 @@ template <bool corrected, Edges edges, Rounding rounding, class Storage>
 class Rows {
  public:
   explicit Rows(const WaveJob& job) : job_(job), u_(job.uniforms) {}
-  // R rows from y on; drops: all that reach into them. Takes what it fetches off the rows ahead.
+  // R rows from y on; drops: all that reach them. Removes the rows that it fetches from the rows ahead.
   template <int R>
   HWY_ATTR void visit(std::span<const Drop> drops, int y, RowsAhead& ahead) const {
     const int width = job_.newest->width();
@@ -160,7 +160,7 @@ class Rows {
       std::array<const float*, R> shores;
       for (int k = 0; k < R + 2; ++k) rows[k] = newest(y + k - 1);
       for (int k = 0; k < R; ++k) out[k] = job_.previous->row<Storage>(y + k), shores[k] = shore(y + k);
-      int next = y;  // those at hand cost less than a branch
+      int next = y;  // testing them all costs less than a branch
       if (ahead.y0 < ahead.y1) {
         next = ahead.y0;
         ahead.y0 = std::min(ahead.y0 + rows_fetched, ahead.y1);
@@ -188,7 +188,7 @@ class Rows {
   }
 
  private:
-  // In the vectors of one: rows follow each other in memory.
+  // Rows prefetched per computed row, with one line per vector; rows are contiguous in memory.
   static constexpr int rows_fetched = std::max(line / (Lanes::size() * static_cast<int>(sizeof(Storage))), 1);
   const Storage* newest(int y) const { return pass::row_at<Storage>(*job_.newest, *job_.rest_row, address_of(job_.boundary), y); }
   const float* shore(int y) const { return job_.shore ? job_.shore->row<float>(y) : nullptr; }
@@ -197,7 +197,7 @@ class Rows {
 };
 template <bool corrected, Edges edges, Rounding rounding, class Storage>
 HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile, RowsAhead& ahead) {
-  constexpr int most = Lanes::size() == 16 ? 4 : 2;  // by the number of registers
+  constexpr int most = Lanes::size() == 16 ? 4 : 2;  // limited by the number of registers
   const Rows<corrected, edges, rounding, Storage> rows(job);
   std::vector<Drop> in_tile, in_rows;
   drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
@@ -206,7 +206,7 @@ HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile, RowsAhea
     if (!in_tile.empty()) drops_in_rows(in_tile, y, y + most, in_rows);
     rows.template visit<most>(in_rows, y, ahead);
   }
-  for (; y < tile.y1; ++y) {  // few: the last ones of a plane, or of a band's end
+  for (; y < tile.y1; ++y) {  // few: the last rows of a plane, or at the end of a band
     drops_in_rows(in_tile, y, y + 1, in_rows);
     rows.single(in_rows, 0, y);
   }
@@ -215,7 +215,7 @@ HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile, RowsAhea
 }
 template <bool corrected, Edges edges, class Storage>
 HWY_ATTR void step_rounded(const WaveJob& job, const parallel::Tile& tile, RowsAhead& ahead) {
-  if constexpr (!std::is_same_v<Storage, float>)  // which holds every result
+  if constexpr (!std::is_same_v<Storage, float>)  // whose range contains every result
     if (job.rounding == Rounding::rtz) return step_rows<corrected, edges, Rounding::rtz, Storage>(job, tile, ahead);
   step_rows<corrected, edges, Rounding::rne, Storage>(job, tile, ahead);
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int own_ground = 512;  // make_asphalt
 
-/// recode and the texture made of it.
+/// recode, and the texture made from it.
 void hold_picture(MemoryPeak& m, std::array<int, 2> size, bool is_float, bool has_mips) {
   const std::uint64_t texels = texel_bytes(size[0], size[1], 4);
   if (!is_float) m.pass(2 * texels);  // decoded, and in the pass's code
@@ -57,8 +57,10 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   m.hold(Image::memory_bytes(Format::rgba32f, s.width, s.height) + 2 * Image::memory_bytes(Format::rgba16f, s.width, s.height) +
          Image::memory_bytes(Format::rgba8, s.width, s.height));
   if (!corrected) m.hold(Image::memory_bytes(Format::r32f, s.width, s.height));
-  if (corrected && s.ground_reach > 0) m.hold(Image::memory_bytes(Format::rgba16f, s.width, s.height));  // at the most, what is behind
-  m.hold(wave_floats);                                                                                   // decoded for lookups
+  if (corrected && s.ground_reach > 0)
+    m.hold(Image::memory_bytes(Format::rgba16f, s.width, s.height));  // upper bound of the picture
+                                                                      // behind
+  m.hold(wave_floats);                                                // decoded for lookups
   const std::array<int, 2> shelter = s.shelter.empty() ? sizes.shelter : std::array{columns, rows};
   m.hold(sizeof(ShelterCell) * static_cast<std::uint64_t>(shelter[0]) * static_cast<std::uint64_t>(shelter[1]));
   m.pass(texel_bytes(sizes.shelter[0], sizes.shelter[1], 4));  // decoded

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_objects = 64;
 constexpr double farthest_object = 1e4, largest_object = 100, latest_place = 1e9;  // [m], [m], [s]
-constexpr double places_in_texel = 1024;                                           // exact in a float on every grid, mirrored too
+constexpr double places_in_texel = 1024;                                           // exact in float on every grid, also mirrored
 
 double mixed(double from, double to, double share) { return from + share * (to - from); }
 

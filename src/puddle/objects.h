@@ -1,4 +1,4 @@
-// Objects that move through the water of a puddle: how they disturb it, as records of the drops' list.
+// Objects that move through the water of a puddle, as records of the list of drops that describe their effect on the water.
 #pragma once
 
 #include <cstdint>
@@ -10,35 +10,34 @@
 
 namespace rainref::puddle {
 
-/// A round object that presses on the water with a head of `depth` in its middle, of the shape of a crater. It rests before the first of
-/// its places and after the last, and between goes from one to the next at an even speed.
+/// A round object that presses on the water with a head of `depth` at its centre, in the shape of a crater. It rests before the first of
+/// its places and after the last, and moves between them at constant speed.
 struct MovingObject {
   struct Place {
     double time, x, z;  ///< [s], world [m]
   };
   double radius, depth;       ///< [m]; the shape ends at this distance
-  std::vector<Place> places;  ///< at least one, times ascending
+  std::vector<Place> places;  ///< at least one, in ascending time
 
-  /// Where it is at time t [s].
+  /// Its position at time t [s].
   Place at(double t) const;
 };
 
-/// "radius depth: time x z, time x z, ...; ..." Throws Error(usage), naming the object and the key puddle.objects, for any other text, more
-/// than 64 objects, and lengths, times or places beyond what they may be.
+/// "radius depth: time x z, time x z, ...; ..." Throws Error(usage) with the object and the key puddle.objects for any other text, more
+/// than 64 objects, and lengths, times or places out of range.
 std::vector<MovingObject> parse_objects(std::string_view text);
 
-/// What the objects do to the water in each wave step. A pressure that moves makes waves by its change: the head is taken from where the
-/// object was and added where it is, into both levels, as a drop's crater is. So v = u - head obeys v_tt = c^2 lap(v + head): an object
-/// that rests leaves the water level, its volume of 0 keeps the mean, and one that is faster than the waves draws a wake within asin(c /
-/// speed).
+/// The effect of the objects on the water in each wave step. A moving pressure makes waves by its change: the head is subtracted where the
+/// object was and added where it is, in both levels, like a drop's crater. So v = u - head obeys v_tt = c^2 lap(v + head). An object at
+/// rest leaves the water level, its zero volume keeps the mean, and an object faster than the waves makes a wake within asin(c / speed).
 class Objects {
  public:
-  /// stored_per_metre: stored units in a metre of height. Throws Error(usage) as parse_objects does.
+  /// stored_per_metre: stored units per metre of height. Throws Error(usage) as parse_objects does.
   Objects(const Settings& settings, double stored_per_metre);
 
-  /// The records of a wave step, of each object that moved in it: the head that it leaves, negative, then the head where it is at the
-  /// step's end, each followed by its images as a drop is, as far as its middle lies in the water's rectangle. Places are multiples of
-  /// 1/1024 texel, so that a place is the same record at the end of a step and at the start of the next.
+  /// The records of a wave step, for each object that moved in it: the negative head at its old position, then the head at its position at
+  /// the end of the step. Each is followed by its images, as for a drop, if its centre lies in the water's rectangle. Positions are
+  /// multiples of 1/1024 texel, so that a position gives the same record at the end of a step and at the start of the next.
   std::vector<Drop> records(std::int64_t step) const;
 
  private:

@@ -1,4 +1,4 @@
-// The puddle's scene parameters: declared once, for scenes, help, hashing and capture.
+// The puddle's scene parameters, declared once for scenes, help, hashing and capture.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 namespace rainref::puddle {
 
 std::span<const scene::Parameter> parameters();
-/// The settings of a scene. Environment and ground files are the caller's to read.
+/// The settings of a scene. The caller reads the environment and ground files.
 Settings settings_from(const scene::Config& config);
 
 }  // namespace rainref::puddle

@@ -1,8 +1,8 @@
-// Where the march of surface_hit as published may end.
+// The possible ends of the march of surface_hit as published.
 //
-// t' = t + f(t) along the ray, f the distance to the box. An error e of t becomes |1 + f'| e: the two ends of the interval of t are
-// marched, and drawn apart by what f' may be below -1. Each round in which f may be under epsilon is a possible end; which of them is the
-// port's, its own count of rounds says. A ray that has passed the box for good misses, however uncertain its t has become.
+// t' = t + f(t) along the ray, with f the distance to the box. An error e of t becomes |1 + f'| e. So both ends of the interval of t are
+// marched, and moved apart by the possible excess of f' below -1. Each round in which f may be under epsilon is a possible end; the port's
+// own count of rounds selects one. A ray that has left the box for good misses, however uncertain its t has become.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace rainref::puddle {
 
-/// What it is asked of must outlive it.
+/// The arguments must outlive it.
 class PublishedMarch {
   using Enclosure = enclosed::Enclosure;
   using Vector = scalar::Vec3<Enclosure>;
@@ -27,7 +27,7 @@ class PublishedMarch {
         d_(scalar::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))),
         lowest_(lowest - 1e-5 * std::max(1.0f, -lowest)) {}
 
-  /// The ends that the march may have; empty: more than a port can be held to.
+  /// A possible end of the march. If there is none, a port cannot be checked.
   struct End {
     Enclosure t;
     int rounds;
@@ -55,7 +55,7 @@ class PublishedMarch {
       }
       // g(t) = t + f(t) falls by at most `back` between low and high.
       const double back = std::max(0.0, -1 - steepest_fall(low, high, off)) * (high - low);
-      // A march that goes on has seen epsilon or more.
+      // A march that continues has found a distance of at least epsilon.
       const double next_low = std::max(low + f_low.lo - back, low + u_.epsilon), next_high = high + f_high.hi + back;
       low = std::min(next_low, next_high);
       high = std::max(next_low, next_high);
@@ -83,15 +83,15 @@ class PublishedMarch {
     }
     out.iterations = Enclosure(static_cast<float>(end.rounds));
     out.flag = Enclosure(end.hit ? 1.0f : 0.0f);
-    // The normal is taken at the port's own position, which is stored without rounding.
+    // The normal is evaluated at the port's own position, which is stored without rounding.
     const bool own = out.position.x.contains(port[0]) && out.position.y.contains(port[1]) && out.position.z.contains(port[2]);
     out.normal = scalar::normal_as_published(u_, wave_, own ? Vector(port[0], port[1], port[2]) : out.position);
     return out;
   }
 
  private:
-  /// By how much rounding in each step may have moved a coordinate off the ray: each sum by an ULP, or half of one, of
-  /// a place between the eye and t, each product by that of its step; the steps add up to t.
+  /// Bound of the distance of a coordinate from the ray, due to the rounding of each step: for each sum an ULP, or half of one, of a
+  /// position between the eye and t; for each product that of its step. The steps add up to t.
   double off_ray(int rounds, double t) const {
     const double unit = enclosed::profile().basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
     double far = 0;
@@ -108,7 +108,7 @@ class PublishedMarch {
   }
   Enclosure distance(double low, double high, double off) const { return scalar::scene_distance(u_, wave_, point(low, high, off)); }
 
-  /// Whether f stays at epsilon or more from t = low on: beside a face of the box and moving away from it.
+  /// True if f stays at epsilon or more from t = low on: the ray is beside a face of the box and moves away from it.
   bool passed_for_good(double low, double off) const {
     const Vector p = point(low, low, off);
     const auto beside = [&](Enclosure c, Enclosure d, int k) {
@@ -121,8 +121,8 @@ class PublishedMarch {
     return above || beside(p.x, d_.x, 0) || beside(p.z, d_.z, 2);
   }
 
-  /// A lower bound of f' on [low, high]. Over the box f is the gap to the displaced top, |y + h(x, z)| - b_y; beside it
-  /// a length of three parts, whose slope is bounded by theirs together.
+  /// A lower bound of f' on [low, high]. Above the box f is the gap to the displaced top, |y + h(x, z)| - b_y. Beside it f is a length of
+  /// three parts, whose slope is bounded by the slopes of all of them together.
   double steepest_fall(double low, double high, double off) const {
     const Vector p = point(low, high, off);
     const Range sx = slopes(p, true), sz = slopes(p, false);
@@ -169,7 +169,7 @@ class PublishedMarch {
         r.high = std::max(r.high, slope);
       }
     }
-    // Under the clamp at the edge and between the two filters' roundings the slope may also be none.
+    // At the clamped edge, and between the roundings of two filters, the slope may also be zero.
     return {std::min(r.low, 0.0), std::max(r.high, 0.0)};
   }
 

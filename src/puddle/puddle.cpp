@@ -55,18 +55,18 @@ struct Puddle::State {
   int frame = 0;
   std::int64_t steps = 0;
   Image newest, previous, rest_row;
-  float stored_rest = 0;  // encoding.rest as the storage rounds it
+  float stored_rest = 0;  // encoding.rest as rounded for storage
   Rainfall rainfall;
   Objects objects;
 
   std::shared_ptr<const Sky> sky;
   std::shared_ptr<const Ground> ground;
-  std::shared_ptr<const Bed> bed;  // of the corrected variant
+  std::shared_ptr<const Bed> bed;  // for corrected
   TextureData water;               // one channel of the wave, decoded
   Image hit, normal, noise, colour, picture;
-  std::shared_ptr<const CodeSteps> display;  // of the corrected variant
-  bool is_moderate = false;                  // of that variant: shade_or_background may stand for shade
-  Image behind;                              // then: what it keeps of the surroundings
+  std::shared_ptr<const CodeSteps> display;  // for corrected
+  bool is_moderate = false;                  // for corrected: shade_or_background may replace shade
+  Image behind;                              // then: the surroundings that it keeps
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
       : settings(s),
@@ -103,7 +103,7 @@ struct Puddle::State {
 
   bool environment_is_cube = false;
 
-  /// Whether every texel is known to be less than 1e12: of the environment, which has none below 0, by its mean.
+  /// True if all texels are below 1e12. The environment is non-negative, so its mean times its number of texels bounds each texel.
   static bool are_moderate(const Texture& environment, const Texture& tile) {
     const int last = environment.levels - 1;
     if (environment.width[last] != 1 || environment.height[last] != 1) return false;
@@ -114,7 +114,7 @@ struct Puddle::State {
     return std::all_of(tile.texels, tile.texels + values, [](float x) { return x > -1e12f && x < 1e12f; });
   }
 
-  /// Where there is none: null.
+  /// Null if there is none.
   const Image* shore() const { return bed && !bed->shore.empty() ? &bed->shore : nullptr; }
 
   static Settings no_rain(Settings s) {
@@ -130,7 +130,7 @@ struct Puddle::State {
     encode(std::vector<float>(static_cast<std::size_t>(p.width()), encoding.rest), rest_row);
     stored_rest = TextureData(rest_row, Address::clamp, Address::clamp).texels()[0];
   }
-  // Stored values, row-major, into a plane with its ghosts.
+  // Encodes stored values, row-major, into a plane with its ghosts.
   void encode(const std::vector<float>& stored, Image& plane) const {
     encode_rows(stored.data(), plane, settings.boundary, encoding.rest, settings.rounding);
   }
@@ -141,11 +141,11 @@ struct Puddle::State {
 
   double frame_time() const { return 1 / settings.fps; }
   double step_time() const { return corrected ? 1 / settings.step_rate : frame_time(); }
-  /// Of a pass of this frame that advances by dt.
+  /// For a pass of this frame with the time step dt.
   pass::Moment moment(Recorder* recorder, int step, double dt) const {
     return {recorder, frame, step, frame / settings.fps, dt, settings.rounding};
   }
-  /// What the steps [first, first + count) begin with, each made by itself.
+  /// The drops of the steps [first, first + count), each computed separately.
   std::vector<std::vector<Drop>> fallen(std::int64_t first, std::int64_t count) const {
     std::vector<std::vector<Drop>> drops(static_cast<std::size_t>(count));
     executor.for_range(count, 1, [&](std::int64_t k, std::int64_t) {
@@ -154,7 +154,7 @@ struct Puddle::State {
     });
     return drops;
   }
-  /// Pass raindrops of a step, which took so long.
+  /// Records pass raindrops of a step, which took `seconds`.
   void show_raindrops(const pass::Moment& now, std::int64_t step, const std::vector<Drop>& drops, double seconds) const {
     const auto run = [&](const auto& pass) {
       pass.start(now);
@@ -175,10 +175,10 @@ struct Puddle::State {
       run(pass::Run<PublishedRaindropsPass>(raindrops_uniforms(settings, frame), false, settings.rounding, io));
     }
   }
-  /// Passes raindrops and wave_step of the steps [steps, end), one frame's. wave: what the levels are seen as from outside.
+  /// Passes raindrops and wave_step of the steps [steps, end) of one frame. wave: the external view of the levels.
   void advance(Recorder* recorder, std::int64_t end, const BufferView& wave) {
     const pass::Moment first = moment(recorder, 0, step_time());
-    // Levels in between are shown to those who read them; else the steps of a frame go together.
+    // Intermediate levels are only made for a recorder that reads them; else the steps of a frame run together.
     const std::int64_t together = first.is_read("wave_step") || first.is_read("raindrops") ? 1 : end - steps;
     for (int step = 0; steps < end;) {
       const Stopwatch watch;
@@ -190,7 +190,7 @@ struct Puddle::State {
       step += static_cast<int>(together);
     }
   }
-  /// Pass wave_step of as many steps as there are lists of drops.
+  /// Pass wave_step for one step per list of drops.
   void make_wave(pass::Moment now, const std::vector<std::vector<Drop>>& drops, const BufferView& wave) {
     std::vector<WaveJob> jobs;
     for (const std::vector<Drop>& fallen : drops) {
@@ -200,7 +200,7 @@ struct Puddle::State {
       job.uniforms.drop_count = static_cast<std::int32_t>(fallen.size());
     }
     const PassInput loaded = loaded_wave(wave);
-    double seconds = 0;  // of all
+    double seconds = 0;  // for all steps
     for (std::size_t k = 0; k < jobs.size(); ++k, ++now.step) {
       pass::HostIo<WaveStepPass> io;
       io.wave.input = &loaded;
@@ -237,7 +237,7 @@ struct Puddle::State {
   }
   void list(state::Items& items) {
     items.number("frame", frame, state::frames);
-    constexpr state::Range levels{-1e4, 1e4};  // no wave is as high, and steps from there stay finite
+    constexpr state::Range levels{-1e4, 1e4};  // higher than any wave, and such that steps stay finite
     items.image("newest", newest, levels);
     items.image("previous", previous, levels);
     items.then([this] {
@@ -268,7 +268,7 @@ void Puddle::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   const int recorded_frame = s.frame;
-  s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
+  s.frame = std::max(0, recorded_frame - 1);  // the frame to which this water belongs
 
   Stopwatch hit_time;
   SurfaceHitUniforms u = surface_hit_uniforms(s.settings);
@@ -311,7 +311,7 @@ void Puddle::render(Recorder* recorder) {
   at_shade.environment = s.sky->environment.view();
   at_shade.ground = s.ground->tile.view();
   if (corrected) {
-    // A cube's level is the nearest one.
+    // For a cube the level is the nearest one.
     at_shade.environment.is.mip_filter = s.environment_is_cube ? Filter::nearest : Filter::linear;
     at_shade.ground.is.mip_filter = Filter::nearest;
     at_shade.relief = s.ground->relief.view();
@@ -328,7 +328,7 @@ void Puddle::render(Recorder* recorder) {
   const DisplayUniforms of_display = display_uniforms(s.settings);
   pass::Run<DisplayPass> display(of_display, corrected, rounding, at_display);
 
-  // These passes read no neighbours, so that a tile goes through all of them while it lies in the cache.
+  // These passes read no neighbours, so all of them run on a tile while it is in the cache.
   s.executor.for_tiles(s.settings.width, s.settings.height, picture_tile_columns, picture_tile_rows, [&](const parallel::Tile& tile) {
     surface_hit.tile(tile);
     if (ground_noise) ground_noise->tile(tile);
@@ -341,7 +341,7 @@ void Puddle::render(Recorder* recorder) {
     else
       display.tile([&] { display_by_steps(of_display, *s.display, s.colour, s.picture, tile); });
   });
-  // What they read, none of them overwrites: their starts may be recorded after all have run.
+  // None of them overwrites its inputs, so their starts may be recorded after all have run.
   const int threads = s.executor.threads();
   const pass::Moment now = s.moment(recorder, 0, s.frame_time());
   surface_hit.start(now);

@@ -1,5 +1,5 @@
-// Pass raindrops. as published: drop i of the frame (seed 003, getRaindrops; hash22 as printed, hash12 by Dave Hoskins, which the
-// article calls without printing it). corrected: whole numbers, from rainfall.h.
+// Pass raindrops. as published: drop i of the frame (seed 003, getRaindrops; hash22 as printed, hash12 by Dave Hoskins, which the article
+// calls without printing it). corrected: integers, from rainfall.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_PUDDLE_RAINDROPS_PASS_H_
 #define RAINREF_PUDDLE_RAINDROPS_PASS_H_

@@ -18,7 +18,8 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr double energy_share = 0.01;                            // of the impact that goes into the wave; the rest splashes and stirs
+constexpr double energy_share = 0.01;                            // share of the impact energy that goes into the wave; the rest goes into
+                                                                 // splashes and stirring
 constexpr double crater_per_diameter = 7;                        // crater radius over drop diameter
 constexpr std::int32_t reflecting = 0, periodic = 1, fixed = 2;  // RainfallUniforms::boundary
 
@@ -35,7 +36,7 @@ void add_with_images(const Drop& drop, const WaterEdges& e, std::vector<Drop>& o
   out.push_back(drop);
   if (e.boundary == fixed) return;
   const auto reaches = [&](float at, std::uint32_t size) { return at + drop.radius > 0 && at - drop.radius < static_cast<float>(size); };
-  // The place, and its image beyond the lower and the upper edge of a side; exact, because places have few bits.
+  // The position, and its image beyond the lower and the upper edge of a side; exact, because positions have few bits.
   const auto images = [&](float at, std::uint32_t size) {
     const auto side = static_cast<float>(size);
     return e.boundary == periodic ? std::array{at, at - side, at + side} : std::array{at, -at, 2 * side - at};
@@ -115,7 +116,7 @@ RainfallUniforms Rainfall::uniforms(std::int64_t step, std::size_t objects) cons
   RainfallUniforms u{};
   u.seed[0] = static_cast<std::uint32_t>(seed_);
   u.seed[1] = static_cast<std::uint32_t>(seed_ >> 32);
-  // Steps beyond 2^32 start over: at 240 steps a second after 207 days.
+  // Steps wrap at 2^32: at 240 steps per second after 207 days.
   u.step = static_cast<std::uint32_t>(step);
   u.first_count = count_.first();
   u.columns = edges_.columns;

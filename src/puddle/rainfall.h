@@ -1,4 +1,4 @@
-// Pass raindrops, corrected: which drops fall in a wave step. Integers and host tables, so every machine agrees.
+// Pass raindrops, corrected: the drops that fall in a wave step. It uses integers and host tables, so all machines agree.
 #pragma once
 
 #include <cstdint>
@@ -17,62 +17,62 @@ namespace rainref::puddle {
 struct Roof {
   double x0, z0, x1, z1;
 };
-/// "x0 z0 x1 z1; ..." Throws Error(usage), naming the roof and the key rain.shelter, for any other text, more than 64 roofs, and corners in
-/// the other order or beyond 10 km.
+/// "x0 z0 x1 z1; ..." Throws Error(usage) with the roof and the key rain.shelter for any other text, more than 64 roofs, and corners in the
+/// wrong order or beyond 10 km.
 std::vector<Roof> parse_roofs(std::string_view text);
 
-/// In how many of 65536 drops over a cell one falls; row-major, row 0 = lowest z. None: everywhere all of them.
+/// The number of drops out of 65536 over a cell that fall; row-major, row 0 = lowest z. Empty: all of them everywhere.
 struct Shelter {
   int columns = 0, rows = 0;
   std::vector<ShelterCell> cells;
 };
-/// Of rain.shelter: cells of the wave's grid, each by the share of it that no roof covers (of roofs that overlap in a cell which both
-/// cover in part, less). Of a picture (Surroundings::shelter): its texels, rounded to the nearest. Throws Error(usage) for both.
+/// From rain.shelter: for each cell of the wave's grid the share that no roof covers (too low if several roofs cover parts of one cell).
+/// From a picture (Surroundings::shelter): its texels, rounded to nearest. Throws Error(usage) if both are given.
 Shelter shelter_of(const Settings& settings, const Image& picture);
 
-/// [texels]; a smaller crater would not be resolved, so its energy is spread.
+/// [texels]; a smaller crater would not be resolved, so its energy is spread over this radius
 inline constexpr double least_crater_radius = 3;
 
-/// The water's rectangle as drops take it.
+/// The water's rectangle, as used for drops.
 struct WaterEdges {
   std::uint32_t columns, rows;
-  std::int32_t boundary;  ///< RainfallUniforms::boundary
+  std::int32_t boundary;  ///< see RainfallUniforms::boundary
 };
 WaterEdges edges_of(const Settings& settings);
 /// Appends a drop in the rectangle and its images beyond the edges, as Rainfall::drops says.
 void add_with_images(const Drop& drop, const WaterEdges& edges, std::vector<Drop>& out);
 
-/// What raindrops takes besides its uniforms.
+/// Inputs of raindrops besides its uniforms.
 struct RainTables {
   std::span<const Drop> craters;
   std::span<const std::uint32_t> thresholds;
   std::span<const ShelterCell> shelter;  ///< row-major; empty: none
-  std::span<const Drop> objects;         ///< what the objects do in this step
+  std::span<const Drop> objects;         ///< effect of the objects in this step
 };
-/// The drops of a step, from what the GPU takes: the count by thresholds, ascending, place, size and whether a roof holds it off from a
-/// hash of (seed, step, i); behind them the records of objects. Throws Error(port_files) when the uniforms name more thresholds, size
-/// classes, drops, objects or another shelter than there can be. W: random::Words or PerturbedWords.
+/// The drops of a step, from the inputs of the GPU. The count comes from ascending thresholds; position, size and shelter come from a hash
+/// of (seed, step, i). The records of objects follow. Throws Error(port_files) if the uniforms name more thresholds, size classes, drops or
+/// objects than possible, or another shelter. W: random::Words or PerturbedWords.
 template <class W = random::Words>
 std::vector<Drop> drops_of(const RainfallUniforms& uniforms, const RainTables& tables);
 
-/// Drops of step k are a function of (seed, k): the count by a Poisson table, place and size from a hash of (seed, k, i).
+/// Drops of step k are a function of (seed, k): the count by a Poisson table, position and size from a hash of (seed, k, i).
 class Rainfall {
  public:
-  /// stored_per_metre: stored units in a metre of height.
+  /// stored_per_metre: stored units per metre of height.
   Rainfall(const Settings& settings, double stored_per_metre, Shelter shelter = {});
 
-  /// Places are multiples of 1/256 texel: x = ((word >> 16) * width >> 8) / 256, exact in float. A crater that reaches
-  /// over an edge comes with its mirror images (reflecting) or its copies on the other side (periodic), so that the edge
-  /// takes no water away. Behind them what objects do in this step.
+  /// Positions are multiples of 1/256 texel: x = ((word >> 16) * width >> 8) / 256, exact in float. A crater that reaches over an edge is
+  /// followed by its mirror images (reflecting) or its copies on the other side (periodic), so that no water is lost at the edge. The
+  /// records of objects in this step follow.
   std::vector<Drop> drops(std::int64_t step, std::span<const Drop> objects = {}) const;
 
-  /// Expected drops in a step.
+  /// Expected number of drops in a step.
   double mean() const { return mean_; }
   static constexpr int sizes = 1024;
   /// Crater amplitude (stored units) and radius (texels) of the size class; class 0 holds the smallest drops.
   const Drop& crater(int size_class) const { return craters_[static_cast<std::size_t>(size_class)]; }
 
-  /// What drops(step) depends on, for those who draw them elsewhere.
+  /// The inputs of drops(step), for callers who draw the drops elsewhere.
   RainfallUniforms uniforms(std::int64_t step, std::size_t objects = 0) const;
   const std::vector<Drop>& craters() const { return craters_; }
   const std::vector<std::uint32_t>& count_thresholds() const { return count_.thresholds(); }

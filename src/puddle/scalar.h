@@ -1,5 +1,5 @@
-// The scalar evaluations of the puddle's passes: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of this
-// room do not pull them into the lanes.
+// The scalar evaluations of the puddle's passes: Scalar, Enclosure and Perturbed. They have their own namespace, so that argument types of
+// this room do not pull them into the lanes.
 #pragma once
 
 #include "image/footprint.h"

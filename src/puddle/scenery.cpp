@@ -22,8 +22,8 @@ Sky make_sky(const Rows& rows, const Image& environment, const bool& is_cube, co
   return sky;
 }
 
-/// Of the image, or where there is none of asphalt: seed. A checkerboard hides the asphalt of as-published; the corrected ground has relief
-/// all the same.
+/// From the image, or if there is none from asphalt with this seed. In as-published a checkerboard hides the asphalt; corrected ground
+/// always has relief.
 Ground make_ground(const Rows& rows, const Image& image, const bool& is_encoded, const std::uint64_t& seed, const bool& is_hidden,
                    const Variant& variant) {
   const bool is_own = image.empty();
@@ -58,7 +58,7 @@ namespace {
 
 // 4-channel floats of an image in the code that this variant's pass expects.
 zeroed::Array<float> recode(const Image& image, bool is_encoded, Variant variant, const Rows& rows) {
-  // Floats are read where they lie.
+  // Floats are read in place.
   const bool is_plain = info(image.format()).kind == FormatInfo::float32;
   std::optional<TextureData> decoded;
   if (!is_plain) decoded.emplace(image, Address::clamp, Address::clamp, rows);
@@ -66,7 +66,7 @@ zeroed::Array<float> recode(const Image& image, bool is_encoded, Variant variant
   const std::size_t width = static_cast<std::size_t>(image.width());
   const std::size_t texels = width * image.height() * 4;
   zeroed::Array<float> out;
-  // With room for what build_mips adds, or all would move.
+  // Reserves room for build_mips, because otherwise all texels would be copied.
   out.reserve(texels + (variant == Variant::corrected ? mip_bytes(image.width(), image.height(), 4) / sizeof(float) : 0));
   out.resize(texels);
   rows(image.height(), [&](int begin, int end) {
@@ -118,7 +118,7 @@ TextureData prepare_environment(const Image& image, bool is_cube, bool is_encode
   const Address around = is_cube ? Address::clamp : Address::repeat;
   TextureData texture(std::move(texels), 4, width, height, around, Address::clamp);
   if (variant == Variant::corrected) {
-    // A cube's levels end where a face is one texel.
+    // A cube's levels end when a face is one texel.
     int levels = Texture::max_levels;
     if (is_cube) {
       levels = 1;

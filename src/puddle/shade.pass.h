@@ -13,7 +13,7 @@
 
 namespace rainref::puddle {
 
-/// The sine hash as published, which no GPU reproduces.
+/// The published sine hash, which no GPU reproduces.
 struct GroundNoisePass : pass::Takes<GroundNoiseUniforms> {
   static constexpr pass::About about{"ground_noise",
                                      "The sine hash of the ground point, which shade takes as data.",
@@ -89,7 +89,7 @@ struct ShadePass : pass::Takes<ShadeUniforms> {
 
 constexpr float water_ior = static_cast<float>(water_refractive_index);
 
-/// Hit and normal of a pixel as shade takes them from their stored buffers.
+/// Hit and normal of a pixel, as shade reads them from their buffers.
 template <class N>
 struct Surface {
   Vec3<N> position, normal;
@@ -121,7 +121,7 @@ RAINREF_FN GroundPoint<N> ground_as_published(const Vec3<N>& view, const Surface
   const N distance = intersect_plane(s.position, bent, N(-puddle_depth));
   return {distance, s.position.x + bent.x * distance, s.position.z + bent.z * distance};
 }
-/// The sine hash of the ground point. No GPU reproduces it: shade takes it as data.
+/// The sine hash of the ground point. No GPU reproduces it, so shade takes it as data.
 template <class N>
 RAINREF_FN N ground_noise_as_published(const GroundNoiseUniforms& u, const Surface<N>& s, int px, int py) {
   const Vec3<N> view = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
@@ -146,7 +146,7 @@ RAINREF_FN Vec3<N> environment_as_published(const ShadeUniforms& u, const Textur
 template <class N>
 RAINREF_FN Vec3<N> checkerboard(N x, N z, float scale) {
   const N parity = floor(x * N(scale)) + floor(z * N(scale));
-  // Times 1/2, not over 2: a GPU's quotient need not be exact, and floor would tell.
+  // Multiplied by 1/2 instead of divided by 2: a GPU's quotient need not be exact, and floor would amplify the error.
   const N odd = parity - N(2.0f) * floor(parity * N(0.5f));
   const auto tile = [](const double* c) RAINREF_LAMBDA {
     return Vec3<N>{N(static_cast<float>(c[0])), N(static_cast<float>(c[1])), N(static_cast<float>(c[2]))};
@@ -191,20 +191,20 @@ RAINREF_FN Vec3<N> shade_as_published(const ShadeUniforms& u, const Texture& env
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-/// What is seen along a view ray that meets nothing of ours.
+/// The light along a view ray that hits neither water nor ground of the puddle.
 template <class N>
 RAINREF_FN Vec3<N> background(const ShadeUniforms& u, const Texture& environment, const Vec3<N>& view) {
   return sample_environment(environment, u.environment_is_cube != 0, rotate_y(view, u.rotation), N(u.background_level));
 }
-/// The share of the surroundings' own ground at a place, in extents of the puddle: 0 over its rectangle, 1 from ground_reach on.
+/// The share of the surroundings' own ground at a position, in extents of the puddle: 0 over its rectangle, 1 from ground_reach on.
 template <class N>
 RAINREF_FN N share_beyond(const ShadeUniforms& u, N across, N along) {
   const N half(0.5f), zero(0.0f);
   const N out_x = max(abs(across) - half, zero), out_z = max(abs(along) - half, zero);
   return guard_below<N>(smoothstep(0.0f, u.ground_reach, sqrt(square(out_x) + square(out_z))), "a distance is nowhere negative");
 }
-// Water over a bed of varying depth, wet ground around it. Coverage w goes from 0 (wet ground) to 1 (water) over the
-// first shore_width metres of depth; normal, gloss and the refracted offset follow w, so the shore has no seam.
+// Water over a bed of varying depth, wet ground around it. Coverage w goes from 0 (wet ground) to 1 (water) over the first shore_width
+// metres of depth; normal, gloss and the refracted offset are scaled by w, so the shore has no seam.
 //   L = F E(reflected) + (1 - F) [T albedo + (1 - T) tint] ambient,   T = exp(-turbidity (path down + path up))
 template <class N>
 RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& environment, const Texture& ground, const Texture& relief,
@@ -234,7 +234,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const N fresnel = (u.exact_fresnel != 0 ? fresnel_dielectric(cosine, water_ior) : fresnel_schlick(cosine, f0)) *
                     (N(u.reflectivity) * mix(N(u.wetness), one, water));
   const Vec3<N> mirrored = reflect(view, normal);
-  // A mirror ray that dips below the horizon would meet the water again: it is turned up.
+  // A mirrored ray below the horizon would meet the water again, so it is turned up.
   const Vec3<N> up_mirrored{mirrored.x, abs(mirrored.y), mirrored.z};
   const Vec3<N> look = rotate_y(guard<N>(select(hit, up_mirrored, view), for_lanes), u.rotation);
   const N gloss = guard<N>(select(hit, mix(N(u.gloss_level), N(u.mirror_level), water), N(u.background_level)), for_lanes);
@@ -260,7 +260,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
   if (u.fog_depth > 0.0f) surface = mix(Vec3<N>(u.fog_colour), surface, transmittance(N(u.fog_depth), distance));
   if (u.ground_reach > 0.0f) {
-    // The asphalt made here ends where the surroundings' own ground begins; without hit nothing is taken of this.
+    // The generated asphalt ends where the surroundings' own ground begins; without a hit this is unused.
     const N own = share_beyond(u, across, along);
     const auto leaves = hit & (own > zero);
     if (any(leaves)) {

@@ -1,4 +1,4 @@
-// Pass surface_hit: where the view ray of a pixel meets the water, and the normal there.
+// Pass surface_hit: the point where the view ray of a pixel meets the water, and the normal there.
 #ifndef RAINREF_FN
 #ifndef RAINREF_PUDDLE_SURFACE_HIT_PASS_H_
 #define RAINREF_PUDDLE_SURFACE_HIT_PASS_H_
@@ -29,7 +29,7 @@ struct SurfaceHitPass : pass::Takes<SurfaceHitUniforms> {
   struct Io {
     static constexpr std::string_view position = "Position x y z [m], march steps.", units = "m, m, m, 1";
     typename B::Sampled wave = pass::In{.name = "wave", .from = "wave_step", .filter = Filter::linear};
-    typename B::Sampled bounds = pass::In{.name = "bounds", .variant = "corrected", .filter = Filter::nearest};  // bounds.h
+    typename B::Sampled bounds = pass::In{.name = "bounds", .variant = "corrected", .filter = Filter::nearest};  // see bounds.h
     typename B::template Result<Format::rgba32f> hit = {pass::Out{.name = "hit", .sentence = position, .unit = units, .range = {-42, 42}},
                                                         pass::Out{.name = "hit", .sentence = position, .unit = units, .range = {-2, 2}}};
     typename B::template Result<Format::rgba16f> normal =
@@ -41,7 +41,7 @@ struct SurfaceHitPass : pass::Takes<SurfaceHitUniforms> {
 #endif
 #else
 
-/// From the eye to the pixel's centre on the image plane.
+/// Vector from the eye to the pixel's centre on the image plane.
 template <class N>
 RAINREF_FN Vec3<N> to_image_plane(const CameraUniforms& c, N px, N py) {
   const N sx = N(c.plane_left) + (px + N(0.5f)) * N(c.pixel_scale), sy = N(c.plane_bottom) + (py + N(0.5f)) * N(c.pixel_scale);
@@ -58,12 +58,12 @@ struct SurfaceHit {
   N iterations;
   Vec3<N> normal;
   N flag;
-  RAINREF_FN SurfaceHit() {}  // an implicit one would not be compiled for the SIMD target
+  RAINREF_FN SurfaceHit() {}  // not implicit, because that would not be compiled for the SIMD target
 };
 
 // ---- as published --------------------------------------------------------------------------------------------------
-// Sphere tracing of a box whose top is displaced by the previous level, still encoded and with the sign that the
-// article prints. `wave` holds that one channel.
+// Sphere tracing of a box whose top is displaced by the previous level, still encoded and with the sign that the article prints. `wave`
+// holds that one channel.
 template <class N, class T>
 RAINREF_FN N scene_distance(const SurfaceHitUniforms& u, const T& wave, const Vec3<N>& p) {
   const N s = N(0.5f) * (p.x / N(u.half_size[0]) + N(1.0f)), t = N(0.5f) * (p.z / N(u.half_size[2]) + N(1.0f));
@@ -99,8 +99,8 @@ RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, c
   const Vec3<N> origin(u.camera.position);
   const Vec3<N> direction = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
   const N epsilon(u.epsilon);
-  // The distance to a convex box is convex along a ray: one that is further away than this never comes back, so leaving
-  // the loop changes nothing but keeps the position finite.
+  // The distance to a convex box is convex along a ray, so a ray further away than this never comes back. Leaving the loop changes nothing
+  // but keeps the position finite.
   const N gone(1000.0f);
   MarchState<N> state{origin, N(1.0f), N(0.0f)};
   state = advance_while(u.max_steps, state, N(0.0f) < N(1.0f), [&](int round, const MarchState<N>& s) RAINREF_LAMBDA {
@@ -119,22 +119,20 @@ RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, c
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-// An infinite sheet at y = 0, displaced by the newest level inside the puddle's rectangle. `bounds` says for each block
-// of cells that around it no height is above `top` and no slope above S; the uniforms say so of all the water, for rays
-// that run further under `top` than a texel of bounds reaches. With that the gap e between a ray and the water closes by at most fall + S
-// |d_xz| per unit of length and opens by at most S |d_xz| - fall, fall = -d_y. So a step is proven not to cross the water if it is no
-// longer than
+// An infinite sheet at y = 0, displaced by the newest level inside the puddle's rectangle. For each block of cells, `bounds` states that
+// near it no height is above `top` and no slope above S. The uniforms bound all of the water, for rays that run further under `top` than a
+// texel of bounds reaches. With fall = -d_y, the gap e between a ray and the water closes by at most fall + S |d_xz| per unit of length and
+// opens by at most S |d_xz| - fall. So a step does not cross the water if it is no longer than
 //   e / (fall + S |d_xz|) + e' / (S |d_xz| - fall),
-// e' the gap at its end (over-relaxed sphere tracing: Keinert et al., Enhanced Sphere Tracing, 2014, 3.1). The march
-// tries e / (fall + S |d_xz| / 2), which level water always proves, and where the proof fails goes back and takes the
-// first term alone. Closer than epsilon, one step of Newton's method along the ray ends the march: its error is of the
-// order of epsilon squared.
+// where e' is the gap at its end (over-relaxed sphere tracing: Keinert et al., Enhanced Sphere Tracing, 2014, 3.1). The march tries e /
+// (fall + S |d_xz| / 2), which is always proven for level water. If the proof fails, it goes back and takes the first term alone. Closer
+// than epsilon, one step of Newton's method along the ray ends the march; its error is of the order of epsilon squared.
 template <class N, class T>
 RAINREF_FN N water_height(const SurfaceHitUniforms& u, const T& wave, N s, N t) {
   return N(u.height_scale) * sample_bilinear<0, 1, N>(wave, s, t)[0] + N(u.height_bias);
 }
 
-/// The last place that the ray is proven to reach above the water, the gap there, and the step to try next.
+/// The last point that the ray is proven to reach above the water, the gap there, and the next step to try.
 template <class N>
 struct DescentState {
   N t, above, step, iterations;
@@ -145,14 +143,14 @@ struct DescentState {
   }
 };
 
-/// The view ray of a pixel, origin + t d, and what is linear along it.
+/// The view ray of a pixel, origin + t d, and quantities that are linear along it.
 template <class N>
 struct Descent {
   Vec3<N> origin, d;
   N fall, inverse_fall, run;  ///< -d_y, guarded; its inverse; |d_xz|
-  N t_plane;                  ///< where the ray meets y = 0
+  N t_plane;                  ///< t where the ray meets y = 0
   N s0, ds, r0, dr;           ///< texture coordinates of the water
-  typename N::Mask down;      ///< rays that do not go down meet nothing
+  typename N::Mask down;      ///< rays that do not go down hit nothing
   RAINREF_FN Descent() {}
 };
 template <class N>
@@ -172,7 +170,7 @@ RAINREF_FN Descent<N> descent(const SurfaceHitUniforms& u, int px, int py) {
   ray.run = length(ray.d.x, ray.d.z);
   return ray;
 }
-/// The hit of a ray that does not go down.
+/// The result for a ray that does not go down.
 template <class N>
 RAINREF_FN SurfaceHit<N> surface_missed(const Descent<N>& ray) {
   const N zero(0.0f);
@@ -196,7 +194,7 @@ RAINREF_FN WaterBounds<N> water_bounds(const SurfaceHitUniforms& u, const Textur
   const auto holds = (local[0] * ray.run <= N(u.bounds_reach) * ray.fall) & (s >= zero) & (s <= one) & (r >= zero) & (r <= one);
   return {select(holds, local[0], N(u.surface_top)), select(holds, local[1], N(u.surface_slope))};
 }
-/// The stretch of the ray over the rectangle and under top, and the strides that the slope allows.
+/// The stretch of the ray over the rectangle and under top, and the step lengths that the slope allows.
 template <class N>
 struct Stretch {
   N t_in, t_out;
@@ -216,7 +214,7 @@ RAINREF_FN Stretch<N> stretch(const SurfaceHitUniforms& u, const Descent<N>& ray
   N t_in = zero, t_out = min((ray.origin.y + bounds.top) * ray.inverse_fall, far);
   slab(ray.origin.x, ray.d.x, u.half_size[0], t_in, t_out);
   slab(ray.origin.z, ray.d.z, u.half_size[2], t_in, t_out);
-  // A ray that meets the sheet before the rectangle goes no further.
+  // A ray that meets the plane before the rectangle ends there.
   const auto over_rectangle = t_in <= ray.t_plane;
   Stretch<N> out;
   out.t_in = max(t_in, (ray.origin.y - bounds.top) * ray.inverse_fall);
@@ -233,7 +231,7 @@ template <class N, class T>
 RAINREF_FN N gap_above(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, N t) {
   return (ray.origin.y + t * ray.d.y) - water_height(u, wave, ray.s0 + t * ray.ds, ray.r0 + t * ray.dr);
 }
-/// The last step of a march, and the normal of the water where it begins.
+/// The last step of a march, and the normal of the water at its start.
 template <class N>
 struct LastStep {
   N t;
@@ -247,9 +245,9 @@ RAINREF_FN LastStep<N> last_step(const SurfaceHitUniforms& u, const T& wave, con
   const N zero(0.0f), one(1.0f), epsilon(u.epsilon);
   const Neighbours<N> near = sample_neighbours<0, N>(wave, ray.s0 + t * ray.ds, ray.r0 + t * ray.dr);
   const N gain = N(u.normal_gain) * N(u.height_scale), gx = (near.left - near.right) * gain, gz = (near.down - near.up) * gain;
-  // gx and gz are the negative slopes. A ray that runs along a flank keeps its place, and so does one that enters
-  // through the side under the water. Twice the safe stride bounds the step: it ends no more than epsilon under and
-  // three epsilon above the water, whatever the water does between its texels.
+  // gx and gz are the negative slopes. A ray along a flank keeps its position, and so does one that enters through the side under the
+  // water. The step is limited to twice the safe stride: it ends at most epsilon under and three epsilon above the water, whatever the
+  // water does between its texels.
   const N closing = ray.fall - (gx * ray.d.x + gz * ray.d.z), least = N(0.5f) * ray.fall;
   LastStep<N> out;
   out.is_taken = on_water & (above < epsilon) & (above >= zero) & (closing >= least);
@@ -257,7 +255,7 @@ RAINREF_FN LastStep<N> last_step(const SurfaceHitUniforms& u, const T& wave, con
   out.normal = normalize(Vec3<N>(gx, one, gz));
   return out;
 }
-/// Where a ray is at t.
+/// The position of a ray at t.
 template <class N>
 RAINREF_FN Vec3<N> place_at(const Descent<N>& ray, N t) {
   return ray.origin + t * ray.d;
@@ -283,7 +281,7 @@ RAINREF_FN SurfaceHit<N> landed(const SurfaceHitUniforms& u, const T& wave, cons
   return out;
 }
 
-/// Where the march of a ray ends.
+/// The end of a ray's march.
 template <class N, class T>
 RAINREF_FN DescentState<N> marched(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, const Stretch<N>& over) {
   const N zero(0.0f), epsilon(u.epsilon);

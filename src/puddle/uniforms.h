@@ -1,12 +1,12 @@
-// What the puddle's passes take besides images: uniform blocks and the drop record. Sizes are multiples of 16 bytes,
-// nothing straddles a 16-byte row, and every gap is a named padding member, so the bytes serve every GPU language.
+// Uniform blocks of the puddle's passes, and the drop record. Sizes are multiples of 16 bytes, no member crosses a 16-byte row, and every
+// gap is a named padding member, so the bytes are valid in every GPU language.
 #pragma once
 
 #include <cstdint>
 
 namespace rainref::puddle {
 
-/// One drop as wave_step takes it: a crater around (x, y).
+/// One drop for wave_step: a crater around (x, y).
 struct Drop {
   float x, y, amplitude, radius;
 };
@@ -17,7 +17,7 @@ struct RaindropsUniforms {
   std::int32_t drop_count, padding1;
 };
 
-/// raindrops, corrected: with the records CountThreshold and the Drop records of the craters all that it depends on.
+/// raindrops, corrected: with the records CountThreshold and the Drop records of the craters, these are all its inputs.
 struct RainfallUniforms {
   std::uint32_t seed[2], step;
   std::int32_t first_count;
@@ -26,12 +26,12 @@ struct RainfallUniforms {
   std::uint32_t shelter_columns, shelter_rows;
   std::int32_t object_count, padding0;
 };
-/// A word not below k thresholds draws first_count + k drops.
+/// A word at or above k thresholds draws first_count + k drops.
 struct CountThreshold {
   std::uint32_t threshold;
 };
 
-/// Rain over a cell of the shelter.
+/// Rain over one cell of the shelter.
 struct ShelterCell {
   std::uint32_t open;
 };

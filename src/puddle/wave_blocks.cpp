@@ -1,7 +1,7 @@
-// Steps blocked in time. A step makes row y from rows y - reach ... y + reach of the level before; in place, so that it also takes the
-// room of the level before that. Bands of rows go through all steps at once, each step `reach` rows narrower at both ends than the
-// step before (a trapezoid of rows and steps); what is left between two bands are triangles, made afterwards. Nothing is
-// made twice, and every row is made from the same rows as one step at a time makes it from.
+// Steps blocked in time. A step computes row y from rows y - reach ... y + reach of the previous level, in place, so it also overwrites the
+// level before that. Bands of rows go through all steps at once, each step `reach` rows narrower at both ends than the one before (a
+// trapezoid of rows and steps). The gaps between two bands are triangles, which are computed afterwards. Nothing is computed twice, and
+// every row is computed from the same rows as with single steps.
 #include "puddle/kernels.h"
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr int tile_rows = 16;        // of a step by itself
-constexpr int band_rows = 256;       // of steps together: many, for rows between bands are read twice
-constexpr int least_band_rows = 16;  // unless threads would have nothing to do or wait for long
+constexpr int tile_rows = 16;        // for a single step
+constexpr int band_rows = 256;       // for steps together; large, because rows between bands are read twice
+constexpr int least_band_rows = 16;  // unless threads would be idle or wait long
 constexpr int bands_of_thread = 8;
-constexpr int visit_rows = 8;  // that a band takes from one step to the next
+constexpr int visit_rows = 8;  // rows that a band advances between two steps
 
 class Blocks {
  public:
@@ -28,14 +28,14 @@ class Blocks {
         bands_(bands_for(threads)) {}
 
   int bands() const { return bands_; }
-  /// Bands and triangles must not meet: there are none where the wave is lower than one band.
+  /// Bands and triangles must not overlap; if the wave is lower than one band there are none.
   bool possible() const { return bands_ > 0; }
   void band(int k) const {
     const int begin = first_row(k), end = first_row(k + 1);
     const bool open_below = k > 0 || wraps_, open_above = k + 1 < bands_ || wraps_;
     const Steps steps(jobs_, begin, end);
-    // A front of visits moves up; each step follows `reach` rows behind the step before. Only the first reads from memory, and the
-    // others fetch what it reads next.
+    // A front of visits moves up; each step follows `reach` rows behind the one before. Only the first reads from memory, and the others
+    // prefetch its next rows.
     for (int front = begin; front < end + steps_ * reach_ + visit_rows; front += visit_rows) {
       RowsAhead ahead{std::min(front + visit_rows, end), std::min(front + 2 * visit_rows, end)};
       for (int step = 0; step < steps_; ++step) {
@@ -55,11 +55,11 @@ class Blocks {
 
  private:
   int bands_for(int threads) const {
-    const int slopes = std::max(2 * reach_ * steps_, 1);  // rows that a band is narrower by
+    const int slopes = std::max(2 * reach_ * steps_, 1);  // rows by which a band narrows
     const int for_threads = std::min({bands_of_thread * threads, height_ / least_band_rows, std::max(threads, height_ / (2 * slopes))});
     return std::min(std::max(height_ / band_rows, for_threads), height_ / slopes);
   }
-  /// The steps with no drops but those that reach into rows [y0, y1): visits look through all that they are given.
+  /// The steps with only those drops that reach rows [y0, y1), because visits test all their drops.
   class Steps {
    public:
     Steps(std::span<const WaveJob> jobs, int y0, int y1) : jobs_(jobs.begin(), jobs.end()), drops_(jobs.size()) {
@@ -78,13 +78,14 @@ class Blocks {
     std::vector<WaveJob> jobs_;
     std::vector<std::vector<Drop>> drops_;
   };
-  /// A band that ends at a wall is not narrower there in later steps; it begins narrower by as much, so that each has as many rows to make.
+  /// A band that ends at a wall does not narrow there in later steps. It begins narrower by that amount, so that all bands have the same
+  /// work.
   int first_row(int band) const {
     if (band == 0 || band == bands_) return band == 0 ? 0 : height_;
     const int less = wraps_ ? 0 : std::min((steps_ - 1) * reach_ / 2, height_ / bands_ / 2);
     return static_cast<int>(static_cast<std::int64_t>(height_ + 2 * less) * band / bands_) - less;
   }
-  /// Rows [y0, y1) of a step; negative ones stand at the upper end of a wave that wraps.
+  /// Rows [y0, y1) of a step; negative rows are at the upper end of a wave that wraps.
   void rows(const Steps& steps, int step, int y0, int y1, RowsAhead* ahead = nullptr) const {
     if (y0 < 0) {
       rows(steps, step, y0 + height_, std::min(y1, 0) + height_);
@@ -92,7 +93,7 @@ class Blocks {
     }
     if (y0 >= y1) return;
     const parallel::Tile tile{0, y0, jobs_[0].newest->width(), y1};
-    // All that read these rows of the level before without its drops have done so.
+    // Everything that reads these rows of the previous level without its drops is done.
     if (step > 0) add_drops(steps[step - 1], tile);
     const RowsAhead left = wave_step_rows(steps[step], tile, ahead ? *ahead : RowsAhead());
     if (ahead) *ahead = left;

@@ -1,4 +1,4 @@
-// Pass wave_step: the next level of the wave from the newest and the previous one.
+// Pass wave_step: the next level of the wave from the newest and the previous level.
 #ifndef RAINREF_FN
 #ifndef RAINREF_PUDDLE_WAVE_STEP_PASS_H_
 #define RAINREF_PUDDLE_WAVE_STEP_PASS_H_
@@ -13,7 +13,7 @@
 
 namespace rainref::puddle {
 
-/// Its lanes are written by hand, in place over one plane of each level: see kernels_wave.cpp.
+/// Its lanes are written by hand, in place over one plane for each level: see kernels_wave.cpp.
 struct WaveStepPass : pass::Takes<WaveStepUniforms> {
   static constexpr pass::About about{
       "wave_step", "The next level of the water from the newest and the previous one.", {1}, {2}, {"the four neighbours", "length"}};
@@ -49,14 +49,14 @@ struct WaveStepPass : pass::Takes<WaveStepUniforms> {
 #endif
 #else
 
-/// Row: const Storage*, or what else element() reads values from. here, below and above are the newest level, readable `reach` texels to
-/// both sides.
+/// Row: const Storage*, or another type from which element() reads values. here, below and above are rows of the newest level, readable
+/// `reach` texels to both sides.
 template <class Row, class Previous>
 struct WaveRows {
   Row here, below, above, below_next, above_next;
   const Previous* previous;
   int reach;           ///< whole texels to the neighbours
-  float fraction;      ///< what is left of a fractional offset; *_next are the rows one texel further out
+  float fraction;      ///< fractional part of the offset; *_next are the rows one texel further out
   const float* shore;  ///< corrected: share of the wave that the shore leaves; null: all of it
 };
 /// newest_row(dy): the row dy rows away.
@@ -75,7 +75,7 @@ RAINREF_FN N element(const Storage* row, int x) {
 
 // ---- as published --------------------------------------------------------------------------------------------------
 //   d = -(s0 - 1/2) 2 + (s1 + s2 + s3 + s4 - 2),   d *= damping,   d += drops,   stored as d / 2 + 1/2
-// s0 is the previous level, s1 ... s4 the newest below, left, right and above (seed 003 names them otherwise).
+// s0 is the previous level; s1 ... s4 are the newest level below, left, right and above (seed 003 uses other names).
 template <class N>
 RAINREF_FN N drop_as_published(const Drop& drop, N x, N y) {
   const N distance = length(N(drop.x) - x, N(drop.y) - y);
@@ -86,7 +86,7 @@ RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Ro
   const int r = in.reach;
   N left = element<N>(in.here, x - r), right = element<N>(in.here, x + r), down = element<N>(in.below, x), up = element<N>(in.above, x);
   if (in.fraction != 0.0f) {
-    // The texture unit between two texels: a fractional STEP diffuses.
+    // Like a texture unit between two texels: a fractional STEP diffuses.
     const N f(in.fraction);
     left = mix(left, element<N>(in.here, x - r - 1), f);
     right = mix(right, element<N>(in.here, x + r + 1), f);
@@ -105,14 +105,14 @@ RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Ro
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
 //   new = (1 + gamma) u - gamma p + C^2 (1 + gamma)/2 L(u) + impulse,     previous = u + impulse
-// and on a natural shore new = rest + shore (new - rest), with shore from 1 in the water to 0 on dry ground. L is the five-point Laplacian
-// and C the Courant number. The weights of u and p add to 1, so the rest value and the unit of the stored heights cancel out, and the mean
-// has the roots 1 and gamma: it is kept. The impulse goes to both levels: a displacement, not a kick. (physics: P3, P7)
+// On a natural shore new = rest + shore (new - rest), with shore from 1 in the water to 0 on dry ground. L is the five-point Laplacian and
+// C the Courant number. The weights of u and p add to 1, so the rest value and the unit of the stored heights cancel out. The mean has the
+// roots 1 and gamma, so it is kept. The impulse goes to both levels: a displacement, not a kick. (physics: P3, P7)
 //
 // In a rim along the edges both levels are multiplied by kept = 1 - rim_damping depth^2, p before and new after (Cerjan and others,
-// Geophysics 50:705, 1985): (d/dt + sigma)^2 u = c^2 L(u), whose waves fade and keep their speed. Of new alone it would be a stiff
-// spring too, which waves bounce off. With A = 2 / (kept (1 + gamma)) and B = 2 gamma kept / (1 + gamma) it is A new - 2 u + B p =
-// C^2 L(u), and because A + B >= 2 and A >= B no profile of kept lets the energy grow: the limit of C stays.
+// Geophysics 50:705, 1985). This is (d/dt + sigma)^2 u = c^2 L(u), whose waves fade and keep their speed. Applied to new alone it would
+// also be a stiff spring, which reflects waves. With A = 2 / (kept (1 + gamma)) and B = 2 gamma kept / (1 + gamma) it is A new - 2 u + B p
+// = C^2 L(u), and because A + B >= 2 and A >= B no profile of kept lets the energy grow: the limit of C stays.
 //
 // The crater of a drop at distance r, with q = r / R < 1: (1 - q^2)^2 (1 - 4 q^2). Its volume is exactly 0.
 template <class N>
@@ -129,7 +129,7 @@ RAINREF_FN N impulse_corrected(Drops drops, int x, int y) {
   for (const Drop& drop : drops) sum = sum + drop_corrected(drop, fx, fy);
   return sum;
 }
-/// Share of the wave that the rim leaves in a step; its depth is 0 where the water is free and 1 on the edge.
+/// Share of the wave that the rim leaves in a step; its depth is 0 in free water and 1 on the edge.
 template <class N>
 RAINREF_FN N kept_in_rim(const WaveStepUniforms& u, int x, int y) {
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
@@ -140,7 +140,7 @@ RAINREF_FN N kept_in_rim(const WaveStepUniforms& u, int x, int y) {
 template <class N, class Row, class Previous, class Drops>
 RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Row, Previous>& in, Drops drops, int x, int y) {
   const N here = element<N>(in.here, x);
-  // In pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
+  // Summed in pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
   const N around =
       sum_any_order_in_pairs(element<N>(in.here, x - 1), element<N>(in.here, x + 1), element<N>(in.below, x), element<N>(in.above, x));
   const N laplacian = minus_four_times(around, here);
@@ -155,7 +155,7 @@ RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Row, 
   const N kept = !in.shore ? rim : has_rim ? N::load(in.shore + x) * rim : N::load(in.shore + x);
   return N(u.rest) + kept * (next - N(u.rest));
 }
-/// The second output: what becomes the previous level.
+/// The second output, which becomes the previous level.
 template <class N, class Storage, class Drops>
 RAINREF_FN N wave_previous_corrected(const Storage* here, const float* shore, Drops drops, int x, int y) {
   const N impulse = impulse_corrected<N>(drops, x, y);
@@ -165,7 +165,7 @@ RAINREF_FN N wave_previous_corrected(const Storage* here, const float* shore, Dr
 struct WaveStepPassText {
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const WaveStepUniforms& u, const Io& io, int x, int y) {
-    // The others add exactly nothing here; a GPU may leave them out, and so do the lanes.
+    // The other drops add exactly nothing here; a GPU may leave them out, and the lanes do.
     const float cx = static_cast<float>(x) + 0.5f, cy = static_cast<float>(y) + 0.5f;
     std::vector<Drop> found;
     for (const Drop& d : io.drops.records) {

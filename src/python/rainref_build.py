@@ -1,5 +1,5 @@
-"""What `pip install .` runs: setuptools, and the library, its scenes with it, put into the package. scripts/build makes the library where it
-is not there yet."""
+"""Build backend of `pip install .`: setuptools, which also puts the library and its scenes into the package. scripts/build makes the
+library if it does not exist yet."""
 
 import re
 import shutil
@@ -15,7 +15,7 @@ from wheel.bdist_wheel import bdist_wheel
 
 _ROOT = Path(__file__).resolve().parents[2]
 _BUILD = _ROOT / "build/release"
-# Left over from another version they would go into the package.
+# Files left over from another version would go into the package.
 shutil.rmtree(_ROOT / "build/python", ignore_errors=True)
 (_ROOT / "build/python").mkdir(parents=True)
 
@@ -26,7 +26,7 @@ __all__ = [*_setuptools.__all__, "BuildPy", "BdistWheel", "VERSION"]
 
 
 class BuildPy(build_py):
-    """Adds the library, the module that reads pictures and the scenes, as an installation has them: they find each other where they lie."""
+    """Adds the library, the module that reads pictures, and the scenes, in the layout of an installation, so that they find each other."""
 
     def run(self) -> None:
         super().run()
@@ -45,7 +45,7 @@ class BuildPy(build_py):
 
 
 def _make_library() -> None:
-    """By scripts/build, where it was not made before: minutes, and it installs what is missing where it may."""
+    """Runs scripts/build if the library does not exist. This takes minutes, and installs missing packages if it is allowed to."""
     if (_BUILD / "lib/librainref.so.0").exists():
         return
     script = _ROOT / "scripts/build"
@@ -56,7 +56,7 @@ def _make_library() -> None:
 
 
 class BdistWheel(bdist_wheel):
-    """For this machine's kind, and any Python 3: there is no extension module in it."""
+    """The tag: this platform and any Python 3, because the wheel has no extension module."""
 
     def finalize_options(self) -> None:
         super().finalize_options()

@@ -1,17 +1,17 @@
-// Rain as meteorology measures it: from millimetres an hour to drops on a surface.
+// Rain as meteorology measures it: from millimetres per hour to drops on a surface.
 #pragma once
 
 #include <vector>
 
 namespace rainref::rain {
 
-/// Terminal velocity of a drop [m/s] of this diameter [mm] in still air at sea level: table of R. Gunn and G. D. Kinzer
-/// (J. Meteor. 6, 1949), linear between its entries, 0 at diameter 0, constant beyond 5.8 mm.
+/// Terminal velocity [m/s] of a drop of this diameter [mm] in still air at sea level: table of R. Gunn and G. D. Kinzer (J. Meteor. 6,
+/// 1949), linear between its entries, 0 at diameter 0, constant beyond 5.8 mm.
 double terminal_velocity(double diameter_mm);
 
 /// Drop-size distribution of J. S. Marshall and W. McK. Palmer (J. Meteor. 5, 1948):
-/// N(D) = 8000 exp(-Lambda D) [1/m^3/mm], Lambda = 4.1 R^-0.21 [1/mm], R in mm/h. For R = 0 there are no drops.
-/// From 1 to 100 mm/h their water is above the rate by 3 to 19 %: that is the model, not an error.
+/// N(D) = 8000 exp(-Lambda D) [1/m^3/mm], Lambda = 4.1 R^-0.21 [1/mm], R in mm/h. For R = 0 there are no drops. From 1 to 100 mm/h the
+/// drops carry 3 to 19 % more water than the rate. This is a property of the model.
 class DropSizes {
  public:
   static constexpr double largest_mm = 6.0;
@@ -27,7 +27,7 @@ class DropSizes {
   double number(double diameter_mm) const;
   /// Drops in the air of at least this diameter [1/m^3].
   double in_air(double diameter_mm) const;
-  /// Diameters [mm] at the quantiles (i + 1/2) / n of the drops that arrive, increasing.
+  /// Diameters [mm] at the quantiles (i + 1/2) / n of the arriving drops, increasing.
   std::vector<double> quantiles(int n) const;
 
  private:

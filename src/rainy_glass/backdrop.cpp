@@ -68,7 +68,7 @@ struct Work {
   const scene::Scenery* street;
   const parallel::Executor& executor;
 };
-/// The street out of focus, and its depth: in focus it is needed no more.
+/// The street out of focus, and its depth; the sharp picture is not kept.
 std::vector<Image> out_of_focus(const Work& by, const std::string&, const scene::Camera& eye, const int& width, const int& height,
                                 const double& radius) {
   scene::Scenery::View view = by.street->view(eye, width, height, backdrop_far, by.executor);

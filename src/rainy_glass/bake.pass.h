@@ -14,7 +14,7 @@
 
 namespace rainref::rainy_glass {
 
-/// A map: the formats that maps.storage chooses from, and what its channels mean.
+/// A map: the formats that maps.storage selects from, and the meaning of its channels.
 template <class B>
 using Map = typename B::template Result<Format::rgba8, Format::rgba16f>;
 constexpr pass::Out map_of(std::string_view name, std::string_view channels, std::string_view encoding) {
@@ -106,13 +106,13 @@ template <class N>
 RAINREF_FN N texel_centre_y(const float* inverse_size, int y) {
   return N(static_cast<float>(y) + 0.5f) * N(inverse_size[1]);
 }
-/// The difference of two places, the short way round the tile.
+/// The difference of two positions, the short way round the tile.
 template <class N>
 RAINREF_FN N around(N difference) {
   return difference - floor(difference + N(0.5f));
 }
 
-/// Normal of a surface that rises with (gx, gy), stored.
+/// Stored normal of a surface that rises with (gx, gy).
 template <class N>
 RAINREF_FN Two<N> stored_normal(N gx, N gy, float scale, float neutral, float span) {
   const N sx = N(scale) * gx, sy = N(scale) * gy;
@@ -121,9 +121,9 @@ RAINREF_FN Two<N> stored_normal(N gx, N gy, float scale, float neutral, float sp
 }
 
 // ---- bake_raindrops ------------------------------------------------------------------------------------------------
-// Droplets are distorted paraboloids h = height (1 - |q|^2), the highest counts. R, G: normal. A: height. B: the time offset
-// of the droplet that is nearest: as published by the distance to its centre, which cuts droplets that lie beside a larger
-// one; corrected by distance^2 - radius^2, whose cells hold their droplets whole because droplets do not overlap.
+// Droplets are distorted paraboloids h = height (1 - |q|^2); the highest one counts. R, G: normal. A: height. B: time offset of the nearest
+// droplet. as published nearest is by the distance to the centre, which cuts droplets beside a larger one. corrected it is by distance^2 -
+// radius^2: its cells contain their whole droplets, because droplets do not overlap.
 template <class N>
 RAINREF_FN Baked<N> bake_raindrops(const BakeRaindropsUniforms& u, bool corrected, const Droplet* droplets, int count, int x, int y) {
   const N px = texel_centre_x<N>(u.inverse_size, x), py = texel_centre_y<N>(u.inverse_size, y);
@@ -160,7 +160,7 @@ template <int First, class N>
 RAINREF_FN N gradient_noise(const Texture& lattice, int cells, N u, N v) {
   const N x = u * N(static_cast<float>(cells)), y = v * N(static_cast<float>(cells)), x0 = floor(x), y0 = floor(y), fx = x - x0,
           fy = y - y0;
-  // x0 lies in [0, cells); held there, so that no evaluation of this text leaves the lattice.
+  // x0 lies in [0, cells); clamped, so that no evaluation of this text leaves the lattice.
   const auto columns = N::uniform_int(cells < lattice.width[0] ? cells : lattice.width[0]),
              rows = N::uniform_int(cells < lattice.height[0] ? cells : lattice.height[0]);
   const auto column = clamp_index(to_int(x0), columns), row = clamp_index(to_int(y0), rows);
@@ -192,7 +192,7 @@ RAINREF_FN Baked<N> bake_rivulets(const BakeRivuletsUniforms& u, const Trail* tr
     const Trail& t = trails[k];
     const N dy = fract(py - N(t.y) + N(0.125f)) - N(0.125f);
     const float two_pi = 0x1.921fb6p+2f;
-    // Within half a turn, because devices may know the sine there only.
+    // Within half a turn, because some devices guarantee the sine only there.
     const N angle = N(two_pi) * around(N(t.wiggle_rate) * dy + N(t.wiggle_phase));
     const N dx = around(px - N(t.x)) - N(t.wiggle) * sin(angle);
     const N inverse_sq = uniform_quotient(1.0f, t.half_width * t.half_width, N()), steepness = N(-2.0f * t.height) * inverse_sq;

@@ -21,11 +21,11 @@ using capture::PassModel;
 
 std::unique_ptr<PassModel> bind_rain_on_glass(const PassCase& c) {
   auto m = pass::bound<RainOnGlassPass, RainOnGlassText>(c);
-  if (m.uniforms.use_probe != 0) capture::image_input(c, "probe");  // needed then
+  if (m.uniforms.use_probe != 0) capture::image_input(c, "probe");  // required in that case
   return capture::model_of(std::move(m));
 }
 
-/// near_depth is made from scene_depth: whether it is this one's.
+/// Checks whether near_depth was made from this scene_depth.
 std::string doubt_near_depth(const PassCase& c) {
   if (!c.corrected()) return "";
   const BoundTexture depth(capture::image_input(c, "scene_depth")), near(capture::image_input(c, "near_depth"));

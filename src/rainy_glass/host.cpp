@@ -56,7 +56,7 @@ void check(const Settings& s) {
   }
   if (!(s.impact > 0 && s.impact < 1))
     throw Error(ExitCode::usage, fmt::format("rain.impact: expected a share between 0 and 1, found {}", s.impact));
-  camera(s).basis();  // throws for a camera that looks nowhere
+  camera(s).basis();  // throws for an invalid camera
 }
 
 namespace {
@@ -150,7 +150,7 @@ RainOnGlassUniforms rain_on_glass_uniforms(const Settings& s, int frame, Code ra
   u.rivulet_amount = static_cast<float>(s.rivulet_amount);
   const scene::Camera eye = camera(s);
   const auto basis = eye.basis();
-  // Rain falls with the wind toward the glass: d = -wind n0 - fall up. As a share of what upright glass facing it meets.
+  // Rain falls with the wind toward the glass: d = -wind n0 - fall up. Relative to the rain on upright glass that faces it.
   const Vector3 n0 = facing(s);
   put(n0 + Vector3(0, s.fall_speed / std::max(s.wind, 0.1), 0), u.rain_to);
   put(basis.right, u.right);

@@ -1,4 +1,4 @@
-// rainy_glass described to others.
+// The description of rainy_glass.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace rainref::rainy_glass {
 /// Passes, buffers and GPU layouts of rainy_glass.
 const capture::EffectInfo& effect_info();
 
-/// Every pass, of both variants, by envelope.
+/// Evaluations of every pass, of both variants, by envelope.
 const std::vector<capture::PassEvaluations>& evaluations();
 
 }  // namespace rainref::rainy_glass

@@ -63,7 +63,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   m.peak.pass(colour);                                    // out of focus
   m.peak.pass(colour + image_bytes(m, Format::rgba16f));  // the glass, for its bars
   m.peak.then(memory(s));
-  if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(3 * colour + 3 * depth);  // decoded, turned over, as it is taken
+  if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(3 * colour + 3 * depth);  // decoded, flipped, and as input of the pass
   return m;
 }
 

@@ -1,4 +1,4 @@
-// Rainy glass as a scene says it: opened, run and written like every effect.
+// The rainy glass of a scene, with the common interface of all effects.
 #pragma once
 
 #include <optional>
@@ -9,22 +9,22 @@
 
 namespace rainref::rainy_glass {
 
-/// What the registry holds.
+/// Entry of the registry.
 effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<RainyGlass> {
  public:
-  /// `named`: its pictures of frame 0 are in `surroundings`.
+  /// `named`: source of later pictures; those of frame 0 are in `surroundings`.
   Instance(const Settings& settings, Surroundings surroundings, effect::ScenePictures named, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
-  /// Of sequences those of the frame rendered last.
+  /// For sequences, the pictures of the last rendered frame.
   const Surroundings& surroundings() const { return surroundings_; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
   bool has_drops_layer() const override { return settings_.variant == Variant::corrected; }
   effect::DropsLayer drops_layer(const parallel::Executor& executor) const override;
   std::optional<effect::Display> display() const override;
-  /// The maps have a size of their own.
+  /// The maps, which have their own size.
   std::vector<effect::Map> maps() const override { return {{"raindrops", &running().raindrops()}, {"rivulets", &running().rivulets()}}; }
 
  private:

@@ -42,7 +42,7 @@ void RainOnGlassPassRows(const RainOnGlassUniforms& u, bool corrected, Rounding 
   const auto rows = [&](const auto& maps) HWY_ATTR {
     corrected ? glass_rows<true>(u, rounding, host, maps, tile) : glass_rows<false>(u, rounding, host, maps, tile);
   };
-  // Two maps of codes hold k / 255, which no half is: those were decoded.
+  // Maps of 8-bit codes hold k / 255, which halves cannot represent, so they were decoded.
   if (host.raindrops.texture && host.rivulets.texture) {
     rows(GlassMaps<Texture, StoredTexture<Half>, StoredTexture<float>>{host.raindrops.texture, host.rivulets.texture, &host.scene.view,
                                                                        &host.near_depth.view, host.probe.texture});

@@ -20,7 +20,7 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
     const std::array<int, 2> map = given[0] == 0 ? std::array{s.map_size, s.map_size} : given;
     if (given[0] != 0) m.pass(texel_bytes(map[0], map[1], 4) + Image::memory_bytes(s.map_storage, map[0], map[1]));
     m.hold(Image::memory_bytes(s.map_storage, map[0], map[1]));
-    // Maps of halves are read as they are.
+    // Maps of halves are read in place.
     if (s.map_storage != Format::rgba16f) decoded_maps += texel_bytes(map[0], map[1], 4);
   }
   m.pass(texel_bytes(s.width, s.height, 4) + image(Format::rgba16f));  // the scene, decoded and in halves

@@ -1,4 +1,4 @@
-// The scene parameters of rainy_glass: declared once, for scenes, help, hashing and capture.
+// The scene parameters of rainy_glass, declared once for scenes, help, hashing and capture.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 namespace rainref::rainy_glass {
 
 std::span<const scene::Parameter> parameters();
-/// The settings of a scene. Files are the caller's to read.
+/// The settings of a scene. The caller reads the files.
 Settings settings_from(const scene::Config& config);
 BackdropOptions backdrop_from(const scene::Config& config);
 

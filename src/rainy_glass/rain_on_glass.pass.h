@@ -8,7 +8,7 @@
 
 namespace rainref::rainy_glass {
 
-/// Its lanes are written by hand, because a scene key chooses how the maps are stored: see kernels_picture.cpp.
+/// Its lanes are written by hand, because a scene key selects the storage format of the maps: see kernels_picture.cpp.
 struct RainOnGlassPass : pass::Takes<RainOnGlassUniforms> {
   static constexpr pass::About about{
       "rain_on_glass", "The scene seen through the wet glass: linear radiance.", {1}, {1}, {"dot", "1 - normal squared"}};
@@ -64,17 +64,17 @@ struct RainOnGlassPass : pass::Takes<RainOnGlassUniforms> {
 #endif
 #else
 
-/// What a pixel sees of the glass and of the scene, as stored.
+/// The glass and the scene at a pixel, as stored.
 template <class N>
 struct GlassPixel {
-  N u, v;          ///< place on the glass [m]
+  N u, v;          ///< position on the glass [m]
   N distance;      ///< along the view axis [m]
   N covered;       ///< 1 on the glass, 0 beside it
   Vec3<N> normal;  ///< world, toward the rain
-  Vec3<N> own;     ///< the scene's radiance at this very pixel
-  N own_depth;     ///< corrected: of the scene there, along the view axis [m]
+  Vec3<N> own;     ///< radiance of the scene at this pixel
+  N own_depth;     ///< corrected: depth of the scene there, along the view axis [m]
 };
-/// As Textures, or as lanes have them stored.
+/// As Textures, or for lanes in their storage type.
 template <class Map, class Scene, class Depth>
 struct GlassMaps {
   const Map *raindrops, *rivulets;
@@ -88,14 +88,14 @@ RAINREF_FN Vec3<N> scene_at(const Maps& m, N u, N v) {
   const auto s = sample_bilinear<0, 3, N>(fixed_texture<Address::clamp, Address::clamp, 4>(*m.scene), u, v);
   return Vec3<N>(s[0], s[1], s[2]);
 }
-/// The reflection probe along the view ray, moved on the image plane at distance 1.
+/// The reflection probe along the view ray, offset on the image plane at distance 1.
 template <class N, class Maps>
 RAINREF_FN Vec3<N> probe_at(const RainOnGlassUniforms& u, const Maps& m, N x, N y) {
   const Vec3<N> ray = Vec3<N>(u.forward) + x * Vec3<N>(u.right) + y * Vec3<N>(u.up);
   return sample_latlong(fixed_texture<Address::repeat, Address::clamp, 4>(*m.probe), ray, N(u.probe_level));
 }
 
-/// The two staggered phases of a flow whose cycle has come to `phase`, and the weight of the second.
+/// The two staggered phases of a flow whose cycle is at `phase`, and the weight of the second.
 template <class N>
 struct FlowPhases {
   N first, second, weight;
@@ -108,8 +108,8 @@ RAINREF_FN FlowPhases<N> flow_phases(N phase) {
 
 // ---- as published --------------------------------------------------------------------------------------------------
 //   timer = fract(time + B),  mask = ceil(A - timer),  d = mask RG + (1 - |n . up|) rivulets,  grab(screen + distortion (2 d - 1))
-// rivulets: the map at uv + BA phase for both phases, mixed by the weight. What rain_amount does the article leaves open:
-// here it dims the map by 1 - rain_amount.
+// rivulets: the map at uv + BA phase for both phases, mixed by the weight. The article does not define rain_amount; here it dims the map by
+// 1 - rain_amount.
 template <class N, class Maps>
 RAINREF_FN Vec3<N> rain_on_glass_as_published(const RainOnGlassUniforms& u, const Maps& m, const GlassPixel<N>& p, int column, int row) {
   const N zero(0.0f), one(1.0f);
@@ -144,8 +144,8 @@ RAINREF_FN Two<N> slope_of(N stored_x, N stored_y, float neutral, float scale) {
   const N inverse = N(-1.0f) / sqrt(max(sum_any_order(N(1.0f), -square(x), -square(y)), N(0.04f)));
   return Two<N>{x * inverse, y * inverse};
 }
-/// What of the water on the glass is a droplet now, from 0 to 1. The threshold falls from 1 to 0 at the impact and then rises
-/// to 1 again: the droplet spreads, then dries from its rim.
+/// Current strength of the droplet, from 0 to 1. The threshold falls from 1 to 0 at the impact and then rises to 1 again: the droplet
+/// spreads, then dries from its rim.
 template <class N>
 RAINREF_FN N droplet_shown(const RainOnGlassUniforms& u, N height, N offset, N amount) {
   const N one(1.0f), timer = fract(N(u.drop_phase) + offset);
@@ -153,12 +153,12 @@ RAINREF_FN N droplet_shown(const RainOnGlassUniforms& u, N height, N offset, N a
       max(one - timer * uniform_quotient(1.0f, u.impact, N()), (timer - N(u.impact)) * uniform_quotient(1.0f, 1.0f - u.impact, N()));
   return saturate((height - (one - amount) - threshold) * N(u.sharpness));
 }
-/// How upright glass of this normal stands: the sine of its slope.
+/// Steepness of glass with this normal: the sine of its slope.
 template <class N>
 RAINREF_FN N steepness(const Vec3<N>& normal) {
   return sqrt(square(normal.x) + square(normal.z));
 }
-/// Slope of the water at place (pu, pv) [m] of glass of this normal, up along (u, v). Slopes are decoded before they are masked, so
+/// Slope of the water at position (pu, pv) [m] on glass with this normal, up along (u, v). Slopes are decoded before they are masked, so
 /// that dry glass bends nothing.
 template <class N, class Maps>
 RAINREF_FN Two<N> water_slope(const RainOnGlassUniforms& u, const Maps& m, N pu, N pv, const Vec3<N>& normal, N steep) {
@@ -187,24 +187,24 @@ template <class N>
 RAINREF_FN typename N::Mask is_wet(const Two<N>& slope) {
   return square(slope.a) + square(slope.b) > N(1e-8f);
 }
-/// How far a sheet of water of this slope moves, on the image plane, what lies far behind the glass. A thin sheet of slope s bends
-/// a ray by (ior - 1) s toward the thicker side.
+/// Displacement, on the image plane, of a scene point far behind the glass, for a sheet of water of this slope. A thin sheet of slope s
+/// bends a ray by (ior - 1) s toward the thicker side.
 template <class N>
 RAINREF_FN Two<N> prism(const RainOnGlassUniforms& u, const Vec3<N>& normal, N steep, const Two<N>& slope) {
-  // Along u, which is horizontal, and v, up the glass; both fade where the glass lies level.
+  // Along u, which is horizontal, and v, up the glass; both fade where the glass is level.
   const N zero(0.0f), one(1.0f), inverse = one / max(steep, N(0.05f));
   const Vec3<N> along_u{normal.z * inverse, zero, -normal.x * inverse};
   const Vec3<N> along_v{normal.y * along_u.z, normal.z * along_u.x - normal.x * along_u.z, -normal.y * along_u.x};
   const Vec3<N> rise = slope.a * along_u + slope.b * along_v;
   return Two<N>{N(u.bend) * dot(rise, Vec3<N>(u.right)), N(u.bend) * dot(rise, Vec3<N>(u.up))};
 }
-/// The share of that by which what lies at this depth is moved.
+/// Share of that displacement for a scene point at this depth.
 template <class N>
 RAINREF_FN N share_beyond(const GlassPixel<N>& p) {
   constexpr const char* is_behind = "what lies behind the glass is further away than the glass, which is in front of the eye";
   return guard<N>(saturate(N(1.0f) - p.distance / guard<N>(max(p.own_depth, N(1e-3f)), is_behind)), is_behind);
 }
-// Where something nearer than the glass lies under any texel of the lookup the pixel shows its own scene texel.
+// If something nearer than the glass lies under any texel of the lookup, the pixel shows its own scene texel.
 template <class N, class Maps>
 RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const Maps& m, const GlassPixel<N>& p, int column, int row) {
   const N one(1.0f), half(0.5f);
@@ -228,7 +228,7 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const M
   return select(seen & (nearest > p.distance), scene_at(m, su, sv), p.own);
 }
 
-/// own: the scene's texel here; maps: the textures that it is looked up in.
+/// own: the scene's texel here; maps: the textures for the lookups.
 template <class N, bool corrected, class Io, class Maps>
 RAINREF_FN void give_glass(const RainOnGlassUniforms& u, const Io& io, const Vec3<N>& own, const Maps& maps, int column, int row) {
   N s[4], n[4], depth(0.0f);

@@ -1,4 +1,4 @@
-// rain_on_glass for every number but lanes: its inputs as the text takes them.
+// rain_on_glass for every number type except lanes: its inputs in the form of the text.
 #pragma once
 
 #include "rainy_glass/scalar.h"

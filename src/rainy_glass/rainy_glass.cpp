@@ -87,14 +87,14 @@ struct RainyGlass::State {
   bool corrected, bakes_raindrops, bakes_rivulets;
   int frame = 0;
   bool is_baked = false;
-  bool bakes_are_recorded = false;  ///< in a run that was saved, they are not recorded once more
+  bool bakes_are_recorded = false;  ///< in the saved run; then they are not recorded again
   Code drop_code, rivulet_code;
   std::shared_ptr<const std::vector<Droplet>> droplets;
   std::shared_ptr<const std::vector<Trail>> trails;
-  std::shared_ptr<const TextureData> lattice, raindrop_texture, rivulet_texture, probe;  // the textures of maps: where they are decoded
+  std::shared_ptr<const TextureData> lattice, raindrop_texture, rivulet_texture, probe;  // textures of maps, if they are decoded
   std::shared_ptr<const Glass> glass;
   Image raindrops, rivulets, scene, depth, least_depth, colour, picture;
-  std::vector<Image> earlier_maps;  ///< into whose memory arrays of Python may look
+  std::vector<Image> earlier_maps;  ///< kept because Python arrays may view their memory
   CodeTable display;
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
@@ -132,7 +132,7 @@ struct RainyGlass::State {
     display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
-  /// Of a film, whose pictures pass and are not worth remembering.
+  /// Frames of a film are not cached, because their pictures are transient.
   void take(const Image& seen, const Image& seen_depth) {
     const Rows rows = parallel::rows_of(executor);
     scene = colour_as_half(seen, rows);
@@ -231,7 +231,7 @@ void RainyGlass::list_state(state::Items& items) {
   const FloatingPointGuard guard;
   items.number("frame", state_->frame, state::frames);
   items.flag("bakes_are_recorded", state_->bakes_are_recorded);
-  // Maps that were baked here and told nobody of would be told of now.
+  // Maps that were baked here without being recorded are recorded after loading.
   items.then([s = state_.get()] { s->is_baked = s->is_baked && s->bakes_are_recorded; });
 }
 

@@ -1,4 +1,4 @@
-// What the bakes scatter: droplets, rivulets, gradients; from the seed, by integers.
+// Records of the bakes: droplets, rivulets and gradients, made from the seed by integers.
 #include <algorithm>
 #include <cmath>
 
@@ -13,14 +13,14 @@ namespace {
 constexpr double turn = 2 * pi;
 
 double unit(std::uint32_t word) { return static_cast<double>(word >> 8) * 0x1p-24; }
-/// A place in the tile with 16 bits.
+/// A position in the tile with 16 bits.
 float place(std::uint32_t word) { return static_cast<float>(word >> 16) * 0x1p-16f; }
-/// Distance of two places of a tile that joins at its edges.
+/// Distance of two positions in a tile that wraps.
 inline double apart(double a, double b) {
   const double d = std::abs(a - b);
   return std::min(d, 1 - d);
 }
-/// Distance from a to the interval [low, high] of a tile that joins at its edges; the largest one with `far`.
+/// Distance from a to the interval [low, high] in a tile that wraps; the largest distance with `far`.
 double apart(double a, double low, double high, bool far) {
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
   double d = std::abs(a - middle);
@@ -38,7 +38,7 @@ std::vector<Droplet> make_droplets(const Settings& s) {
     radii.push_back(s.smallest_droplet / (1 - u * (1 - s.smallest_droplet / s.largest_droplet)));
   }
   std::sort(radii.begin(), radii.end(), std::greater<>());
-  const double gap = 2.0 / s.map_size;  // so that filtering mixes no two droplets
+  const double gap = 2.0 / s.map_size;  // so that filtering does not mix two droplets
   std::vector<Droplet> out;
   for (int i = 0; i < s.droplet_count; ++i) {
     const auto radius = static_cast<float>(radii[static_cast<std::size_t>(i)]);
@@ -47,7 +47,7 @@ std::vector<Droplet> make_droplets(const Settings& s) {
       const float x = place(b[0]), y = place(b[1]);
       const bool is_free = std::none_of(out.begin(), out.end(), [&](const Droplet& d) {
         const double reach = radius + d.radius + gap, dx = apart(x, d.x);
-        if (dx >= reach) return false;  // nearly all: millions of pairs are compared
+        if (dx >= reach) return false;  // true for nearly all of the millions of pairs
         const double dy = apart(y, d.y);
         return dx * dx + dy * dy < reach * reach;
       });
@@ -99,7 +99,7 @@ Image make_lattice(const Settings& s) {
 }
 
 std::vector<Droplet> droplets_near(std::span<const Droplet> all, bool corrected, int size, int x0, int y0, int x1, int y1) {
-  // From the first texel's centre to the last one's, widened by what float rounding could do.
+  // From the first texel's centre to the last one's, widened for float rounding.
   const double margin = 1e-5;
   const double left = (x0 + 0.5) / size, right = (x1 - 0.5) / size, low = (y0 + 0.5) / size, high = (y1 - 0.5) / size;
   const auto measure = [&](const Droplet& d, bool far) {
@@ -125,7 +125,7 @@ std::vector<Trail> trails_near(std::span<const Trail> all, int size, int x0, int
     for (int y = y0; y < y1; ++y) {
       double dy = (y + 0.5) / size - t.y + 0.125;
       dy = dy - std::floor(dy) - 0.125;
-      // Where the wrap could go either way by rounding the trail stays in.
+      // If rounding could wrap either way, the trail is kept.
       if ((dy >= -t.half_width - margin && dy * t.inverse_length <= 1 + margin) || dy < -0.125 + margin || dy > 0.875 - margin) {
         out.push_back(t);
         break;

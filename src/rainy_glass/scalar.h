@@ -1,5 +1,5 @@
-// The scalar evaluations of the passes of rainy_glass: Scalar, Enclosure and Perturbed, for the oracle, the tests and the judge. A
-// namespace of their own, so that argument types of this room do not pull them into the lanes.
+// The scalar evaluations of the passes of rainy_glass: Scalar, Enclosure and Perturbed, for the oracle, the tests and the judge. They have
+// their own namespace, so that argument types of this room do not pull them into the lanes.
 #pragma once
 
 #include "image/footprint.h"

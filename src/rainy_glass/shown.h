@@ -1,4 +1,4 @@
-// What the corrected pass rain_on_glass takes the water to be and to do: for judging it against traced light, not a pass.
+// The water and the refraction of the corrected pass rain_on_glass, for comparison with traced light. Not a pass.
 #pragma once
 
 #include <array>
@@ -10,22 +10,22 @@
 
 namespace rainref::rainy_glass {
 
-/// What a pixel of rain_on_glass shows of what lies behind the glass.
+/// The part of the scene behind the glass that a pixel of rain_on_glass shows.
 struct Shown {
   bool is_behind;  ///< the pixel looks through the glass at something behind it
   bool is_wet;     ///< and the water there bends the ray
-  double x, y;     ///< the point that it shows, on the image plane at distance 1
+  double x, y;     ///< the shown point, on the image plane at distance 1
 };
 
-/// The double evaluation of the pass's text, on the buffers of the frame that was rendered last.
+/// Evaluates the pass's text in double, on the buffers of the last rendered frame.
 class ShownGlass {
  public:
-  /// `surroundings` are those that `rendered` was made with; they and it must outlive this.
+  /// `surroundings` are those that `rendered` was made with; both must outlive this.
   ShownGlass(const Settings& settings, const Surroundings& surroundings, const RainyGlass& rendered);
   Shown at(int column, int row) const;
-  /// Of the image plane at distance 1.
+  /// Half size of the picture on the image plane at distance 1.
   std::array<double, 2> half_size() const { return {uniforms_.half_width, uniforms_.half_height}; }
-  /// Slope of the water, up along u and v, at a place of glass of this normal, as the pass knows places [m].
+  /// Slope of the water, up along u and v, at a position [m] on glass with this normal, in the coordinates of the pass.
   struct Slope {
     double u, v;
     bool is_wet;

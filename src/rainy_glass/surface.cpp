@@ -1,4 +1,4 @@
-// The glass as the camera sees it: place, distance and normal at each pixel.
+// The glass in the camera's view: position, distance and normal at each pixel.
 #include <algorithm>
 
 #include "math/constants.h"
@@ -33,7 +33,7 @@ Hit on_sphere(const Vector3& ray, const Vector3& centre, double radius) {
   const double level = __builtin_sqrt(n.x * n.x + n.z * n.z);
   return {radius * atan2_real(Real64(n.x), Real64(n.z)).v, radius * atan2_real(Real64(n.y), Real64(level)).v, t, n};
 }
-// A picture of normals says nothing of places: those of a plane across the view.
+// A picture of normals has no positions; those of a plane perpendicular to the view are used.
 Hit on_image(const float* texel, double x, double y, const Vector3& ray, double distance) {
   if (!(texel[3] > 0.5f)) return {};
   const Vector3 n(texel[0], texel[1], texel[2]);

@@ -1,25 +1,25 @@
-// What the passes of rainy_glass take besides images: uniform blocks and the records of the bakes. Sizes are multiples of
-// 16 bytes, nothing straddles a 16-byte row, and every gap is a named padding member, so the bytes serve every GPU language.
+// Uniform blocks of the passes of rainy_glass, and the records of the bakes. Sizes are multiples of 16 bytes, no member crosses a 16-byte
+// row, and every gap is a named padding member, so the bytes are valid in every GPU language.
 #pragma once
 
 #include <cstdint>
 
 namespace rainref::rainy_glass {
 
-/// A droplet of the raindrop map. Lengths are in tiles. q = (m00 dx + m01 dy, m01 dx + m11 dy) is 1 long at its rim, which
-/// lies within `radius` of its centre.
+/// A droplet of the raindrop map. Lengths are in tiles. q = (m00 dx + m01 dy, m01 dx + m11 dy) has length 1 at its rim, which lies within
+/// `radius` of its centre.
 struct Droplet {
   float x, y;  ///< centre: multiples of 2^-16, so that differences to texel centres of a power-of-two map are exact
   float radius;
-  float height;  ///< at the centre, of 1: proportional to the radius
+  float height;  ///< at the centre, relative to 1: proportional to the radius
   float m00, m01, m11, offset;
 };
 
-/// A rivulet: a head with a tail above it that winds. Lengths are in tiles.
+/// A rivulet: a head, and above it a tail that winds. Lengths are in tiles.
 struct Trail {
   float x, y;  ///< centre of the head; multiples of 2^-16
   float half_width;
-  float inverse_length;  ///< of the tail; the tail is at most 0.8 long
+  float inverse_length;  ///< of the tail, which is at most 0.8 long
   float height, wiggle, wiggle_rate, wiggle_phase;
 };
 

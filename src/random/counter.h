@@ -27,7 +27,7 @@ constexpr Block pcg4d(Block v) {
   return v;
 }
 
-/// What a stream of random numbers is for. A new use takes a new number; an old number never changes its meaning.
+/// Purposes of random streams. A new use takes a new number; an old number never changes its meaning.
 enum class Purpose : std::uint32_t {
   puddle_drop_count = 1,
   puddle_drop = 2,
@@ -48,14 +48,14 @@ enum class Purpose : std::uint32_t {
   picture_dither = 70
 };
 
-/// The block of (seed, purpose, a, b). The seed's high word enters through a second hash, so that both words count.
+/// The block for (seed, purpose, a, b). The seed's high word enters through a second hash, so that both words count.
 constexpr Block block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) {
   const Block key =
       pcg4d({static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), static_cast<std::uint32_t>(purpose), 0});
   return pcg4d({a ^ key[0], b ^ key[1], key[2], key[3]});
 }
 
-/// A float in [0, 1) with 24 random bits: exact, and equal spacing.
+/// A float in [0, 1) with 24 random bits, exact and equally spaced.
 constexpr float uniform(std::uint32_t word) { return static_cast<float>(word >> 8) * 0x1p-24f; }
 
 }  // namespace rainref::random

@@ -11,9 +11,9 @@
 namespace rainref::random {
 namespace {
 
-// The end of a table of this mean: what lies beyond has no weight.
+// End of the table for this mean; larger counts have no weight.
 int end_of(double mean) { return static_cast<int>(__builtin_ceil(mean + 12 * __builtin_sqrt(mean) + 40)); }
-// Of 1, 2, ...: a car that accelerates asks for another table in each step.
+// Logarithms of 1, 2, ... are cached, because an accelerating car needs another table in each step.
 const std::vector<double>& logarithms() {
   static const std::vector<double> logs = [] {
     std::vector<double> out{0};
@@ -30,8 +30,7 @@ PoissonTable::PoissonTable(double mean) {
     throw Error(ExitCode::usage, fmt::format("a Poisson mean of {}: expected a number from 0 to {}", mean, max_mean));
   }
   if (mean == 0) return;
-  // Weights by logarithm, because e^-mean is no double beyond a mean of 745; then normalized, so that the rounding of
-  // the logarithms does not show.
+  // Weights by logarithm, because e^-mean underflows beyond a mean of 745; then normalized, so that the rounding of the logarithms cancels.
   const double log_mean = log_real(Real64(mean)).v;
   double log_weight = -mean;
   std::vector<double> weights;

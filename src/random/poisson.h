@@ -1,4 +1,4 @@
-// Poisson counts by a table of integer thresholds: the host computes the table, anyone can draw from it exactly.
+// Poisson counts from a table of integer thresholds. The host computes the table; drawing from it is exact.
 #pragma once
 
 #include <cstdint>
@@ -6,24 +6,24 @@
 
 namespace rainref::random {
 
-/// Draws N with P(N <= k) = thresholds[k - first] / 2^32, from one random word and comparisons alone.
+/// Draws N with P(N <= k) = thresholds[k - first] / 2^32, from one random word by comparisons only.
 class PoissonTable {
  public:
   static constexpr double max_mean = 4000;
 
   PoissonTable() = default;
-  /// mean in [0, max_mean]; throws Error(usage) otherwise. Probabilities below 2^-32 are cut off.
+  /// mean in [0, max_mean]; otherwise throws Error(usage). Probabilities below 2^-32 are cut off.
   explicit PoissonTable(double mean);
 
-  /// The count of this random word.
+  /// The count for this random word.
   int count(std::uint32_t word) const;
   int largest() const { return first_ + static_cast<int>(thresholds_.size()); }
   int first() const { return first_; }
   const std::vector<std::uint32_t>& thresholds() const { return thresholds_; }
 
  private:
-  int first_ = 0;                          // counts below this have no weight
-  std::vector<std::uint32_t> thresholds_;  // non-decreasing; a word not below the last draws largest()
+  int first_ = 0;                          // smaller counts have no weight
+  std::vector<std::uint32_t> thresholds_;  // non-decreasing; a word at or above the last one draws largest()
 };
 
 }  // namespace rainref::random

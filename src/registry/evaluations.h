@@ -1,4 +1,4 @@
-// What the judge evaluates, by effect. A program that only simulates links none of it.
+// The evaluations that the judge uses, by effect. A program that only simulates does not link them.
 #pragma once
 
 #include <string_view>
@@ -8,10 +8,10 @@
 
 namespace rainref::registry {
 
-/// Each pass of an effect that this build judges; empty for an effect that it only simulates.
+/// The passes of an effect that this build can judge; empty for an effect that it only simulates.
 const std::vector<capture::PassEvaluations>& evaluations(std::string_view effect);
-/// Those of an effect that was added (registry::add). Call it before anything else, from one thread. Throws Error(internal) where the
-/// effect has some.
+/// Adds evaluations of an effect added by registry::add. Call it before anything else, from one thread. Throws Error(internal) if the
+/// effect already has some.
 void add_evaluations(std::string_view effect, std::vector<capture::PassEvaluations> passes);
 
 }  // namespace rainref::registry

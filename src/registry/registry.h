@@ -1,4 +1,4 @@
-// The effects that this build has: the one list of them.
+// The effects of this build: the only list of them.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace rainref::registry {
 
-/// All of them, in the order in which `rainref list` names them.
+/// All effects, in the order of `rainref list`.
 const std::vector<const effect::Effect*>& effects();
-/// Null for a name that this build does not know.
+/// Returns null for an unknown name.
 const effect::Effect* find(std::string_view name);
-/// The same; Error(usage) naming those that it knows.
+/// The same; throws Error(usage) with the known names.
 const effect::Effect& effect_of_pack(std::string_view name);
-/// Adds an effect that lives outside of rainref, a program's own. Call it before anything else, from one thread. Throws Error(internal)
-/// where its name is taken.
+/// Adds an effect defined outside rainref, in the calling program. Call it before anything else, from one thread. Throws Error(internal) if
+/// the name is taken.
 void add(effect::Effect effect);
 
 }  // namespace rainref::registry

@@ -67,7 +67,7 @@ Json view_json(const View& v) {
           {"verdict", data_uri(v.verdict)}};
 }
 
-/// Where a record lies, or null. A keyed list is in any order: its records are found by their id, if they have one.
+/// The bytes of a record, or null. A keyed list is in any order, so its records are found by id, if they have one.
 const std::byte* record_at(const capture::Array& a, bool keyed, std::uint32_t index) {
   const std::size_t size = a.element_bytes(), count = a.levels[0].size() / size;
   const auto id = std::find_if(a.record.members.begin(), a.record.members.end(), [](const scene::Member& m) { return m.name == "id"; });
@@ -80,7 +80,7 @@ const std::byte* record_at(const capture::Array& a, bool keyed, std::uint32_t in
   return nullptr;
 }
 
-/// The fields that are outside, by how far.
+/// The fields outside, sorted by distance.
 Json outside_fields(const OutputJudgement& o, const OutputBuffers& b) {
   const std::vector<judge::Quantity> fields = judge::quantities_of(b.expected);
   Json rows = Json::array();
@@ -119,7 +119,7 @@ Json differing_fields(const OutputJudgement& o, const OutputBuffers& b) {
   return rows;
 }
 
-/// Draws pictures while `budget` lasts, and takes what it used.
+/// Draws pictures while `budget` lasts, and subtracts their size.
 Json shown_json(const Shown& shown, const OutputBuffers& buffers, std::size_t& budget) {
   const OutputJudgement& o = *shown.output;
   Json out{{"case", shown.c->id}, {"output", o.name}};
@@ -159,7 +159,7 @@ Json pass_buffers(const PassJudgement& p, const PageSource& source, std::size_t&
 std::string buffers_json(const PortJudgement& j, const PageSource& source) {
   std::size_t budget = picture_budget;
   std::vector<Json> passes(j.passes.size());
-  // Those of failing passes are drawn first, so that these get them.
+  // Pictures of failing passes are drawn first, so that they fit into the budget.
   for (const bool failing : {true, false}) {
     for (std::size_t k = 0; k < j.passes.size(); ++k) {
       const Status s = j.passes[k].status;
@@ -170,7 +170,7 @@ std::string buffers_json(const PortJudgement& j, const PageSource& source) {
            {"pictured_failures", pictured_failures},
            {"verdict_colours", {verdict_colour(0), verdict_colour(1), verdict_colour(2), verdict_colour(3), verdict_colour(4)}},
            {"passes", passes}};
-  return out.dump(0, ' ', false, Json::error_handler_t::replace);  // a line for each picture, which editors and tools can take
+  return out.dump(0, ' ', false, Json::error_handler_t::replace);  // a line for each picture, which editors and tools can handle
 }
 
 }  // namespace rainref::reports

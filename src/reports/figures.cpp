@@ -25,7 +25,7 @@ using judge::QuantityJudgement;
 using judge::Status;
 
 constexpr double no_bound = 4e9;
-/// More codes than this are more than an eighth of a float's size, mostly because they span 0: they say nothing.
+/// More codes than this exceed an eighth of a float's size, mostly because the envelope contains 0; then codes are not meaningful.
 constexpr double most_codes = 0x1p20;
 
 bool is_vacuous(const Width& w) { return w.is_vacuous || w.codes >= no_bound; }
@@ -34,7 +34,7 @@ const Width& wider(const Width& a, const Width& b) {
   return b.codes > a.codes ? b : a;
 }
 
-/// Whether so many vacuous envelopes reach what a share of them stays below.
+/// Whether this number of vacuous envelopes includes the given percentile.
 bool reaches(std::int64_t vacuous, std::int64_t of, double share) {
   return vacuous > 0 && static_cast<double>(vacuous) > (1 - share) * static_cast<double>(of);
 }
@@ -49,7 +49,7 @@ Width width_of(const OutputJudgement& o, double codes, double share, Width (*of_
   return w;
 }
 
-/// How far off a quantity is, as a share of its declared range; of one without a range infinitely far.
+/// Distance of a quantity relative to its declared range; infinite without a range.
 double share_off(const QuantityJudgement& q) { return q.extent > 0 ? q.farthest / q.extent : std::numeric_limits<double>::infinity(); }
 bool fails_worse(const QuantityJudgement& a, const QuantityJudgement& b) {
   return std::pair(share_off(a), a.failing) > std::pair(share_off(b), b.failing);
@@ -64,7 +64,7 @@ void add(Figures& to, const Figures& f) {
   to.p99_width = wider(to.p99_width, f.p99_width);
 }
 
-/// What a failure is of; null where that has no name.
+/// The quantity of a failure; null if it has no name.
 const QuantityJudgement* quantity_at(const OutputJudgement& o, const Failure& f) {
   const auto found = std::find_if(o.quantities.begin(), o.quantities.end(),
                                   [&](const QuantityJudgement& q) { return q.name == (o.records ? f.field : channel_name(f.channel)); });
@@ -147,7 +147,7 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
   };
   t.got = text(f.got, f.got_is_negative_zero);
   t.expected = text(f.expected, f.expected_is_negative_zero);
-  t.accepted = f.low == INT64_MIN                       ? "any number"  // a range without ends, whose codes are none of the format
+  t.accepted = f.low == INT64_MIN                       ? "any number"  // a range without ends, whose codes do not belong to the format
                : f.low == f.high && f.low == f.expected ? t.expected
                : f.low == f.high                        ? enclosed::code_text(kind, f.low)
                                  : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
@@ -180,7 +180,7 @@ std::vector<Shown> shown_of(const PassJudgement& p) {
     if (c.status == Status::fail || c.status == Status::known)
       failing.push_back(&c);
     else if (!c.outputs.empty() && (!sample || differing(c) >= differing(*sample)))
-      sample = &c;  // what differs most shows most; of equals the last
+      sample = &c;  // the case that differs most is the most informative; of equals the last
   }
   if (!failing.empty()) cases.push_back(failing[0]);
   std::stable_sort(failing.begin(), failing.end(), [](const auto* a, const auto* b) { return a->failing > b->failing; });

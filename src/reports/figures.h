@@ -1,4 +1,4 @@
-// What every report says of a judgement, in numbers and in words.
+// Numbers and texts of a judgement that all reports share.
 #pragma once
 
 #include <array>
@@ -12,30 +12,29 @@
 
 namespace rainref::reports {
 
-/// How wide envelopes are.
+/// Width of envelopes.
 struct Width {
-  double codes = 0;         ///< accepted besides the first; 4e9 and more: no bound
-  bool is_vacuous = false;  ///< wider than says anything, whatever its codes are
-  double value = -1;        ///< in the unit; below 0: not known
+  double codes = 0;         ///< number of accepted codes besides the first; 4e9 and more: no bound
+  bool is_vacuous = false;  ///< too wide to be useful, whatever the number of codes
+  double value = -1;        ///< in the unit; negative: unknown
   std::string unit = "";
 };
-/// What half of the envelopes, or 99 % of them, stay below: of an output that of its widest quantity where codes would say
-/// nothing.
+/// Median and 99th percentile of the widths of envelopes; for an output those of its widest quantity, if codes are not meaningful.
 Width median_width(const judge::QuantityJudgement& quantity);
 Width p99_width(const judge::QuantityJudgement& quantity);
 Width median_width(const judge::OutputJudgement& output);
 Width p99_width(const judge::OutputJudgement& output);
 
-/// How much a verdict is worth: sums over outputs and cases, and the widest median and 99th percentile among them.
+/// Strength of a verdict: sums over outputs and cases, and the widest median and 99th percentile among them.
 struct Figures {
   std::int64_t invocations = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
   std::int64_t elements = 0, outside = 0, differing = 0, vacuous = 0, loose = 0, atypical = 0, free = 0;
   std::int64_t typical = 0, unbounded = 0, rearranged = 0, unsampled = 0;
   Width median_width, p99_width;
 
-  /// Elements that a bound was asked for.
+  /// Number of elements whose bound was needed.
   std::int64_t judged() const { return elements - free; }
-  /// Those of the sample: shares and widths are of these.
+  /// Number of elements in the sample, from which shares and widths are computed.
   std::int64_t sampled() const { return judged() - unsampled; }
   std::int64_t bounded() const { return sampled() - vacuous; }
 };
@@ -43,19 +42,19 @@ Figures figures_of(const judge::OutputJudgement& output);
 Figures figures_of(const judge::CaseJudgement& c);
 Figures figures_of(const judge::PassJudgement& pass);
 
-/// A share that never rounds to all or to nothing: "0 %", "0.01 %", "99.99 %", "100 %"; "-" of nothing.
+/// A share that is never rounded to all or to nothing: "0 %", "0.01 %", "99.99 %", "100 %"; "-" if `of` is 0.
 std::string share_text(std::int64_t part, std::int64_t of);
-/// A number and its unit: "0.0021 m"; of pure numbers the number alone.
+/// A number and its unit: "0.0021 m"; for a pure number only the number.
 std::string quantity_text(double value, const std::string& unit);
 /// A width of the quantity in its unit, or "vacuous".
 std::string in_unit(const Width& width);
-/// "11 codes"; "0.0021 m" where codes say nothing, because floats between -0.001 and 0.001 are two thousand million; "vacuous".
+/// "11 codes"; "0.0021 m" if codes are not meaningful, because there are two thousand million floats between -0.001 and 0.001; "vacuous".
 std::string width_text(const Width& width);
 /// "rgba16f 35x21", "6 records".
 std::string shape_text(const judge::OutputJudgement& output);
-/// "elements", "fields" or "records": what its counts count.
+/// "elements", "fields" or "records": the unit of its counts.
 const char* element_word(const judge::OutputJudgement& output);
-/// "records" or "texels": what a cause explains.
+/// "records" or "texels": the unit of a cause's counts.
 const char* element_word(const judge::Cause& cause);
 /// "x" to "w".
 std::string channel_name(int channel);
@@ -65,24 +64,24 @@ struct FailureText {
   std::string place;  ///< "(12, 3).x", "record 4, amplitude", "record 4"
   std::string got, accepted, expected;
   std::string distance;    ///< "off by 3 codes (0.0029 m)", "is not a number", "is in one of the lists alone"
-  std::string value = "";  ///< of the distance alone, "0.0029 m"; "" where it has none, or codes are the values
+  std::string value = "";  ///< only the distance, "0.0029 m"; "" if there is none, or codes are the values
 };
 FailureText failure_text(const judge::OutputJudgement& output, const judge::Failure& failure);
 
-/// The quantity that fails worst: by how far it is off in its declared range, then by how often; null where none fails.
+/// The quantity that fails worst: by its distance relative to its declared range, then by its number of failures; null if none fails.
 const judge::QuantityJudgement* worst_quantity(const judge::OutputJudgement& output);
 /// Whether one output fails worse than another, by the same measure.
 bool fails_worse(const judge::OutputJudgement& a, const judge::OutputJudgement& b);
 
-/// At most this many failing cases of a pass are looked at: the first, and those with most failures.
+/// Largest number of failing cases of a pass that are shown: the first one, and those with most failures.
 inline constexpr std::size_t pictured_failures = 4;
-/// An output that is looked at in pictures or field by field.
+/// An output that is shown in pictures or field by field.
 struct Shown {
   const judge::CaseJudgement* c;
   const judge::OutputJudgement* output;
 };
-/// What is looked at of a pass, in this order: failing cases, then the one of the others that differs most. A failing case shows
-/// the outputs that fail, the worst first; another case shows all.
+/// The outputs shown for a pass, in this order: failing cases, then the one of the others that differs most. A failing case shows the
+/// failing outputs, worst first; another case shows all outputs.
 std::vector<Shown> shown_of(const judge::PassJudgement& pass);
 /// The quantities of one output over all cases of a pass: counts are sums, widths and distances the largest.
 struct QuantitiesOfOutput {
@@ -92,41 +91,41 @@ struct QuantitiesOfOutput {
 };
 std::vector<QuantitiesOfOutput> quantities_of(const judge::PassJudgement& pass);
 
-/// "exercises 41 of 44 alternatives, 2 with a reason not; never: shade.pass.h, refract total reflection: const Vec3<N> bent = ...", at
-/// most `shown` of them, of 0 their number alone; "" where nothing is counted.
+/// "exercises 41 of 44 alternatives, 2 with a reason not; never: shade.pass.h, refract total reflection: const Vec3<N> bent = ...", with at
+/// most `shown` of them; if 0, only their number. "" if nothing is counted.
 std::string coverage_text(const judge::PassCoverage& coverage, std::size_t shown);
 /// "likely cause", or "may be".
 const char* cause_word(const judge::Cause& cause);
 /// "likely cause: upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".
-/// `which`: what its texels are.
+/// `which`: a word for its texels.
 std::string cause_text(const judge::Cause& cause, std::string_view which = "failing");
-/// Where a cause stands in the port's shader, as editors read it: "FILE:LINE: the line itself".
+/// Position of a cause in the port's shader, in the form that editors read: "FILE:LINE: the line itself".
 std::vector<std::string> line_texts(const judge::Cause& cause);
-/// "is outside the as-written envelope of puddle.shade.corrected/2", or what no known device does, where that alone fails.
+/// "is outside the as-written envelope of puddle.shade.corrected/2", or the text for values that no known device gives, if only that fails.
 std::string outside_text(const judge::PassJudgement& pass);
 
-/// Whether a run of it fails for a reason of its own, which is then the cause: a race, an input that is not the output it
-/// comes from, a uniform.
+/// Whether a run of it fails for a separate reason, which is then the cause: a race, an input that differs from the output it comes from, a
+/// uniform.
 bool is_broken(const judge::PassJudgement& pass);
-/// Whether it fails and nothing says why.
+/// Whether it fails without a known cause.
 bool has_unknown_cause(const judge::PassJudgement& pass);
 
-/// Whether a run of it fails so much by its sample that the rest was not judged.
+/// Whether its sample fails so much that the rest of a run was not judged.
 bool fails_by_sample(const judge::PassJudgement& pass);
-/// "widths and shares are those of a sample of 65536 of 8294400 elements (--exhaustive computes all)", and of what fails_by_sample() that
-/// all counts are; "" where all were computed.
+/// "widths and shares are those of a sample of 65536 of 8294400 elements (--exhaustive computes all)", with a note if fails_by_sample(); ""
+/// if all were computed.
 std::string sample_text(const judge::PassJudgement& pass);
-/// How stores to half were found to round, as a sentence; "" where the pass stores no half or the profile settles it.
+/// A sentence about the detected rounding of stores to half; "" if the pass stores no half or the profile determines it.
 std::string half_text(const judge::PassJudgement& pass);
 
 /// Passes that are NOT JUDGED, in the order of execution.
 std::vector<std::string> not_judged(const judge::PortJudgement& judgement);
-/// Whether UNTESTED and NOT JUDGED are no failure: that was asked for, and something passed.
+/// Whether UNTESTED and NOT JUDGED are no failure: this was requested, and something passed.
 bool forgives_untested(const judge::PortJudgement& judgement, bool allow_untested);
-/// 0 for PASS, WARN and KNOWN, 1 for FAIL and for UNTESTED that is not forgiven; more where files cannot be used.
+/// 0 for PASS, WARN and KNOWN, 1 for FAIL and for UNTESTED that is not forgiven; higher if files cannot be used.
 int exit_code(const judge::PortJudgement& judgement, bool allow_untested);
 
-/// How many passes have each status, worst first: "1 FAIL, 4 PASS".
+/// Number of passes with each status, worst first: "1 FAIL, 4 PASS".
 std::string count_text(const judge::PortJudgement& judgement);
 
 }  // namespace rainref::reports

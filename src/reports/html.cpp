@@ -12,7 +12,7 @@
 namespace rainref::reports {
 namespace {
 
-/// Replaces {{name}} by its value, or by the asset of that name, once, from left to right; what is put in is not looked into.
+/// Replaces {{name}} by its value, or by the asset of that name, once, from left to right; inserted text is not searched.
 std::string filled(std::string_view text, const std::map<std::string_view, std::string>& values) {
   std::string out;
   for (std::size_t at = 0;;) {
@@ -26,7 +26,7 @@ std::string filled(std::string_view text, const std::map<std::string_view, std::
   }
 }
 
-/// JSON inside a script element: "<" stands in its strings alone, and could begin what ends the element.
+/// JSON inside a script element: "<" occurs only in its strings, and could begin a closing tag.
 std::string embedded(std::string_view json) {
   std::string out;
   out.reserve(json.size());

@@ -1,4 +1,4 @@
-// A judgement as one page for the eye: no network, no other file, light and dark, keyboard and mouse.
+// A judgement as one HTML page: no network, no other file, light and dark, keyboard and mouse.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace rainref::reports {
 
-/// The whole page. It holds report_json() and buffers_json(), which its script shows (assets/report.js), and report_text() for
-/// readers without scripts. `exit_code` is that of the run.
+/// The whole page. It contains report_json() and buffers_json(), which its script shows (assets/report.js), and report_text() for browsers
+/// without scripts. `exit_code` is that of the run.
 std::string report_html(const judge::PortJudgement& judgement, int exit_code, const PageSource& source);
 
 namespace detail {

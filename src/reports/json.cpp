@@ -23,7 +23,7 @@ using judge::PortJudgement;
 using judge::QuantityJudgement;
 using Json = nlohmann::ordered_json;
 
-/// Value, bits and ordered code; the library writes null for what is not finite.
+/// Value, bits and ordered code; the library writes null for infinity and NaN.
 Json code_json(FormatInfo::Kind kind, std::int64_t code, bool negative_zero = false) {
   const int digits = kind == FormatInfo::float32 || kind == FormatInfo::uint32 ? 8 : kind == FormatInfo::float16 ? 4 : 2;
   const std::uint32_t bits = negative_zero ? 1u << (4 * digits - 1) : enclosed::code_bits(kind, code);
@@ -34,7 +34,7 @@ Json code_json(FormatInfo::Kind kind, std::int64_t code, bool negative_zero = fa
 Json failure_json(const OutputJudgement& o, const Failure& f) {
   if (o.records && f.field.empty()) return {{"record", f.x}};
   const FormatInfo::Kind kind = o.records ? f.field_kind : info(o.format).kind;
-  // A vacuous range has no ends; the codes of its end would be none of the format.
+  // A vacuous range has no ends; their codes would not belong to the format.
   const bool bounded = f.low != INT64_MIN;
   Json out = o.records ? Json{{"record", f.x}, {"field", f.field}} : Json{{"x", f.x}, {"y", f.y}, {"channel", f.channel}};
   out["got"] = code_json(kind, f.got, f.got_is_negative_zero);
@@ -49,7 +49,7 @@ Json failure_json(const OutputJudgement& o, const Failure& f) {
   return out;
 }
 
-/// The library writes null for a distance without end.
+/// The library writes null for an infinite distance.
 Json quantity_json(const QuantityJudgement& q) {
   return {{"name", q.name},           {"unit", q.unit},
           {"extent", q.extent},       {"elements", q.elements},
@@ -60,7 +60,7 @@ Json quantity_json(const QuantityJudgement& q) {
           {"p99_width", q.p99_width}, {"farthest", q.farthest}};
 }
 
-/// Pairs of a verdict (0 equal, 1 inside, 2 warned of, 3 outside, 4 not judged) and how many texels in a row have it, row 0 first.
+/// Run lengths of verdicts (0 equal, 1 inside, 2 warned of, 3 outside, 4 not judged) with the number of texels, row 0 first.
 Json map_json(const std::vector<std::uint8_t>& map) {
   Json runs = Json::array();
   for (std::size_t begin = 0; begin < map.size();) {
@@ -132,7 +132,7 @@ Json case_json(const CaseJudgement& c) {
   return out;
 }
 
-/// As texts: alternatives are no keys.
+/// As texts, because alternatives are not keys.
 Json reasons_of(const PassCoverage& coverage) {
   Json out = Json::array();
   for (const auto& [alternative, reason] : coverage.reasons) out.push_back(fmt::format("{} ({})", alternative, reason));
@@ -157,7 +157,7 @@ Json figures_json(const Figures& f) {
           {"p99_text", width_text(f.p99_width)}};
 }
 
-/// What fails worst in the case that is looked at first, or null.
+/// The worst failure in the case that is shown first, or null.
 Json worst_json(const PassJudgement& p) {
   const std::vector<Shown> shown = shown_of(p);
   if (shown.empty() || shown[0].c->failing == 0) return Json();
@@ -169,7 +169,7 @@ Json worst_json(const PassJudgement& p) {
           {"off", q->farthest <= std::numeric_limits<double>::max() ? Json(quantity_text(q->farthest, q->unit)) : Json()}};
 }
 
-/// Each quantity over all cases of a pass. Its widths have no unit: that stands beside them.
+/// Each quantity over all cases of a pass. Its widths have no unit, which is a separate entry.
 Json quantities_json(const PassJudgement& p) {
   const auto text = [](Width w) {
     w.unit.clear();

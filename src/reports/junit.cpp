@@ -21,11 +21,11 @@ using judge::Status;
 
 constexpr std::size_t shown_failures = 10;
 
-/// A testcase and what it contains.
+/// A testcase and its content.
 struct Test {
   enum Outcome : std::uint8_t { passed, failed, skipped, error } outcome = passed;
   std::string name, message, text;
-  const char* type = "outside";  ///< of a failure
+  const char* type = "outside";  ///< for a failure
 };
 struct Suite {
   std::string name;
@@ -57,7 +57,7 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
   return out;
 }
 
-/// What a reader of a list of failures should know without opening one: how much is wrong, and the first cause in words.
+/// The message in a list of failures: the extent of the failure, and the first cause in words.
 std::string failing_message(const PassJudgement& p, const OutputJudgement& o) {
   std::string out = fmt::format("{} of {} {} outside", o.failing, o.elements, element_word(o));
   if (!p.causes.empty()) {
@@ -71,7 +71,7 @@ std::string failing_message(const PassJudgement& p, const OutputJudgement& o) {
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-/// What is wrong with the files of a run.
+/// Problems with the files of a run.
 std::string files_text(const PortJudgement& j, const std::string& id) {
   std::string out;
   for (const judge::FileFault& f : j.files)
@@ -107,7 +107,7 @@ Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome unt
     if (c.broken) suite.tests.push_back({Test::failed, c.id, c.reason, c.reason, "broken"});
     for (const OutputJudgement& o : c.outputs) suite.tests.push_back(test_of(p, c, o, untested));
     const std::string files = files_text(j, c.id);
-    // Of a run that was judged they are of another run of the port.
+    // If the run was judged, they belong to another run of the port.
     if (!files.empty()) suite.tests.push_back({Test::error, c.id, first_line(files), files, "not judged"});
     if (!c.outputs.empty() || c.broken || !files.empty()) continue;
     const bool is_open = c.status == Status::untested || c.status == Status::not_judged;
@@ -115,7 +115,7 @@ Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome unt
     suite.tests.push_back({outcome, c.id, outcome == Test::passed ? "" : fmt::format("{}: {}", name(c.status), c.reason),
                            outcome == Test::passed ? c.reason : "", "not judged"});
   }
-  // A pass may fail for what is no run's: how its stores round, where a warning is to fail.
+  // A pass may fail for a reason that belongs to no run: how its stores round, if warnings are failures.
   if (p.status == Status::fail && suite.count(Test::failed) + suite.count(Test::error) == 0)
     suite.tests.push_back({Test::failed, p.pass, p.reason, p.reason, "broken"});
   const Figures f = figures_of(p);
@@ -187,7 +187,7 @@ std::string report_junit(const PortJudgement& j, bool allow_untested) {
       baseline.tests.push_back({Test::failed, s, "no longer fails: remove it from the baseline", s, "baseline"});
     suites.push_back(std::move(baseline));
   }
-  // What fails the run but lies in no pass: nothing was judged, or the port itself failed.
+  // Failures outside all passes: nothing was judged, or the port itself failed.
   const bool shown =
       std::any_of(suites.begin(), suites.end(), [](const Suite& s) { return s.count(Test::failed) + s.count(Test::error) > 0; });
   if (exit_code(j, allow_untested) != 0 && !shown)

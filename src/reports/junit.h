@@ -7,14 +7,14 @@
 
 namespace rainref::reports {
 
-/// A testsuite for each pass, a testcase for each case and output, in the dialect that Jenkins and GitLab read. A file has
-/// a failure or an error exactly when exit_code is not 0:
+/// A testsuite for each pass, a testcase for each case and output, in the dialect that Jenkins and GitLab read. A file has a failure or an
+/// error exactly when exit_code is not 0:
 ///   FAIL      failure, with the worst elements and the likely causes as its text
 ///   KNOWN     skipped, with the baseline's reason
-///   UNTESTED  failure, or skipped where it is forgiven
+///   UNTESTED  failure, or skipped if it is forgiven
 ///   WARN      passes, with the reason in system-out
-/// An entry of the baseline that no longer fails is a failure in a testsuite "baseline". A judgement without passes is an
-/// error with its reason. No times and no host: equal judgements give equal bytes.
+/// An entry of the baseline that no longer fails is a failure in a testsuite "baseline". A judgement without passes is an error with its
+/// reason. No times and no host: equal judgements give equal bytes.
 std::string report_junit(const judge::PortJudgement& judgement, bool allow_untested);
 
 }  // namespace rainref::reports

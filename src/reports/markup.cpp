@@ -7,7 +7,7 @@
 namespace rainref::reports {
 namespace {
 
-/// Bytes of the character that starts the text, or 0 where there is none that XML may hold.
+/// Length [byte] of the character at the start of the text, or 0 if XML does not allow it.
 std::size_t character_length(std::string_view text) {
   const std::size_t length = utf8_length(text);
   if (length == 1) return text[0] >= 0x20 || text[0] == '\t' || text[0] == '\n' || text[0] == '\r' ? 1 : 0;

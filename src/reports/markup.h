@@ -6,9 +6,9 @@
 
 namespace rainref::reports {
 
-/// Text as content or as the value of an attribute in double quotes, for XML 1.0 and for HTML. What neither can hold
-/// (control characters, bytes that are no UTF-8, the two non-characters) becomes U+FFFD. Tabs and line ends stay, as
-/// references, because a parser would turn those of an attribute into spaces.
+/// Escapes text for content or for an attribute in double quotes, in XML 1.0 and HTML. Characters that neither allows (control characters,
+/// bytes that are not UTF-8, the two non-characters) become U+FFFD. Tabs and newlines become references, because a parser would turn those
+/// in an attribute into spaces.
 std::string marked_up(std::string_view text);
 
 }  // namespace rainref::reports

@@ -36,7 +36,7 @@ Rgb between(Rgb a, Rgb b, double t) {
   const auto mix = [&](std::uint8_t from, std::uint8_t to) { return static_cast<std::uint8_t>(from + (to - from) * t + 0.5); };
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
-/// Dark where nothing differs, so that a single texel stands out.
+/// Dark without a difference, so that a single texel is visible.
 Rgb difference_rgb(std::int64_t codes, std::uint64_t largest) {
   if (codes == 0 || largest == 0) return {0x14, 0x18, 0x1d};
   const auto size = static_cast<std::uint64_t>(codes < 0 ? -codes : codes);
@@ -64,7 +64,7 @@ class Texels {
   const FormatInfo& format_;
 };
 
-/// The channels that a view shows, and how a value of them becomes a level of grey or of a colour.
+/// The channels that a view shows, and the mapping of their values to grey levels or colours.
 struct Display {
   std::string label, scale;
   std::vector<int> channels;  ///< one, or three for colour
@@ -73,7 +73,7 @@ struct Display {
 
 std::uint8_t eight_bits(double x) { return !(x > 0) ? 0 : x >= 1 ? 255 : static_cast<std::uint8_t>(255 * x + 0.5); }
 
-/// What lies below this share of a channel's finite values, 0 where none is finite.
+/// Quantiles of a channel's finite values; 0 if none is finite.
 std::vector<double> quantiles(const Texels& t, const Array& a, int channel, std::initializer_list<double> shares) {
   std::vector<double> values;
   for (int y = 0; y < a.height; ++y) {
@@ -131,7 +131,7 @@ std::vector<Display> displays_of(const capture::CaseOutput& output, const Array&
     return out;
   }
   out.push_back(colour_display(expected));
-  // Alpha is mostly 1 everywhere: it is shown where there is something to see.
+  // Alpha is mostly 1 everywhere, so it is shown only if it is not.
   const Texels a(expected), b(port);
   for (int y = 0; channels == 4 && y < expected.height; ++y) {
     for (int x = 0; x < expected.width; ++x) {
@@ -143,7 +143,7 @@ std::vector<Display> displays_of(const capture::CaseOutput& output, const Array&
   return out;
 }
 
-/// Of the shown channels the difference that is largest; nothing where one is not a number.
+/// The largest difference among the shown channels; nothing if one is NaN.
 std::optional<std::int64_t> difference(const Texels& expected, const Texels& port, const std::vector<int>& channels, int x, int y) {
   std::int64_t most = 0;
   for (const int c : channels) {

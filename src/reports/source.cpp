@@ -48,7 +48,7 @@ PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::fil
 PageSource page_source(std::shared_ptr<const ShadowPlan> plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped,
                        const ValidateOptions& options) {
   PageSource source = source_of(*plan);
-  // The outputs of a run are asked for one after the other: it is recomputed once.
+  // The outputs of a run are requested one after the other, so it is recomputed only once.
   auto last = std::make_shared<std::pair<std::string, PortRun>>();
   source.read = [=](const std::string& id, const std::string& output) -> std::optional<OutputBuffers> {
     if (last->first != id) *last = {id, shadow_run(*plan, folder, dumped, options, id)};

@@ -1,4 +1,4 @@
-// What the page shows beside a judgement: the graph, sentences, and the values of outputs.
+// Data of the page besides the judgement: the graph, sentences, and the values of outputs.
 #pragma once
 
 #include <filesystem>
@@ -23,13 +23,13 @@ struct OutputBuffers {
 struct PageSource {
   std::vector<capture::PackEdge> edges;
   std::map<std::string, std::string> sentences;  ///< of passes, by name
-  /// Reads an output of a case again; nothing where it cannot be had. Null: no pictures.
+  /// Reads an output of a case again; nothing if it is unavailable. Null: no pictures.
   std::function<std::optional<OutputBuffers>(const std::string& id, const std::string& output)> read;
 };
-/// Of a port's outputs for a pack. `buffers`: what the judge read of them; null: nothing is kept.
+/// For a port's outputs for a pack. `buffers`: the ones that the judge has read; null: nothing is kept.
 PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::filesystem::path& port,
                        std::shared_ptr<judge::ReadBuffers> buffers = nullptr);
-/// Of the dumps of a port's own run, recomputed from its inputs. The executor of the options must outlive it.
+/// For the dumps of a port's own run, recomputed from its inputs. The executor of the options must outlive it.
 PageSource page_source(std::shared_ptr<const judge::ShadowPlan> plan, const std::filesystem::path& folder,
                        const std::vector<judge::DumpedRun>& dumped, const judge::ValidateOptions& options);
 

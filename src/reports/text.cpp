@@ -25,7 +25,7 @@ constexpr std::size_t shown_outputs = 4;  // of a pass that fails
 constexpr std::size_t worst_shown = 3;    // of an output
 constexpr std::size_t columns = 120;
 
-/// The text in lines of at most `columns`, broken at blanks, all but the first with this indent; a longer word stays whole.
+/// The text in lines of at most `columns`, broken at spaces, with this indent on all but the first; a longer word is not broken.
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::string out;
   std::size_t column = 0;
@@ -57,7 +57,7 @@ std::vector<std::string> row_of(const PassJudgement& p) {
           share_text(f.loose, f.sampled())};
 }
 
-/// How a list's fields are bounded: those with a width, then how many have one value.
+/// Bounds of a list's fields: those with a width, then the number of those with a single value.
 std::string fields_text(const QuantitiesOfOutput& o) {
   std::string wide;
   std::size_t exact = 0;
@@ -67,7 +67,7 @@ std::string fields_text(const QuantitiesOfOutput& o) {
       continue;
     }
     Width median = median_width(q);
-    median.unit.clear();  // it follows the other number
+    median.unit.clear();  // without the unit, which follows the other number
     wide += fmt::format("{}{} {}, 99 % {}", wide.empty() ? "" : "; ", q.name, in_unit(median), in_unit(p99_width(q)));
     if (q.vacuous > 0) wide += fmt::format(", {} vacuous", q.vacuous);
     if (q.loose > q.vacuous) wide += fmt::format(", {} loose", q.loose - q.vacuous);
@@ -77,12 +77,12 @@ std::string fields_text(const QuantitiesOfOutput& o) {
   return fmt::format("{}, median width by field: {}{}", o.output, wide, others);
 }
 
-/// What the columns do not say of a pass; of one that passes only where everything is asked for.
+/// Remarks on a pass beyond the columns; for a passing pass only if everything is shown.
 std::vector<std::string> remarks_on(const PassJudgement& p, bool is_verbose) {
   const Figures f = figures_of(p);
   std::vector<std::string> out;
   if (p.status == Status::pass && !is_verbose) return out;
-  // A reason that a case has of its own stands below, with the case.
+  // A reason of a single case is shown below, with the case.
   if (!p.reason.empty() && !is_broken(p)) out.push_back(p.reason);
   std::string open;
   std::size_t count = 0;

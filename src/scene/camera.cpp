@@ -9,11 +9,11 @@
 namespace rainref::scene {
 namespace {
 
-// Below this sine of the angle between `up` and the view, the basis would be made of rounding errors.
+// For a smaller sine of the angle between `up` and the view, the basis would consist of rounding errors.
 constexpr double smallest_sine = 1e-9;
 
-// tan of an angle in [0, 45] degrees within 1e-15 relative: Taylor series of sine and cosine in double, whose first
-// terms left out are below 2e-18 at pi/4. No library function, because those differ between machines.
+// tan of an angle in [0, 45] degrees within 1e-15 relative: Taylor series of sine and cosine in double, whose first omitted terms are below
+// 2e-18 at pi/4. Library functions differ between machines.
 double tan_of_degrees_to_45(double degrees) {
   constexpr double radians_per_degree = 0.017453292519943295;
   const double x = degrees * radians_per_degree;
@@ -32,7 +32,7 @@ bool is_finite(const Vector3& a) { return std::isfinite(a[0]) && std::isfinite(a
 Vector3 normalized(const Vector3& a) { return a / std::sqrt(glm::dot(a, a)); }
 
 Camera::Basis Camera::basis() const {
-  // normalized() yields NaN for a zero vector and for one that is not finite, or whose square is not.
+  // normalized() gives NaN for a zero vector, and if the vector or its square is not finite.
   const Vector3 forward = normalized(target - position);
   if (!is_finite(forward) || dot(forward, forward) < 0.5) {
     throw Error(ExitCode::usage, "camera: position and target coincide or are not finite, so there is no view");

@@ -1,4 +1,4 @@
-// A pinhole camera, and the basis that a pass takes as uniforms.
+// A pinhole camera, and its basis, which a pass takes as uniforms.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -6,7 +6,7 @@
 
 namespace rainref::scene {
 
-/// Packed, and GLM_FORCE_PURE is set for every file: sums run from x to z, nothing is fused or estimated.
+/// Packed, and GLM_FORCE_PURE is set for every file: sums run from x to z, and nothing is fused or estimated.
 using Vector3 = glm::dvec3;
 
 /// Pinhole camera in the effect's world (right-handed, y up, metres unless the effect says otherwise).
@@ -19,13 +19,12 @@ struct Camera {
   struct Basis {
     Vector3 right, up, forward;  ///< orthonormal; right = forward x up
   };
-  /// The basis, computed in double. Throws Error(usage) when position and target coincide or `up` is parallel to the
-  /// view.
+  /// The basis, computed in double. Throws Error(usage) if position and target coincide or `up` is parallel to the view.
   Basis basis() const;
   /// Half the height of the image plane at distance 1: tan(fov / 2), within 1e-15 relative. Throws Error(usage) unless
   /// the field of view is above 0 and below 180 degrees.
   double half_height() const;
-  /// For a cache::Recipe.
+  /// Adds the camera to a cache::Recipe.
   template <class Recipe>
   void add_to(Recipe& recipe) const {
     for (const Vector3* v : {&position, &target, &up}) recipe.add_read(*v);

@@ -1,4 +1,4 @@
-// One value from a scene against one parameter.
+// Checks one value of a scene against one parameter.
 #pragma once
 
 #include <string>
@@ -9,12 +9,11 @@
 
 namespace rainref::scene {
 
-/// Throws Error(usage): "<place>: <key>: <message>", the place being a file position, a plan's too, or `--set`.
+/// Throws Error(usage): "<place>: <key>: <message>". The place is a position in a scene or plan file, or `--set`.
 [[noreturn]] void refuse(const Origin& origin, const std::string& key, const std::string& message);
 
-/// The value as the parameter's type: an integer is taken where a real is expected, never the reverse, and -0.0 becomes
-/// 0.0, since a quotient by it would be -infinity. Throws Error(usage), placed at the value or at the component that is
-/// wrong, with what was expected and what was found.
+/// Converts the value to the parameter's type. An integer is accepted for a real, but not the reverse. -0.0 becomes 0.0, because a division
+/// by it would give -infinity. Throws Error(usage) at the place of the value or of the wrong component, with expected and found.
 Value checked(const RawValue& raw, const Parameter& parameter, Origin origin);
 
 }  // namespace rainref::scene

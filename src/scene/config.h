@@ -1,4 +1,4 @@
-// The effective configuration of a scene: each parameter that its variant uses, with its value and where it came from.
+// The effective configuration of a scene: each parameter that its variant uses, with its value and the origin of the value.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@
 
 namespace rainref::scene {
 
-/// Where a value came from.
+/// Origin of a value.
 struct Origin {
   enum Kind : std::uint8_t { by_default, file, override_option } kind = by_default;
-  SourceLocation at;  ///< of Kind file; of an override that a plan says
+  SourceLocation at;  ///< for Kind file, and for an override from a plan
   /// "scenes/puddle/x.toml:12:3", "--set" or "default".
   std::string text() const;
 };
@@ -30,38 +30,38 @@ class Config {
   };
 
   Config() = default;
-  /// Entries in the order of declaration. Throws Error(internal) when a value is not one that its parameter accepts, or
-  /// when there is no effect or no variant.
+  /// Entries in the order of declaration. Throws Error(internal) if a parameter does not accept its value, or if there is no effect or no
+  /// variant.
   Config(std::vector<Entry> entries, std::filesystem::path directory);
 
   const std::string& effect() const { return text("effect"); }
   const std::string& variant() const { return text("variant"); }
 
-  // Typed access. A key that this variant does not use, or another type, is a defect: Error(internal).
+  // Typed access. Throws Error(internal) for a key that this variant does not use, or for another type.
   bool boolean(std::string_view key) const;
   std::int64_t integer(std::string_view key) const;
   const Integer2& integer2(std::string_view key) const;
   double real(std::string_view key) const;
   const Real2& real2(std::string_view key) const;
   const Real3& real3(std::string_view key) const;
-  /// Of Type::choice and Type::text.
+  /// For Type::choice and Type::text.
   const std::string& text(std::string_view key) const;
 
-  /// Whether the scene or the command line gave it; false for a default. Error(internal) for an unknown key.
+  /// True if the scene or the command line gave the key; false for a default. Throws Error(internal) for an unknown key.
   bool given(std::string_view key) const { return entry(key).origin.kind != Origin::by_default; }
   const Entry& entry(std::string_view key) const;
   /// In the order of declaration: effect, variant, seed, run.*, then the effect's own.
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// Another value of a key, for plans of many runs. Throws Error(internal) for a key that is not here and a value that its parameter does
-  /// not accept.
+  /// Changes the value of a key, for plans of many runs. Throws Error(internal) for an unknown key or a value that its parameter does not
+  /// accept.
   void set(std::string_view key, Value value, Origin origin);
 
-  /// The folder of the scene file, which relative file names in it refer to; "" for the current folder.
+  /// The folder of the scene file, to which its relative file names refer; "" for the current folder.
   const std::filesystem::path& directory() const { return directory_; }
 
-  /// One "key = value" line each, in the order of declaration; the same for equal configurations whatever their
-  /// origins, and itself a scene that loads as this configuration.
+  /// One "key = value" line each, in the order of declaration. It is the same for equal configurations whatever the origins, and is itself
+  /// a scene that loads as this configuration.
   std::string canonical_text() const;
 
  private:
@@ -71,7 +71,7 @@ class Config {
   std::size_t place_of(std::string_view key) const;
 
   std::vector<Entry> entries_;
-  std::vector<std::uint32_t> by_key_;  ///< places of the entries, sorted by their keys
+  std::vector<std::uint32_t> by_key_;  ///< indices of the entries, sorted by their keys
   std::filesystem::path directory_;
 };
 

@@ -23,7 +23,7 @@ std::size_t width(std::string_view text) {
 
 std::string padded(const std::string& text, std::size_t to) { return text + std::string(to - std::min(to, width(text)), ' '); }
 
-// Indented lines of whole words; a word longer than a line stays whole.
+// Indented lines of whole words; a word longer than a line is not broken.
 std::string wrapped(std::string_view text) {
   std::string out, line;
   while (!text.empty()) {
@@ -65,7 +65,7 @@ std::string describe_text(std::span<const Parameter> parameters) {
   for (const Parameter& p : parameters) {
     keys = std::max(keys, width(p.key));
     types = std::max(types, width(name(p.type)));
-    // A long default (a file name) pushes its own range to the right, not everyone's.
+    // A long default (a file name) moves only its own range to the right.
     if (width(default_text(p)) <= 20) defaults = std::max(defaults, width(default_text(p)));
   }
   std::string out;

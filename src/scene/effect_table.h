@@ -1,4 +1,4 @@
-// What the caller tells the scene room about the effects, which live on a higher floor.
+// The effects as the scene room needs them; they live on a higher floor.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace rainref::scene {
 
-/// An effect as a scene sees it. The parameters must outlive the table.
+/// An effect as a scene uses it. The parameters must outlive the table.
 struct Effect {
   std::string name;
   std::vector<std::string> variants;
@@ -21,16 +21,16 @@ struct EffectTable {
   std::vector<Effect> effects;
 
   std::vector<std::string> names() const;
-  /// Throws Error(usage) naming the nearest effect when there is none of this name.
+  /// Throws Error(usage) with the nearest effect if this name is unknown.
   const Effect& find(std::string_view name) const;
 };
 
-/// `effect`: which effect a scene is about; required.
+/// The parameter `effect`: the effect of a scene; required.
 Parameter effect_parameter(const EffectTable& table);
-/// `variant`: which reading of the effect; required.
+/// The parameter `variant`: the variant of the effect; required.
 Parameter variant_parameter(const Effect& effect);
-/// Everything that a scene of this effect may set, in order: effect, variant, seed, run.frames, run.fps, run.size, then
-/// the effect's own parameters. Throws Error(internal) when the effect's table contradicts itself.
+/// All parameters of a scene of this effect, in order: effect, variant, seed, run.frames, run.fps, run.size, then the effect's own
+/// parameters. Throws Error(internal) if the effect's table contradicts itself.
 std::vector<Parameter> scene_parameters(const Effect& effect, const EffectTable& table);
 
 }  // namespace rainref::scene

@@ -22,11 +22,11 @@
 
 namespace rainref::scene {
 
-/// A parameter of settings S, with its member unless it has none. Where the variants differ, S{} holds corrected's default.
+/// A parameter of settings S, with its member if it has one. If the variants differ, S{} holds the default of corrected.
 template <class S>
 struct MemberParameter {
   Parameter parameter;
-  std::function<void(S&, const Value&)> set;  ///< null: of no member
+  std::function<void(S&, const Value&)> set;  ///< null: no member
   std::function<Value(const S&)> get;
 
   MemberParameter(Parameter p) : parameter(std::move(p)) {}
@@ -41,7 +41,7 @@ struct MemberParameter {
     m.parameter = parameter.only(std::move(variant));
     return m;
   }
-  /// The same with another default as published.
+  /// The same with another default for as-published.
   MemberParameter published(Value value) const {
     MemberParameter m = *this;
     m.parameter = parameter.default_for(correct, parameter.default_value);
@@ -50,7 +50,7 @@ struct MemberParameter {
   }
 };
 
-/// Names that a scene may choose among, and what the member is then.
+/// Names that a scene may choose from, with the values of the member.
 template <class T>
 using Choices = std::vector<std::pair<std::string, T>>;
 
@@ -76,7 +76,7 @@ struct Path<Last> {
   static auto& in(auto& object) { return object.*Last; }
 };
 
-// Between a member's type and the one a scene's value has.
+// Converts between a member's type and the type of a scene's value.
 template <class T>
 struct Stored {
   using Type = T;
@@ -115,7 +115,7 @@ MemberParameter<typename P::Struct> number(Parameter parameter) {
 
 }  // namespace member_detail
 
-/// Of a number, a pair or a triple of numbers. The range is inclusive, of each component.
+/// For a number, a pair or a triple of numbers. The range is inclusive, for each component.
 template <auto... Path>
 auto real(std::string key, std::string unit, double minimum, double maximum, std::string sentence) {
   using P = member_detail::Path<Path...>;
@@ -123,7 +123,7 @@ auto real(std::string key, std::string unit, double minimum, double maximum, std
   constexpr Type type = std::is_same_v<M, Real2> ? Type::real2 : std::is_same_v<M, Real3> ? Type::real3 : Type::real;
   return member_detail::number<P>({std::move(key), type, std::move(unit), minimum, maximum, {}, std::move(sentence), {}, {}, {}});
 }
-/// Of a whole number or a pair of them.
+/// For an integer or a pair of integers.
 template <auto... Path>
 auto integer(std::string key, std::string unit, double minimum, double maximum, std::string sentence) {
   using P = member_detail::Path<Path...>;
@@ -152,13 +152,13 @@ auto choice(std::string key, Choices<typename member_detail::Path<Path...>::Memb
         return Value(std::string());
       });
 }
-/// How an effect rounds every store.
+/// Rounding of every store of an effect.
 template <auto... Path>
 auto rounding(std::string key) {
   return choice<Path...>(std::move(key), {{"rne", Rounding::rne}, {"rtz", Rounding::rtz}},
                          "Rounding of every store: to nearest even, or toward zero as many GPUs do.");
 }
-/// How a buffer is stored: formats by name.
+/// Storage format of a buffer, by name.
 template <auto... Path>
 auto storage(std::string key, std::initializer_list<Format> formats, std::string sentence) {
   Choices<Format> choices;
@@ -166,7 +166,7 @@ auto storage(std::string key, std::initializer_list<Format> formats, std::string
   return choice<Path...>(std::move(key), std::move(choices), std::move(sentence));
 }
 
-/// The table's, and behind them more of no member.
+/// The parameters of the table, followed by more parameters without a member.
 template <class S>
 std::vector<Parameter> parameters_of(const std::vector<MemberParameter<S>>& table,
                                      std::initializer_list<std::vector<Parameter>> more = {}) {
@@ -175,14 +175,14 @@ std::vector<Parameter> parameters_of(const std::vector<MemberParameter<S>>& tabl
   for (const std::vector<Parameter>& others : more) out.insert(out.end(), others.begin(), others.end());
   return out;
 }
-/// Sets the members that the scene's variant uses; the others stay as they are.
+/// Sets the members that the scene's variant uses; the others are unchanged.
 template <class S>
 void apply(const std::vector<MemberParameter<S>>& table, const Config& config, S& s) {
   for (const MemberParameter<S>& m : table)
     if (m.set && m.parameter.used_by(config.variant())) m.set(s, config.entry(m.parameter.key).value);
 }
-/// What a scene says, in a struct that has the members variant, seed, fps, width and height besides those of the table. Members that
-/// the scene's variant does not use keep their defaults.
+/// The settings of a scene, in a struct with the members variant, seed, fps, width and height besides those of the table. Members that the
+/// scene's variant does not use keep their defaults.
 template <class S>
 S settings_from(const std::vector<MemberParameter<S>>& table, const Config& config) {
   S s;
@@ -194,7 +194,7 @@ S settings_from(const std::vector<MemberParameter<S>>& table, const Config& conf
   apply(table, config, s);
   return s;
 }
-/// What settings_from gives for a scene that names effect and variant and nothing else.
+/// The result of settings_from for a scene that only names effect and variant.
 template <class S>
 S default_settings(const std::vector<MemberParameter<S>>& table, Variant variant) {
   S s;

@@ -20,7 +20,7 @@ Parameter make(std::string key, Type type, std::string unit, double minimum, dou
   return {std::move(key), type, std::move(unit), minimum, maximum, std::move(value), std::move(sentence), {}, {}, {}};
 }
 
-// Compared as integers: a double cannot hold every 64-bit integer, so converting the value would round it into range.
+// Compared as integers: a double cannot represent every 64-bit integer, so a conversion could round the value into range.
 bool in_range(const Parameter& p, std::int64_t v) {
   const bool low = p.minimum < -two_to_63 || (p.minimum < two_to_63 && v >= static_cast<std::int64_t>(std::ceil(p.minimum)));
   const bool high = p.maximum >= two_to_63 || (p.maximum >= -two_to_63 && v <= static_cast<std::int64_t>(std::floor(p.maximum)));
@@ -72,7 +72,7 @@ std::string bound_text(const Parameter& p, double bound) {
   throw Error(ExitCode::internal, fmt::format("parameter '{}': {}", p.key, why));
 }
 
-// Lower-case words joined by dots: what a TOML key needs no quotes for, and what every GPU language takes as a name.
+// Lower-case words joined by dots: no quotes needed in TOML, and valid names in every GPU language.
 bool well_formed_key(std::string_view key) {
   bool begins_word = true;
   for (const char c : key) {
@@ -116,7 +116,7 @@ Parameter Parameter::only(std::string variant) const {
 
 Parameter Parameter::default_for(std::string variant, Value value) const {
   Parameter p = *this;
-  // So that a table may say 1 where it means 1.0, as a scene may.
+  // So that a table may write 1 for 1.0, as a scene may.
   if (const auto* whole = std::get_if<std::int64_t>(&value); whole && type == Type::real) value = double(*whole);
   p.variant_defaults.emplace_back(std::move(variant), std::move(value));
   return p;

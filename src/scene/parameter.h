@@ -1,4 +1,4 @@
-// Parameter descriptors: what a scene may say is declared once, and read by the parser, the help and the hash.
+// Parameter descriptors. Each scene key is declared once, for the parser, the help and the hash.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace rainref::scene {
 
 inline constexpr const char *published = name(Variant::as_published), *correct = name(Variant::corrected);
 
-/// `choice` is a text out of a list; the vectors are arrays in a scene file.
+/// `choice` is a text from a list; the vectors are arrays in a scene file.
 enum class Type : std::uint8_t { boolean, integer, integer2, real, real2, real3, choice, text };
 
 using Integer2 = std::array<std::int64_t, 2>;
@@ -29,21 +29,21 @@ using Value = std::variant<bool, std::int64_t, Integer2, double, Real2, Real3, s
 struct Parameter {
   std::string key;  ///< dotted: "puddle.drop_count"
   Type type;
-  std::string unit;  ///< "m/s", "1" for a pure number, "" where a unit has no meaning
+  std::string unit;  ///< "m/s", "1" for a pure number, "" if a unit has no meaning
   double minimum;    ///< inclusive, of each component; -infinity for none
   double maximum;    ///< inclusive, of each component; +infinity for none
   Value default_value;
   std::string sentence;
-  std::vector<std::string> choices;   ///< of Type::choice; of an integer: what it may be where that is not all of its range
-  std::vector<std::string> variants;  ///< the variants that use it; empty = every one
+  std::vector<std::string> choices;   ///< for Type::choice; for an integer: the allowed values if they are not the whole range
+  std::vector<std::string> variants;  ///< variants that use it; empty = all
   std::vector<std::pair<std::string, Value>> variant_defaults;
-  bool is_required = false;  ///< a scene must give it; default_value has no meaning then
+  bool is_required = false;  ///< a scene must give it, and default_value is unused
 
-  /// The same parameter, used by this variant only; may be chained to name several.
+  /// The same parameter, used by this variant only; may be chained for several variants.
   Parameter only(std::string variant) const;
   /// The same parameter with another default in this variant.
   Parameter default_for(std::string variant, Value value) const;
-  /// The same parameter, which a scene must give.
+  /// The same parameter, but required.
   Parameter required() const;
 
   bool used_by(std::string_view variant) const;
@@ -61,17 +61,17 @@ Parameter text(std::string key, std::string default_value, std::string sentence)
 
 /// "boolean", "integer2", …
 const char* name(Type type);
-/// Numbers in a value of this type; 0 where there are none.
+/// Number of components of a value of this type; 0 if it is not numeric.
 int components(Type type);
-/// Whether the value has the parameter's type, is finite, in range and among the choices.
+/// True if the value has the parameter's type, is finite, in range and among the choices.
 bool accepts(const Parameter& parameter, const Value& value);
-/// What a scene may say, for messages: "a number from 0.95 to 0.999 [1]", "one of 'add', 'max'".
+/// The allowed values, for messages: "a number from 0.95 to 0.999 [1]", "one of 'add', 'max'".
 std::string expectation(const Parameter& parameter);
-/// The range alone: "0.95 to 0.999", "at least 0", "" where there is none.
+/// The range alone: "0.95 to 0.999", "at least 0", "" if there is none.
 std::string range_text(const Parameter& parameter);
 
-/// Throws Error(internal) when a table contradicts itself: a malformed or repeated key, a key that is also a table of
-/// other keys, a default that is refused by its own parameter, a variant that is not among `variants`, no sentence.
+/// Throws Error(internal) if a table contradicts itself: a malformed or repeated key, a key that is also a table of other keys, a default
+/// that its parameter does not accept, a variant that is not among `variants`, a missing sentence.
 void validate(std::span<const Parameter> parameters, std::span<const std::string> variants);
 
 }  // namespace rainref::scene

@@ -1,4 +1,4 @@
-// A place that pictures can be made of: what stands for the surroundings of a scene that names no pictures.
+// A place that pictures can be rendered of, for scenes that name no pictures.
 #pragma once
 
 #include <array>
@@ -20,42 +20,42 @@ struct Lamp {
   double radius;                  ///< metres
 };
 
-/// A place to look at. Right-handed, y up, metres: a road (y = 0) along z around x = 0. Radiance is linear, relative: 1 displays as white
-/// at exposure 0. Immutable; the members may be called from several threads at once, and give the same bits whatever the threads.
+/// A place to render. Right-handed, y up, metres: a road (y = 0) along z around x = 0. Radiance is linear and relative: 1 displays as white
+/// at exposure 0. Immutable; the members are thread-safe and give the same bits for any number of threads.
 class Scenery {
  public:
-  /// What one ray sees.
+  /// Result of one ray.
   struct Sight {
     Vector3 radiance;  ///< linear
-    double distance;   ///< metres to the surface that it met; infinite for the sky
+    double distance;   ///< metres to the hit surface; infinite for the sky
   };
   struct View {
     Image colour;  ///< rgba32f, linear radiance, alpha 1
-    Image depth;   ///< r32f, metres along the view axis at the texel centre; `far` for sky and whatever lies beyond
+    Image depth;   ///< r32f, metres along the view axis at the texel centre; `far` for the sky and for everything beyond it
   };
-  /// Rays of a texel where its neighbours differ.
+  /// Rays of a texel that differs from its neighbours.
   enum class Parts : std::uint8_t { nine, three };
 
   virtual ~Scenery() = default;
-  /// Tells it from every other one, for what is kept of it.
+  /// A unique name for cached results.
   virtual std::string identity() const = 0;
   /// Every emissive sphere, in a fixed order.
   virtual const std::vector<Lamp>& lamps() const = 0;
-  /// What is seen from `origin` along `direction`, which is unit: one ray, not a texel. Under a FloatingPointGuard.
+  /// Traces one ray from `origin` along the unit vector `direction`. Needs a FloatingPointGuard.
   virtual Sight look(const Vector3& origin, const Vector3& direction) const = 0;
   /// Latitude/longitude panorama seen from `eye`, rgba32f linear radiance, alpha 1. Row 0 = v 0 = straight down (-y) ... last row =
   /// straight up (+y); u = 0.5 + atan2(z, x) / (2 pi).
   virtual Image panorama(int width, int height, const Vector3& eye, const parallel::Executor& executor) const = 0;
-  /// What a camera sees; row 0 = bottom (v = 0). Throws Error(usage) when `far` is not positive and finite.
+  /// The view of a camera; row 0 = bottom (v = 0). Throws Error(usage) if `far` is not positive and finite.
   virtual View view(const Camera& camera, int width, int height, double far, const parallel::Executor& executor,
                     Parts parts = Parts::nine) const = 0;
 };
 
 struct SceneryOptions {
   std::uint64_t seed = 1;
-  bool clear_lane = false;  ///< no car stands in the lane x > 0, for one that drives along it
+  bool clear_lane = false;  ///< no car stands in the lane x > 0, where the camera's car drives
 };
-/// Makes one, or finds it among those that the process remembers.
+/// Makes a scenery, or returns a cached one.
 using MakeScenery = std::shared_ptr<const Scenery> (*)(const SceneryOptions& options);
 
 }  // namespace rainref::scene

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double wall = 7.5, roof = 9, tile_side = 1.5, horizon = 2000;  // m
 
-/// A tile's radiance: a whole number times a power of two, so that nothing is rounded.
+/// A tile's radiance: an integer times a power of two, so that nothing is rounded.
 Vector3 radiance_of(double along, double across, int surface) {
   const auto i = static_cast<std::int64_t>(std::floor(along / tile_side + 0.25)) & 0xff,
              j = static_cast<std::int64_t>(std::floor(across / tile_side + 0.25)) & 0xff;

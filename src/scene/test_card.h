@@ -1,16 +1,15 @@
-// A place of a few lines of exact arithmetic. It stands for the street wherever bits are recorded that no change of the street shall
-// change.
+// A place made by a few lines of exact arithmetic. It replaces the street for recorded bits that must not change with the street.
 #pragma once
 
 #include "scene/scenery.h"
 
 namespace rainref::scene {
 
-/// A road and two walls of coloured tiles, some of which shine, under a sky that grows darker upward. One ray for each texel, through its
+/// A road and two walls of coloured tiles, some of them bright, under a sky that grows darker upward. One ray per texel, through its
 /// centre.
 class TestCard final : public Scenery {
  public:
-  /// The same for all options.
+  /// Ignores the options.
   static std::shared_ptr<const Scenery> make(const SceneryOptions& options = {});
 
   std::string identity() const override { return "test card"; }

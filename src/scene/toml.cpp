@@ -17,9 +17,10 @@
 namespace rainref::scene {
 namespace {
 
-// More than any scene holds; what lies beyond it is not read, so that a device or a film given by mistake ends at once.
+// More than any scene has. The rest is not read, so that a device or a film given by mistake ends at once.
 constexpr std::size_t read_limit = (std::size_t{1} << 20) + 1;
-// Longer names are not compared with the valid ones: the edit distance takes their length times each valid length.
+// Longer names are not compared with the valid ones, because the edit distance takes time proportional to its length times each valid
+// length.
 constexpr std::size_t longest_guess = 128;
 
 std::string shortened(const std::string& key) { return key.size() <= longest_guess ? key : key.substr(0, longest_guess) + "…"; }
@@ -52,8 +53,8 @@ Value checked(const Override& o, const Parameter& p) {
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-// A slip of the fingers first; else the right name in the wrong table. A shared table must not make two names near, so
-// only keys whose last part is near are thought of.
+// First a typo, then the right name in the wrong table. A shared table must not make two names near, so only keys with a near last part are
+// considered.
 std::string guess(const std::string& wrong, const std::vector<std::string>& valid) {
   if (wrong.size() > longest_guess) return "";
   std::vector<std::string> candidates;
@@ -123,7 +124,7 @@ class Assembly {
     refuse(origin, shortened(key), "unknown key" + foreign(key, valid_));
   }
 
-  /// Where a key (or, ending in a dot, a table) belongs that this effect has not: other effects that have it, else the nearest valid one.
+  /// For a key (or a table, ending in a dot) that this effect lacks: the other effects that have it, else the nearest valid one.
   std::string foreign(const std::string& key, const std::vector<std::string>& valid) const {
     const bool is_table = key.ends_with('.');
     std::vector<std::string> owners;
@@ -154,10 +155,10 @@ class Assembly {
   std::string variant_;
   std::vector<Config::Entry> entries_;
   std::vector<std::string> valid_;  // the keys that this variant uses
-  Unexercised unexercised_;         // checked, and of no further use to a run
+  Unexercised unexercised_;         // checked, and not used by a run
 };
 
-// The text of `effect` or `variant`, which decide what else is valid, so they are read before the rest.
+// The text of `effect` or `variant`; they are read before the rest, because they determine which keys are valid.
 std::string deciding(const Parameter& p, const std::vector<RawEntry>& entries, const std::vector<Override>& overrides,
                      const std::filesystem::path& file) {
   for (auto o = overrides.rbegin(); o != overrides.rend(); ++o) {
@@ -225,7 +226,7 @@ Config parse(const SceneText& scene, const EffectTable& effects) {
   const FloatingPointGuard guard;
   const std::vector<RawEntry> entries = read_toml(scene.toml, scene.file);
   std::vector<std::string> overrides;
-  if (!says(entries, "variant")) overrides.push_back("variant=corrected");  // before the caller's own, which win
+  if (!says(entries, "variant")) overrides.push_back("variant=corrected");  // before the caller's own, which override it
   overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());
   return parse(scene.toml, scene.file, overrides, effects);
 }
@@ -234,7 +235,7 @@ Config parse(const SceneText& scene, const Effect& effect, std::span<const char*
   const FloatingPointGuard guard;
   std::vector<std::string> overrides;
   const std::vector<RawEntry> entries = read_toml(scene.toml, scene.file);
-  // Before the caller's own, which win.
+  // Before the caller's own, which override it.
   if (!says(entries, "effect")) overrides.push_back("effect=" + effect.name);
   if (!says(entries, "variant")) overrides.push_back("variant=" + effect.variants.back());
   overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());

@@ -12,9 +12,8 @@ namespace rainref::scene {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
-// The library destroys nested tables recursively and does not bound how many a dotted key opens, so a hostile file of a
-// few hundred kilobytes could exhaust the stack. It does bound nested values (256). A line that holds keys has few
-// dots.
+// The library destroys nested tables recursively and does not limit how many a dotted key opens, so a hostile file of a few hundred
+// kilobytes could exhaust the stack. It limits nested values (256). Lines with keys have few dots.
 constexpr int most_dots_in_line = 32;
 constexpr int deepest_key = 8;
 constexpr std::size_t longest_found = 60;
@@ -42,7 +41,7 @@ int too_deep_line(std::string_view text) {
   return 0;
 }
 
-// A key part as TOML would have to write it.
+// A part of a key in TOML's form.
 std::string key_part(std::string_view part) {
   const bool bare = !part.empty() && std::all_of(part.begin(), part.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
@@ -145,7 +144,7 @@ std::optional<RawValue> read_toml_value(std::string_view text) {
 
 std::optional<RawValue> read_bare_text(std::string_view text) {
   try {
-    // The library is asked whether the bytes are UTF-8; as a string they cannot mean anything else to it.
+    // The library checks whether the bytes are UTF-8; quoted as a string they have no other meaning.
     static_cast<void>(toml::parse(fmt::format("value = {}", toml_string(text))));
     return RawValue{std::string(text), {}};
   } catch (const toml::parse_error&) {

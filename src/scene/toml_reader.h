@@ -1,4 +1,4 @@
-// TOML text as a flat list of keys and values with their places. Its source is the only file that names the library.
+// Reads TOML text into a flat list of keys and values with their places. Only its source file uses the TOML library.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace rainref::scene {
 
-/// What a scene file says, before anyone asks what it should say.
+/// An unchecked value of a scene file.
 struct RawValue {
   struct Table {};  ///< an empty table, or one inside an array
-  struct Date {};   ///< any of TOML's dates and times; no parameter takes one
+  struct Date {};   ///< any TOML date or time; no parameter accepts one
   std::variant<bool, std::int64_t, double, std::string, std::vector<RawValue>, Table, Date> data;
   SourceLocation at;
 
@@ -23,19 +23,19 @@ struct RawValue {
 };
 
 struct RawEntry {
-  std::string key;    ///< dotted; a part that needs quotes in TOML keeps them, so no two keys look the same
+  std::string key;    ///< place of the key's last part
   SourceLocation at;  ///< of the key's last part
   RawValue value;
 };
 
 /// All leaves and empty tables of a document, in the order of the file. `file` is for messages only.
-/// Throws Error(usage) with file, line and column where the text is not TOML, and when it is larger than 1 MiB or nests
-/// keys more deeply than any scene does.
+/// Throws Error(usage) with file, line and column if the text is not TOML, is larger than 1 MiB, or nests keys more deeply than any scene
+/// does.
 std::vector<RawEntry> read_toml(std::string_view text, const std::string& file);
 
-/// One TOML value, or nothing when the text is not exactly one.
+/// One TOML value, or nothing if the text is not exactly one.
 std::optional<RawValue> read_toml_value(std::string_view text);
-/// The text itself as a string, or nothing when it is not UTF-8.
+/// The text itself as a string, or nothing if it is not UTF-8.
 std::optional<RawValue> read_bare_text(std::string_view text);
 
 }  // namespace rainref::scene

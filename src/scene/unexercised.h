@@ -1,4 +1,4 @@
-// What a scene says of alternatives that its packs do not exercise: the table `unexercised`, which changes nothing that is computed.
+// The table `unexercised` of a scene: alternatives that its packs do not exercise. It does not affect any result.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace rainref::scene {
 
-/// For each pass the alternatives that no run takes, and why.
+/// For each pass: the alternatives that no run takes, with reasons.
 using Unexercised = std::map<std::string, std::map<std::string, std::string>>;
 
-/// Whether a key lies in that table.
+/// True if a key lies in that table.
 bool is_unexercised(std::string_view key);
-/// Takes `PASS = [["alternative", "reason"], ...]`. Throws Error(usage) for anything else, and for an alternative that is there twice.
+/// Reads `PASS = [["alternative", "reason"], ...]`. Throws Error(usage) for anything else, and for a repeated alternative.
 void take_unexercised(const RawEntry& raw, Unexercised& to);
-/// All of a text's; other tables are passed over. Throws as read_toml and take_unexercised.
+/// Reads the table of a text and skips other tables. Throws as read_toml and take_unexercised do.
 Unexercised unexercised(std::string_view toml, const std::string& file);
 
 }  // namespace rainref::scene

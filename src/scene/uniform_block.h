@@ -15,7 +15,7 @@ enum class Scalar : std::uint8_t { float32, int32, uint32 };
 /// "float", "int", "uint".
 const char* name(Scalar scalar);
 
-/// What each component of a member may be, both ends included.
+/// Range of each component of a member, both ends included.
 struct Range {
   double low, high;
   bool is_whole = false;  ///< a float that holds an integer
@@ -35,7 +35,7 @@ struct Member {
   std::string unit;
   std::string sentence;
   std::optional<Range> range = std::nullopt;  ///< none: any finite number
-  std::string guard = "";                     ///< why no scene gives a component a number other than 0 and 1; "": some does
+  std::string guard = "";                     ///< why every scene gives a component only 0 or 1; "": some scene gives other values
   int guarded_component = 0;
 
   Member guarded(std::string why, int which = 0) && {
@@ -44,35 +44,34 @@ struct Member {
     return std::move(*this);
   }
   std::size_t size() const { return 4 * static_cast<std::size_t>(components); }
-  /// What std140, std430 and WGSL ask of the offset: 4, 8, 16, 16 for 1 to 4 components.
+  /// Alignment of the offset in std140, std430 and WGSL: 4, 8, 16, 16 for 1 to 4 components.
   std::size_t alignment() const { return components == 1 ? 4 : components == 2 ? 8 : 16; }
 };
 
-/// The layout of a uniform block, or of the element struct of a storage buffer. Bytes that no member covers are
-/// padding.
+/// The layout of a uniform block, or of the element struct of a storage buffer. Bytes without a member are padding.
 struct UniformBlock {
   std::string name;  ///< the type's name in every language: "WaveStepUniforms"
   std::size_t size;  ///< in bytes
   std::vector<Member> members;
 };
 
-/// Throws Error(internal) unless every language gives this block the same bytes: members in order and apart, each
-/// aligned as Member::alignment says and within one 16-byte row, the size a multiple of 16; names, units, sentences and
-/// ranges present, and every name usable in every language.
+/// Throws Error(internal) unless the block has the same bytes in every language: members in order and not overlapping, each aligned as
+/// Member::alignment requires and within one 16-byte row, the size a multiple of 16; names, units, sentences and ranges present, and every
+/// name valid in every language.
 void validate(const UniformBlock& block);
 /// The same for an element struct: its size is a multiple of its largest alignment instead, and a range may be missing.
 void validate_record(const UniformBlock& record);
 
-/// Whether both give the same bytes the same names.
+/// True if both give the same names to the same bytes.
 bool same_layout(const UniformBlock& a, const UniformBlock& b);
 
-/// A component of a member of a block of these bytes.
+/// A component of a member, from the bytes of a block.
 double component_of(const Member& member, const std::byte* bytes, int component);
-/// Why these bytes are none that the block may hold, or "": "step is 200, expected 1 to 8". A float that is no number or
-/// infinite is out of every range. The ends are rounded to float, as the values are. `bytes` has the block's size.
+/// Returns why these bytes are not valid for the block, or "": "step is 200, expected 1 to 8". NaN and infinity are outside every range.
+/// The ends are rounded to float, like the values. `bytes` has the block's size.
 std::string value_fault(const UniformBlock& block, const std::byte* bytes);
 
-/// The members with every gap made explicit: scalars named padding_0, padding_1, …, without unit and sentence.
+/// The members with every gap made explicit by scalars named padding_0, padding_1, …, without unit and sentence.
 std::vector<Member> with_padding(const UniformBlock& block);
 
 namespace detail {
@@ -114,7 +113,7 @@ std::size_t offset_of(M S::*pointer) {
   return static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&object));
 }
 
-/// What GCC and Clang write of a template's argument in the name of a function: "[... NAME = &scope::x; ...]" gives x.
+/// Extracts a template argument from the function name that GCC and Clang write: "[... NAME = &scope::x; ...]" gives x.
 consteval std::string_view last_name(std::string_view function, std::string_view argument) {
   const std::size_t from = function.find(argument) + argument.size();
   const std::string_view whole = function.substr(from, function.find_first_of(";]", from) - from);
@@ -155,21 +154,21 @@ template <auto P>
 Member member(std::string unit, Range range, std::string sentence) {
   return detail::member(P, detail::name_of<P>(), std::move(unit), range, std::move(sentence));
 }
-/// Of a record, whose fields may be any finite numbers.
+/// For a record, whose fields may be any finite numbers.
 template <auto P>
 Member member(std::string unit, std::string sentence) {
   return detail::member(P, detail::name_of<P>(), std::move(unit), std::nullopt, std::move(sentence));
 }
 
-/// The members of a struct that is itself the member P of another, as members of that other: offsets moved, and names
-/// behind "prefix_". nested<&ShadeUniforms::camera>("camera", camera_members()) gives camera_position, …
+/// The members of a struct that is itself the member P of another struct, as members of that one: offsets are moved, and names get
+/// "prefix_". nested<&ShadeUniforms::camera>("camera", camera_members()) gives camera_position, …
 template <auto P>
 std::vector<Member> nested(const std::string& prefix, std::vector<Member> members) {
   return detail::moved(std::move(members), detail::offset_of(P), prefix);
 }
 
-/// The block that struct S is, of its name, validated. S has no alignment of its own, so the compiler adds no padding unseen: what
-/// padding it needs are members of it, which are not listed here.
+/// The validated block of struct S, with its name. S has no alignment of its own, so the compiler adds no hidden padding: its padding is in
+/// explicit members, which are not listed here.
 template <class S>
 UniformBlock uniform_block(std::vector<Member> members) {
   static_assert(alignof(S) == 4, "padding must be written out");

@@ -74,7 +74,7 @@ std::string c_vector_types(const UniformBlock& block) {
   return out;
 }
 
-// One line a member, comments aligned.
+// One line per member, comments aligned.
 std::string member_lines(const UniformBlock& block, Language language) {
   std::vector<std::pair<std::string, const Member*>> lines;
   const std::vector<Member> members = with_padding(block);
@@ -92,7 +92,7 @@ std::string member_lines(const UniformBlock& block, Language language) {
   return out;
 }
 
-// A struct of this name, with a check of its size where the language has one.
+// A struct of this name, with a check of its size if the language supports it.
 std::string struct_text(const UniformBlock& block, Language language) {
   const std::string lines = member_lines(block, language);
   switch (language) {

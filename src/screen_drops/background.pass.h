@@ -46,7 +46,7 @@ RAINREF_FN Vec3<N> background_as_published(const BackgroundUniforms& b, const T&
                      N(b.level));
 }
 
-/// The mean over a disc: what a camera that focuses on the glass sees of a far point, spread evenly.
+/// The mean over a uniform disc: a far point as a camera focused on the glass sees it.
 template <class N, class T>
 RAINREF_FN Vec3<N> background_corrected(const BackgroundUniforms& b, const T& scene, const Tap* taps, int column, int row) {
   const N u = (N::index(column) + N(0.5f)) * N(b.scale[0]) + N(b.offset[0]),

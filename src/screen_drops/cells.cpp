@@ -35,7 +35,7 @@ CellState CellLine<W>::at(int column, DrawnCell& drawn) const {
   if (column >= columns_) return {};
   const bool is_new = drawn.length == 0;
   if (is_new) draw_clock(column, drawn);
-  // Time is modulo 2^32: it may lie before the cycle that was drawn.
+  // Time is modulo 2^32: it may lie before the drawn cycle.
   const std::uint32_t time = u_.tick + drawn.start;
   if (is_new || time < drawn.begin || time - drawn.begin >= drawn.length) draw_cycle(column, time, drawn);
   CellState s = drawn.cycle;

@@ -1,4 +1,4 @@
-// Pass cells, corrected: the drop that a cell holds now, from whole numbers of 16 bits that cells.h draws, as shares.
+// Pass cells, corrected: the drop that a cell holds now, converted to shares from the 16-bit integers of cells.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_SCREEN_DROPS_CELLS_PASS_H_
 #define RAINREF_SCREEN_DROPS_CELLS_PASS_H_
@@ -10,7 +10,7 @@
 
 namespace rainref::screen_drops {
 
-/// No lanes: whole numbers are drawn one cell at a time, which cells_rows keeps from frame to frame.
+/// Without lanes: integers are drawn one cell at a time, and cells_rows keeps them between frames.
 struct CellsPass : pass::Takes<CellsUniforms> {
   static constexpr pass::About about{"cells", "The drop that each cell of four grids holds now.", {}, {1}};
   static scene::UniformBlock uniforms() {
@@ -44,14 +44,14 @@ struct CellsPass : pass::Takes<CellsUniforms> {
 #endif
 #else
 
-/// In cells: centre, radius of the base; and how far its cycle has come. Radius 0: none.
+/// In cells: centre, radius of the base; and the elapsed share of its cycle. Radius 0: no drop.
 template <class N>
 struct CellDrop {
   N x, y, radius, phase;
 };
-/// Largest radius R of this cycle: density ~ R^-3 between largest / 2 and largest, so that layers of half the size each go on
-/// with it. The area of the base grows to pi R^2 in the impact's share of the cycle and then dwindles, both evenly in time. The
-/// whole cap stays inside its cell.
+/// Largest radius R of this cycle. Its density is ~ R^-3 between largest / 2 and largest, which layers of half the size each continue. The
+/// area of the base grows to pi R^2 in the impact's share of the cycle and then shrinks, both linearly in time. The whole cap stays inside
+/// its cell.
 template <class N>
 RAINREF_FN CellDrop<N> cell_drop(const CellsUniforms& c, N size, N x, N y, N phase) {
   const N one(1.0f), half(0.5f);
@@ -61,7 +61,7 @@ RAINREF_FN CellDrop<N> cell_drop(const CellsUniforms& c, N size, N x, N y, N pha
   return {half + (x - half) * room, half + (y - half) * room, reach * sqrt(guard<N>(max(share, N(0.0f)), "the share is nowhere negative")),
           phase};
 }
-/// What a texel holds of a cell that drew this.
+/// The texel of a cell with these draws.
 template <class N, class Result>
 RAINREF_FN void give_cell(const CellsUniforms& u, const CellState& s, const Result& cells) {
   const auto share = [](std::uint32_t of_65536) { return N(static_cast<float>(of_65536) * 0x1p-16f); };

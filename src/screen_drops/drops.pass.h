@@ -80,7 +80,7 @@ struct DropsPass : pass::Takes<DropsUniforms> {
 #endif
 #else
 
-/// What a pixel shows, and how much of it is water.
+/// The colour of a pixel, and the share of it that is water.
 template <class N>
 struct Window {
   Vec3<N> colour;
@@ -88,14 +88,14 @@ struct Window {
 };
 
 // ---- as published --------------------------------------------------------------------------------------------------
-// For layers r = layers, ..., 2, 1, a later one over an earlier, with u = pixel / resolution:
+// For layers r = layers, ..., 2, 1, each over the earlier ones, with u = pixel / resolution:
 //   x = resolution r grid,  p = cell_angle u x + (n - noise_middle) displacement,  n = noise(u / 10).rg
 //   d = noise(round(u x - .25) / x),  t = (sin p.x + sin p.y) max(0, 1 - 2 fract(time (d.b + .1) + d.g))
 //   a drop where d.r < (keep_from - r) keep and t > threshold:
 //     scene(u - refraction v.xy),  v = normalize(-(cos p, mix(.2, 2, t - .5)))
-// round(a) is floor(a + 1/2). The report prints (1 - c2) c3 where (n - c2) c3 stands, and leaves open c1 = cell_angle, c2 =
-// noise_middle, c3 = displacement; in its rule of what is kept, c1 = keep_from, c2 = keep; and the threshold. Its .2, 2 and .5 of the
-// normal are printed. It calls p the sine, of which its normal takes the cosine: cos(sin p).
+// round(a) is floor(a + 1/2). The report prints (1 - c2) c3 instead of (n - c2) c3. It does not give c1 = cell_angle, c2 = noise_middle, c3
+// = displacement, nor c1 = keep_from and c2 = keep of its rule for keeping drops, nor the threshold. It prints the .2, 2 and .5 of the
+// normal. It calls the sine p, and its normal uses the cosine of that: cos(sin p).
 template <int Count, class N, class T>
 RAINREF_FN auto published_noise(const PublishedDropsUniforms& d, const T& noise, N u, N v) {
   return d.noise_nearest != 0 ? sample_nearest<0, Count, N>(noise, u, v) : sample_bilinear<0, Count, N>(noise, u, v);
@@ -103,7 +103,7 @@ RAINREF_FN auto published_noise(const PublishedDropsUniforms& d, const T& noise,
 template <class N>
 struct PublishedDrop {
   N layer;  ///< 0: none
-  N u, v;   ///< where the scene is looked up
+  N u, v;   ///< coordinates of the lookup in the scene
 };
 template <class N, class T>
 RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, const T& noise, int column, int row) {
@@ -115,7 +115,7 @@ RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, cons
   const bool misprint = d.printed_misprint != 0;
   const N middle(d.noise_middle), per_unit(d.displacement);
   const N shift_x = (misprint ? one - middle : n[0] - middle) * per_unit, shift_y = (misprint ? one - middle : n[1] - middle) * per_unit;
-  // No pack or scene says more, but a mistake that is tried on the uniforms may.
+  // Packs and scenes do not exceed this, but a mistake tried on the uniforms may.
   for (int r = d.layers < most_published_layers ? d.layers : most_published_layers; r > 0; --r) {
     const N layer(static_cast<float>(r)), columns = width * layer * N(d.grid), rows = height * layer * N(d.grid);
     const N px = N(d.cell_angle) * u * columns + shift_x, py = N(d.cell_angle) * v * rows + shift_y;
@@ -147,12 +147,12 @@ RAINREF_FN Window<N> drops_as_published(const PublishedDropsUniforms& d, const S
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-/// Water at a pixel: normal across the view (a unit where nothing is mixed), coverage, mip level of what is seen through it.
+/// Water at a pixel: normal across the view (unit length unless mixed), coverage, mip level of the scene behind it.
 template <class N>
 struct Surface {
   N x, y, cover, level;
 };
-/// Where a pixel with this centre lies in a layer [cell], and in the texture of flowing water.
+/// Position of a pixel with this centre in a layer [cell], and in the texture of flowing water.
 template <class N>
 RAINREF_FN Two<N> cell_place(const DropsUniforms& u, int layer, N px, N py) {
   return Two<N>{px * N(u.cells_per_pixel[layer]) + N(u.offset_x[layer]), py * N(u.cells_per_pixel[layer]) + N(u.offset_y[layer])};
@@ -161,8 +161,8 @@ template <class N>
 RAINREF_FN Two<N> flow_place(const DropsUniforms& u, N px, N py) {
   return Two<N>{px * N(u.flow_pixel[0]), py * N(u.flow_pixel[1])};
 }
-/// The drops of the cells, finer layers below coarser ones, without those that a Wanted knows to show nothing here. A cap of base radius R
-/// and contact angle a is part of a sphere of radius R / sin a, so its normal at distance d from the axis leans by d sin a / R.
+/// The drops of the cells, finer layers below coarser ones, without those that a Wanted excludes. A cap of base radius R and contact angle
+/// a is part of a sphere of radius R / sin a, so its normal at distance d from the axis leans by d sin a / R.
 template <class N, class C>
 RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int column, int row, Wanted wanted) {
   const N half(0.5f), one(1.0f), zero(0.0f);
@@ -178,7 +178,7 @@ RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int co
         load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l])),
         "the cells cover the picture");
     const N dx = (qx - cx) - drop[0], dy = (qy - cy) - drop[1], radius = drop[2];
-    // The share of the pixel that the base covers; less for a base smaller than a pixel.
+    // The share of the pixel that the base covers; reduced for a base smaller than a pixel.
     const N cover = saturate((radius - length(dx, dy)) * pixels + half) * min(N(2.0f) * radius * pixels, one);
     if (!any(cover > zero)) continue;
     const N lean = N(u.sine) / max(radius, N(1e-3f));
@@ -186,7 +186,7 @@ RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int co
   }
   return s;
 }
-/// Flowing water over them: its slope, up along (x, y), by central differences of the height.
+/// Flowing water over the drops: its slope, up along (x, y), by central differences of the height.
 template <class N, class H>
 RAINREF_FN Surface<N> with_flow(const DropsUniforms& u, const H& height, const Surface<N>& s, int column, int row) {
   const N one(1.0f);
@@ -199,27 +199,27 @@ RAINREF_FN Surface<N> with_flow(const DropsUniforms& u, const H& height, const S
   const N inverse = one / sqrt(sum_any_order(one, square(gx), square(gy)));
   return {mix(s.x, -gx * inverse, cover), mix(s.y, -gy * inverse, cover), mix(s.cover, one, cover), mix(s.level, N(u.flow_level), cover)};
 }
-/// The water that a pixel shows.
+/// The water at a pixel.
 template <class N, class C, class H>
 RAINREF_FN Surface<N> water_at(const DropsUniforms& u, const C& cells, const H& height, int column, int row, Wanted wanted = wanted_all) {
   const Surface<N> s = still_drops<N>(u, cells, column, row, wanted);
   return u.has_flow != 0 && (wanted & wanted_flow) != 0 ? with_flow(u, height, s, column, row) : s;
 }
-/// The view ray behind the water, and how much of it the water's surface mirrors.
+/// The view ray behind the water, and the share of light that the water's surface mirrors.
 template <class N>
 struct BentRay {
   Vec3<N> direction;
   N reflected;
 };
-// The view ray is bent into the water at the glass, which stands across the view, and out of it at the water's surface, by
-// Snell's law at both; the scene is far, so the direction alone says what is seen. Fresnel's reflectance of the surface, 1 beyond
-// the critical angle, mirrors the background, dimmed.
+// The view ray is refracted at the glass, which is perpendicular to the view, and at the water's surface, by Snell's law. The scene is far
+// away, so only the direction matters. By Fresnel's reflectance of the surface, 1 beyond the critical angle, it mirrors the dimmed
+// background.
 /// px, py: a pixel's centre.
 template <class N>
 RAINREF_FN Vec3<N> view_ray(const DropsUniforms& u, N px, N py) {
   return normalize(Vec3<N>{px * N(u.pixel[0]) - N(u.half_size[0]), py * N(u.pixel[1]) - N(u.half_size[1]), N(1.0f)});
 }
-/// slope_x, slope_y: of the normal, as a Surface has them.
+/// slope_x, slope_y: of the normal, as in Surface.
 template <class N>
 RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Vec3<N>& ray, N slope_x, N slope_y) {
   const N one(1.0f), zero(0.0f);
@@ -230,7 +230,7 @@ RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Vec3<N>& ray, N slo
       guard_below<N>(saturate(dot(bent, normal)), "a refracted ray leaves on the side of the normal; one that is reflected is 0");
   return {bent, fresnel_dielectric(cosine, u.water_ior)};
 }
-/// What the pixel with this centre shows where it is wet.
+/// The colour of a wet pixel with this centre.
 template <class N, class S>
 RAINREF_FN Vec3<N> behind_water(const DropsUniforms& u, const S& scene, const Surface<N>& s, const Vec3<N>& background, N px, N py) {
   const N half(0.5f), one(1.0f);

@@ -40,11 +40,11 @@ struct Flow::State {
         water(s.drops, {s.pane[0], 0, s.pane[1]}, s.pane[0] * s.pane[1], s.fps * s.substeps, s.splat.width, s.splat.height, e),
         exposure{s.pane[0] * s.pane[1], 0, -s.wind},
         height(Format::r16f, s.splat.width, s.splat.height) {
-    // Where the wind meets the pane it stands still: nothing blows along it.
+    // The wind stops at the pane, so nothing blows along it.
     forces.gravity[1] = static_cast<float>(-s.gravity / s.pane[1]);
     if (warm_up_steps() == 0) return;
     const int none = 0;
-    const auto listed = [&] {  // anew each time: lengths are those of now
+    const auto listed = [&] {  // listed again each time, because lengths change
       state::Items items;
       list(items, none);
       return items;
@@ -70,7 +70,7 @@ struct Flow::State {
         clear_height();
     });
   }
-  /// In place: arrays of Python may still look into its memory.
+  /// In place, because Python arrays may view its memory.
   void clear_height() {
     for (int y = 0; y < height.height(); ++y) std::memset(height.row_bytes(y), 0, static_cast<std::size_t>(height.width()) * sizeof(Half));
   }
@@ -118,8 +118,8 @@ void Flow::set_drops(std::span<const drops::Drop> records) {
 
 namespace {
 
-// What a warm-up is made of: of the splat nothing counts before the first frame but the size of the film. A member that is added to the
-// drops' settings does not compile here before it is read.
+// Inputs of a warm-up. Before the first frame only the film's size matters of the splat. This does not compile if a member is added to the
+// drops' settings but not read here.
 struct WarmUp {
   cache::Only<&FlowSettings::fps, &FlowSettings::substeps, &FlowSettings::pane, &FlowSettings::gravity, &FlowSettings::wind,
               &FlowSettings::warm_up>
@@ -137,7 +137,7 @@ struct WarmUp {
   }
 };
 
-// Bytes as rows of an image: their count, they, and zeros to the end of the last row.
+// Bytes as rows of an image: their number, the bytes, and zeros to the end of the last row.
 constexpr int bytes_in_row = 4096;
 using Count = std::uint64_t;
 Image as_image(std::span<const std::byte> bytes) {
@@ -161,7 +161,7 @@ std::vector<std::byte> written(const state::Items& items) {
 
 void warm_up_once(const FlowSettings& settings, const std::function<state::Items()>& list, const std::function<void()>& warm_up) {
   bool is_done = false;
-  // What runs is the flow that was made of these settings.
+  // It runs the flow that was made with these settings.
   const std::function<Image()> run = [&] {
     warm_up();
     is_done = true;

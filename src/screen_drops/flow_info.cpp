@@ -31,7 +31,7 @@ std::vector<Parameter> flow_parameters() {
   std::vector<Parameter> all = drops::still_parameters("flow");
   pass::append(all, drops::corrected_only(drops::splat_parameters("flow")));
   std::erase_if(all, [](const Parameter& p) { return p.key == "flow.rounding"; });
-  // As wide to high as most screens.
+  // The aspect ratio of most screens.
   std::find_if(all.begin(), all.end(), [](const Parameter& p) { return p.key == "flow.height_size"; })->default_value = Integer2{1024, 576};
   pass::append(all, parameters_of(flow_members()));
   return all;

@@ -19,15 +19,15 @@ namespace {
 using scene::Vector3;
 
 constexpr int tap_count = 24;
-constexpr int most_cells = 1 << 24, most_side = 65535;    // a cell's place has 16 bits a side
+constexpr int most_cells = 1 << 24, most_side = 65535;    // a cell's position has 16 bits a side
 constexpr double visible_from = 0.02, visible_to = 0.12;  // height of flowing water [mm]
 
 bool corrected(const Settings& s) { return s.variant == Variant::corrected; }
 Vector3 vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 double log2_of(double x) { return log_real(Real64(x)).v / log_real(Real64(2)).v; }
-/// Millimetres of glass in a pixel.
+/// Millimetres of glass per pixel.
 double millimetres(const Settings& s) { return 1e3 * s.pane_height / s.height; }
-/// The mip level at which a cap of base radius R [mm] sees the scene: it turns a ray by (ior - 1) sin a / R over a millimetre.
+/// The mip level of the scene behind a cap of base radius R [mm]: the cap deflects a ray by (ior - 1) sin a / R per millimetre.
 float level_of(const Settings& s, double radius) {
   const double per_pixel = (s.water_ior - 1) * sin_real(Real64(s.contact_angle_deg * pi / 180)).v / radius * millimetres(s);
   const double texel = 2 * scene_camera(s).half_height() / s.height;
@@ -84,7 +84,7 @@ void check(const Settings& s) {
     if (!(s.threshold >= least_threshold))
       throw Error(ExitCode::usage, fmt::format("drops.threshold: expected {} or more, found {}", least_threshold, s.threshold));
   }
-  camera(s).basis();  // throws for a camera that looks nowhere
+  camera(s).basis();  // throws for an invalid camera
   scene_camera(s).half_height();
 }
 
@@ -140,7 +140,7 @@ BackgroundUniforms background_uniforms(const Settings& s) {
   u.resolution[1] = static_cast<float>(s.height);
   u.level = static_cast<float>(s.blur_level);
   if (corrected(s)) {
-    // A tap stands for a square of the disc's area over their number.
+    // A tap represents a square with the area of the disc divided by their number.
     const double side = s.defocus * s.height / s.scene_margin * __builtin_sqrt(pi / tap_count);
     u.level = static_cast<float>(log2_of(std::max(side, 1.0)));
     u.weight = static_cast<float>(1.0 / tap_count);

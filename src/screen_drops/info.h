@@ -1,4 +1,4 @@
-// screen_drops described to others.
+// The description of screen_drops.
 #pragma once
 
 #include <vector>

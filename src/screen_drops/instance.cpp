@@ -17,7 +17,7 @@
 namespace rainref::screen_drops {
 namespace {
 
-constexpr double street_far = 1000;  // depth of its sky [m]; nobody looks at it
+constexpr double street_far = 1000;  // depth of its sky [m]; unused
 
 Inputs pictures(const scene::Config& config, const Settings& settings, std::optional<effect::PictureSource>& sequence,
                 const parallel::Executor& executor, effect::Inputs& files) {
@@ -52,7 +52,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   }
   const std::optional<FlowSettings> flow = flow_from(config, s);
   m.peak.then(memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));
-  if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(4 * image_bytes(m, Format::rgba32f));  // decoded, turned over, its mips
+  if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(4 * image_bytes(m, Format::rgba32f));  // decoded, flipped, and its mips
   return m;
 }
 
@@ -70,7 +70,7 @@ Instance::Instance(const Settings& settings, Inputs pictures, std::optional<effe
                    const parallel::Executor& executor)
     : InstanceOf(settings, pictures, executor, flow), sequence_(std::move(sequence)), settings_(settings), pictures_(std::move(pictures)) {}
 
-// Each frame's background is a run of its own, so that what a frame records does not depend on the frames before it.
+// Each frame's background is a run of its own, so that the record of a frame does not depend on earlier frames.
 void Instance::show_pictures_of(int frame) {
   if (!sequence_ || (frame == shown_ && frame == held_)) return;
   effect::Inputs none;
@@ -108,7 +108,7 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
   const std::array<double, 2> half = drops.half_size();
   return effect::drops_layer(running().colour(), copy_of(running().background()), executor, [&](int column, int row) -> effect::DropPixel {
     const Shown shown = drops.at(column, row);
-    const double z = std::max(shown.bent.z, 0.05);  // as the pass has it
+    const double z = std::max(shown.bent.z, 0.05);  // as in the pass
     return {shown.cover, 0.5 * shown.bent.x / (z * half[0]) - (column + 0.5) / settings_.width + 0.5,
             0.5 * shown.bent.y / (z * half[1]) - (row + 0.5) / settings_.height + 0.5};
   });

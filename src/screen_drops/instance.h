@@ -1,4 +1,4 @@
-// Drops on a window as a scene says it: opened, run and written like every effect.
+// The window drops of a scene, with the common interface of all effects.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace rainref::screen_drops {
 
-/// What the registry holds.
+/// Entry of the registry.
 effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<ScreenDrops> {
  public:
-  /// `sequence`: its picture of frame 0 is in `pictures`; or nothing.
+  /// `sequence`: source of later pictures, or nothing; that of frame 0 is in `pictures`.
   Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> sequence, const FlowSettings* flow,
            const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
-  /// The scene's picture; of a sequence that of the frame rendered last.
+  /// The scene's picture; for a sequence, that of the last rendered frame.
   const Image& scene_colour() const { return pictures_.colour; }
   void list_state(state::Items& items) override;
   std::vector<PassOutput> buffers() override;
@@ -33,7 +33,7 @@ class Instance final : public effect::InstanceOf<ScreenDrops> {
 
   std::optional<effect::PictureSource> sequence_;
   int shown_ = 0;  ///< frame whose picture is behind the glass
-  int held_ = 0;   ///< frame whose picture is here; another one after a load
+  int held_ = 0;   ///< frame whose picture is in memory; differs after a load
   Settings settings_;
   Inputs pictures_;
 };

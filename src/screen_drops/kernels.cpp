@@ -42,7 +42,7 @@ HWY_INLINE HWY_ATTR Vec3<Lanes> load_colour(const Half* from) {
 RAINREF_PASS_ROWS(BackgroundPass)
 RAINREF_PASS_ROWS(PublishedDropsPass)
 
-// drops_corrected with its two halves apart: the water of every pixel, then what lies behind that of those which are wet.
+// drops_corrected in two halves: the water of every pixel, then the scene behind the wet ones.
 void DropsPassRows(const DropsUniforms& uniforms, bool, Rounding rounding, const pass::HostIo<DropsPass>& io, const parallel::Tile& tile) {
   const auto scene = fixed_texture<Address::clamp, Address::clamp, 4>(io.scene.view);
   const auto cells = fixed_texture<Address::clamp, Address::clamp, 4>(io.cells.view);

@@ -14,7 +14,7 @@ namespace rainref::screen_drops {
 MemoryPeak memory(const Settings& s, const FlowSettings* flow, double seconds) {
   const auto image = [&](Format f) { return Image::memory_bytes(f, s.width, s.height); };
   MemoryPeak m;
-  // scene_levels: floats with mips, then halves; and the texture that is made of these.
+  // scene_levels: floats with mips, then halves; and the texture made from these.
   MemoryPeak floats;
   floats.hold(texel_bytes(s.width, s.height, 4));
   hold_mips(floats, s.width, s.height, 4);

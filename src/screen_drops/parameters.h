@@ -1,4 +1,4 @@
-// The scene parameters of screen_drops: declared once, for scenes, help, hashing and capture.
+// The scene parameters of screen_drops, declared once for scenes, help, hashing and capture.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@
 namespace rainref::screen_drops {
 
 std::span<const scene::Parameter> parameters();
-/// The settings of a scene. Files and built-in pictures are the caller's.
+/// The settings of a scene. The caller makes files and built-in pictures.
 Settings settings_from(const scene::Config& config);
-/// Of the flowing water; none as published, or with flow.on = false.
+/// Settings of the flowing water; none as published, or with flow.on = false.
 std::optional<FlowSettings> flow_from(const scene::Config& config, const Settings& settings);
 
 }  // namespace rainref::screen_drops

@@ -12,7 +12,7 @@ using Single = scalar::Scalar<float>;
 
 int floor_of(Single x) { return to_int(floor(x)).i; }
 Single centre(int pixel) { return Single(static_cast<float>(pixel) + 0.5f); }
-/// The first of the two texels of a side that a bilinear lookup there takes.
+/// The first of the two texels along a side that a bilinear lookup reads there.
 int lower_texel(Single u, int size) { return floor_of(scalar::texel_coordinate(Address::clamp, u, Single(static_cast<float>(size)))); }
 
 }  // namespace
@@ -37,7 +37,7 @@ void Reach::enter_layer(int l, int row) {
   const int line = std::clamp(floor_of(qy) + u_.first_row[l], 0, cells_.height[0] - 1);
   const float* drop = cells_.texels + static_cast<std::ptrdiff_t>(line) * cells_.pitch[0] * 4;
   std::vector<std::int32_t>& before = before_cell_[static_cast<std::size_t>(l)];
-  // Cover ends half a pixel beyond the base; a whole one leaves room for every rounding.
+  // Cover ends half a pixel beyond the base; a whole pixel leaves room for every rounding.
   for (int c = 0; c < cells_.width[0]; ++c, drop += 4) {
     const bool may_show = drop[2] > 0 && std::abs(place - drop[1]) < drop[2] + u_.cells_per_pixel[l];
     before[static_cast<std::size_t>(c) + 1] = before[static_cast<std::size_t>(c)] + (may_show ? 1 : 0);
@@ -61,7 +61,7 @@ void Reach::enter_height(int row) {
 
 Reach::Span Reach::span(int first, int last) const {
   Span s{};
-  // The places are the pass's own, and floor, product and sum never fall where their argument rises: no cell between is missed.
+  // The positions are the pass's own, and floor, product and sum are monotone, so no cell between is missed.
   for (int l = 0; l < layers; ++l) {
     const auto cell = [&](int pixel) {
       return static_cast<std::uint32_t>(

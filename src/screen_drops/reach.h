@@ -1,5 +1,5 @@
-// Which water may show in a stretch of a row, so that drops need not ask for the rest: most of a window is dry, and most of a
-// layer's cells are empty.
+// The water that may be visible in a stretch of a row, so that drops skips the rest: most of a window is dry, and most of a layer's cells
+// are empty.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace rainref::screen_drops {
 
-/// Where it answers no, drops_corrected would find no cover: it never errs that way. It may answer yes to a dry stretch.
+/// If it answers no, drops_corrected would find no cover; this is always right. It may answer yes for a dry stretch.
 class Reach {
  public:
-  /// For rows of `columns` pixels in stretches of `stretch`; cells, height: as drops takes them, which must outlive it.
+  /// For rows of `columns` pixels in stretches of `stretch`; cells, height: the inputs of drops, which must outlive it.
   Reach(const DropsUniforms& uniforms, const StoredTexture<float>& cells, const StoredTexture<Half>& height, int columns, int stretch);
   void enter_row(int row);
-  /// Of a stretch of that row.
+  /// The water of a stretch of that row.
   Wanted of(int stretch) const {
     const Span& s = spans_[static_cast<std::size_t>(stretch)];
     Wanted wanted = u_.has_flow != 0 && before_texel_[s.texel_end] != before_texel_[s.texel] ? wanted_flow : 0;
@@ -27,7 +27,7 @@ class Reach {
   }
 
  private:
-  /// The cells and texels under a stretch; the ends are not among them.
+  /// The cells and texels under a stretch, without the ends.
   struct Span {
     std::uint32_t cell[layers], cell_end[layers], texel, texel_end;
   };
@@ -38,12 +38,12 @@ class Reach {
   const DropsUniforms& u_;
   const StoredTexture<float>& cells_;
   const StoredTexture<Half>& height_;
-  // Of the cells, and of the texels of height, how many before this one may show in the row.
+  // Number of cells, and of texels of height, before this one that may be visible in the row.
   std::array<std::vector<std::int32_t>, layers> before_cell_;
   std::vector<std::int32_t> before_texel_;
   std::vector<Span> spans_;
   std::vector<std::uint16_t> texels_;
-  int first_line_ = 0, last_line_ = -1;  // of height, that texels_ is made from
+  int first_line_ = 0, last_line_ = -1;  // rows of height from which texels_ is made
 };
 
 }  // namespace rainref::screen_drops

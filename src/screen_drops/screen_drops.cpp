@@ -60,7 +60,7 @@ Image make_background(const parallel::Executor& executor, const SceneLevels& sce
   return background;
 }
 
-/// As published; as it is stored, and decoded.
+/// As published: as stored, and decoded.
 struct Noise {
   Image stored;
   TextureData texture;
@@ -85,16 +85,16 @@ struct ScreenDrops::State {
   bool corrected;
   int frame = 0;
   bool has_background = false;
-  bool background_is_recorded = false;  ///< in a run that was saved, it is not recorded once more
+  bool background_is_recorded = false;  ///< in the saved run; then it is not recorded again
   std::shared_ptr<const SceneLevels> scene;
-  bool is_film = false;  ///< pictures that pass are not worth remembering
+  bool is_film = false;  ///< transient pictures are not cached
   std::vector<Tap> taps;
   std::array<Layer, layers> grids{};
   std::optional<Flow> flow;
   std::vector<DrawnCell> drawn_cells;
   std::shared_ptr<const Noise> noise;
   Image no_height, background, cells, water, colour, picture;
-  std::vector<Image> earlier_backgrounds;  ///< into whose memory arrays of Python may look
+  std::vector<Image> earlier_backgrounds;  ///< kept because Python arrays may view their memory
   CodeTable display;
 
   State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing)

@@ -21,7 +21,7 @@ std::vector<Cap> caps(const Settings& settings, const Image& cells) {
     for (int row = 0; row < layer.rows; ++row) {
       const float* drop = cells.row<float>(layer.first_row + row);
       for (int column = 0; column < layer.columns; ++column, drop += 4) {
-        // A millionth of a cell is less than any rounding of what the pass draws.
+        // A millionth of a cell is less than any rounding in the pass.
         if (drop[2] > 1e-6f)
           all.push_back(
               {(column + double{drop[0]} - layer.offset[0]) * cell, (row + double{drop[1]} - layer.offset[1]) * cell, drop[2] * cell});

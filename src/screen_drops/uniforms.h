@@ -1,5 +1,5 @@
-// What the passes of screen_drops take besides images. Sizes are multiples of 16 bytes, nothing straddles a 16-byte row, and
-// every gap is a named padding member, so the bytes serve every GPU language.
+// Uniform blocks of the passes of screen_drops. Sizes are multiples of 16 bytes, no member crosses a 16-byte row, and every gap is a named
+// padding member, so the bytes are valid in every GPU language.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@ namespace rainref::screen_drops {
 
 constexpr int layers = 4;  ///< corrected: grids of cells, 0 is the coarsest
 constexpr int most_published_layers = 16;
-/// As published: with less, mix(.2, 2, t - .5) reaches 0 at t = .389, and the normal of a drop may have no length.
+/// As published: with a smaller threshold, mix(.2, 2, t - .5) reaches 0 at t = .389, and the normal of a drop may have no length.
 constexpr double least_threshold = 0.4;
 
-/// A place where the background looks at the scene, from the pixel's own, in texture coordinates.
+/// A position where the background reads the scene, relative to the pixel's own, in texture coordinates.
 struct Tap {
   float x, y, padding0, padding1;
 };
@@ -33,7 +33,7 @@ struct PublishedDropsUniforms {
   std::int32_t printed_normal;
 };
 
-/// cells: whole numbers decide, floats follow.
+/// cells: integers decide, floats follow.
 struct CellsUniforms {
   std::uint32_t seed[2], tick, keep;
   std::int32_t columns[4];
@@ -60,7 +60,7 @@ struct DropsUniforms {
   float flow_level, padding0, flow_texel[2];
 };
 
-/// The water that drops has to ask for: bits 0 to 3 the layers, bit 4 what flows. What is left out must show nothing.
+/// The water that drops must evaluate: bits 0 to 3 the layers, bit 4 flowing water. Left-out water must be invisible.
 using Wanted = std::uint32_t;
 constexpr Wanted wanted_flow = 1u << layers, wanted_all = 2 * wanted_flow - 1;
 

@@ -27,7 +27,7 @@ LightImage halved(const LightImage& from, const parallel::Executor& executor) {
   return to;
 }
 
-/// Each texel of `to`, times `share`, plus what lies there of an image of half the size.
+/// Multiplies each texel of `to` by `share` and adds the value there of an image of half the size.
 void add_doubled(LightImage& to, float share, const LightImage& from, const parallel::Executor& executor) {
   executor.for_tiles(to.width, to.height, to.width, tile_rows, [&](const parallel::Tile& tile) {
     std::vector<float> column(3 * static_cast<std::size_t>(from.width));

@@ -1,4 +1,4 @@
-// Light that a lens scatters around what is bright.
+// Light that a lens scatters around bright spots.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace rainref::simulation {
 
-/// Three floats a pixel, row after row.
+/// Three floats per pixel, row by row.
 struct LightImage {
   int width = 0, height = 0;
   std::vector<float> light;
@@ -19,15 +19,15 @@ struct LightImage {
   const float* row(int y) const { return light.data() + 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y); }
 };
 
-/// The mean of `levels` blurred copies of it, the k-th about 2^k pixels wide: each octave of radius holds as much light, as in a glare
-/// whose brightness falls with the square of the distance. Down by tents 1 3 3 1, up by tents 1/4 3/4, from level to level (after Jorge
-/// Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014). Beyond an edge the edge repeats. A level
-/// picture stays; where sides halve without rest the sum of all light stays too. levels from 1.
+/// Returns the mean of `levels` blurred copies; the k-th is about 2^k pixels wide. Each octave of radius holds the same amount of light, as
+/// in a glare whose brightness falls with the square of the distance. Each level is made from the last by tents: 1 3 3 1 down, 1/4 3/4 up
+/// (after Jorge Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014). Edge pixels repeat outside. A
+/// constant picture is unchanged. If the sides halve without remainder, the sum of all light is kept too. levels >= 1.
 LightImage bloomed(LightImage picture, int levels, const parallel::Executor& executor);
 
-/// Levels up to a width of `radius` times the height; at least 1.
+/// Number of levels for a blur of `radius` times the height; at least 1.
 int bloom_levels(int height, double radius);
-/// What bloomed holds at a time, without the picture.
+/// Memory of bloomed [byte], without the picture.
 std::uint64_t bloom_bytes(int width, int height);
 
 }  // namespace rainref::simulation

@@ -1,4 +1,4 @@
-// What an effect is, as JSON for programs: `rainref describe EFFECT --json` and the C library.
+// The description of an effect as JSON, for `rainref describe EFFECT --json` and the C library.
 #pragma once
 
 #include <string>

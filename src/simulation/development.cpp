@@ -63,13 +63,13 @@ class Exposed {
   float factor_;
 };
 
-/// The share of a sample's light that lies above the threshold: of all channels alike, by the brightest.
+/// The share of a sample's light above the threshold, the same for all channels, from the brightest one.
 float share_above(const float* light, float threshold) {
   const float peak = std::max({light[0], light[1], light[2]});
   return peak > threshold ? (peak - threshold) / peak : 0;
 }
 
-/// What is scattered, at the size of the picture: the mean of n x n samples, blurred.
+/// Returns the scattered light at the size of the picture: the mean of n x n samples, blurred.
 LightImage scattered(const Exposed& exposed, const Development& options, int n, const parallel::Executor& executor) {
   LightImage bright(exposed.width() / n, exposed.height() / n);
   const float weight = 1 / static_cast<float>(n * n), threshold = static_cast<float>(options.bloom_threshold);

@@ -29,7 +29,7 @@ const Curve& curve() {
   return made;
 }
 
-/// Weights of the samples that a pixel takes along an axis, from `first` samples after its own first one on; their sum is 1.
+/// Weights of a pixel's samples along an axis, from `first` samples after its own first one on; their sum is 1.
 struct Tent {
   int first;
   std::vector<double> weight;

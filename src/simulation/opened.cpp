@@ -18,13 +18,13 @@
 namespace rainref::simulation {
 namespace {
 
-/// Memory is refused before anything is made.
+/// Refuses a lack of memory before anything is made.
 const effect::Effect& fitting(const scene::Config& config) {
   const FloatingPointGuard guard;
   const effect::RunMemory memory = memory_of(config);
   try {
     require_memory(memory);
-  } catch (const Error&) {  // what is remembered of other scenes is in no scene's way
+  } catch (const Error&) {  // cached values of other scenes must not block a scene
     cache::forget();
     require_memory(memory);
   }
@@ -49,7 +49,7 @@ void write_map(const std::filesystem::path& folder, const effect::Map& map) {
 
 const scene::EffectTable& effect_table() {
   static const scene::EffectTable table = [] {
-    static std::vector<std::vector<scene::Parameter>> parameters;  // which the table refers to
+    static std::vector<std::vector<scene::Parameter>> parameters;  // referenced by the table
     scene::EffectTable t;
     parameters.reserve(registry::effects().size());
     for (const effect::Effect* e : registry::effects()) {
@@ -74,7 +74,7 @@ scene::Config config_of_passes(const scene::Config& config) {
 }
 
 effect::RunMemory memory_of(const scene::Config& scene) {
-  // A plan asks this of every cell, and a copy takes longer than the answer.
+  // Copied only if needed: a plan calls this for every cell, and a copy takes longer than the rest.
   std::optional<scene::Config> larger;
   if (scene.integer("run.supersample") > 1) larger = config_at_pass_size(scene);
   const scene::Config& config = larger ? *larger : scene;

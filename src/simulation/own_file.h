@@ -1,11 +1,11 @@
-// Where this code was loaded from. One of own_file_<platform>.cpp is compiled, which CMake chooses.
+// The file that this code was loaded from. CMake compiles one of own_file_<platform>.cpp.
 #pragma once
 
 #include <filesystem>
 
 namespace rainref::simulation {
 
-/// The program or shared library that this code is in; "" where that cannot be told.
+/// The program or shared library that contains this code; "" if unknown.
 std::filesystem::path own_file();
 
 }  // namespace rainref::simulation

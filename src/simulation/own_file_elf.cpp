@@ -14,7 +14,7 @@ fs::path own_file() {
   Dl_info symbol;
   void* map = nullptr;
   if (::dladdr1(reinterpret_cast<const void*>(&own_file), &symbol, &map, RTLD_DL_LINKMAP) != 0 && map) {
-    const char* const library = static_cast<const link_map*>(map)->l_name;  // "" of the program itself
+    const char* const library = static_cast<const link_map*>(map)->l_name;  // "" for the program itself
     if (library && *library) return fs::canonical(library, error);
   }
   return fs::read_symlink("/proc/self/exe", error);

@@ -1,5 +1,5 @@
-// WebAssembly is loaded from no file that it could see. What came with it lies where it was put into the module's own file system, as if
-// the module lay at its root, the one folder that is always there: scenes in /share/rainref/scenes.
+// A WebAssembly module cannot see the file that it was loaded from. The bundled files are in the module's own file system, as if the module
+// were at its root, the only folder that always exists: scenes in /share/rainref/scenes.
 #include "simulation/own_file.h"
 
 namespace rainref::simulation {

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders `scenes`, from where that file lies: an installation may be moved. A build folder links the sources'.
+/// The folders `scenes`, relative to the location of that file, because an installation may be moved. A build folder links to those of the
+/// sources.
 std::vector<fs::path> own_folders() {
   std::vector<fs::path> folders;
   const auto add = [&](const fs::path& here, const char* from_here) {
@@ -75,7 +76,7 @@ std::vector<std::string> known_scenes() {
 }
 
 std::string did_you_mean_scene(const fs::path& wrong) {
-  std::vector<std::string> names, files;  // what is compared, and the file that it stands for
+  std::vector<std::string> names, files;  // the compared names, and their files
   const auto add = [&](std::string name, const std::string& file) {
     names.push_back(std::move(name));
     files.push_back(file);
@@ -90,7 +91,7 @@ std::string did_you_mean_scene(const fs::path& wrong) {
   for (const std::string& file : siblings) add(file, file);
   for (const std::string& file : known_scenes()) {
     add(file, file);
-    // "puddle/default.toml", "scenes/puddle/default.toml", wherever the folder lies; "default.toml" would be any effect's.
+    // "puddle/default.toml", "scenes/puddle/default.toml", in any folder; "default.toml" alone would match any effect's.
     const fs::path path(file), in_effect = path.parent_path().filename() / path.filename();
     add(in_effect.string(), file);
     add(("scenes" / in_effect).string(), file);

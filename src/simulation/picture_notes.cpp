@@ -31,7 +31,7 @@ std::string scene_text(const scene::Config& config, int frame) {
   std::string out;
   for (const scene::Config::Entry& e : config.entries()) {
     const std::string& key = e.parameter.key;
-    // A picture does not depend on how long its run went on.
+    // A picture does not depend on the number of frames after it.
     if (key == "run.frames")
       out += fmt::format("{} = {}\n", key, frame + 1);
     else if (names_file(e))
@@ -52,8 +52,8 @@ Hash128 scene_hash(const scene::Config& config, const effect::Inputs& inputs) {
   return hasher.finish();
 }
 
-/// Throws where a file's name in the scene has a folder: rainref writes none, so that somebody else wrote this one, to have a file opened
-/// that he may not read himself.
+/// Throws if a file name in the scene has a folder. rainref writes none, so someone else wrote this note, perhaps to make the user open a
+/// file that the writer may not read.
 void refuse_folders(const std::string& scene, const std::string& picture) {
   for (const scene::RawEntry& e : scene::read_toml(scene, picture)) {
     const auto* text = std::get_if<std::string>(&e.value.data);
@@ -87,7 +87,7 @@ image_io::Notes picture_notes(const scene::Config& config, const effect::Inputs&
 std::optional<SceneOfPicture> scene_of_picture(const std::filesystem::path& file) {
   std::array<char, 8> first{};
   std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) return std::nullopt;  // who reads a scene says what is wrong
+  if (!std::filesystem::is_regular_file(file, none)) return std::nullopt;  // the reader of the scene reports the error
   std::ifstream(file, std::ios::binary).read(first.data(), first.size());
   if (!image_io::may_have_notes(std::as_bytes(std::span(first)))) return std::nullopt;
   const std::vector<std::byte> bytes = read_file(file);

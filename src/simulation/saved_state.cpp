@@ -15,7 +15,7 @@
 namespace rainref::simulation {
 namespace {
 
-// It says where a run ends, and nothing of what comes before.
+// This key only says where a run ends, so it may differ.
 constexpr std::string_view may_differ = "run.frames = ";
 
 std::vector<std::string_view> lines_of(std::string_view text) {
@@ -29,7 +29,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
-/// Throws where two texts differ, with the first lines that do.
+/// Throws if two texts differ, with the first different lines.
 void require_same(const state::Saved& saved, std::string_view theirs, std::string_view ours, const char* what) {
   const std::vector<std::string_view> there = lines_of(theirs), here = lines_of(ours);
   const auto line = [](const std::vector<std::string_view>& lines, std::size_t i) {

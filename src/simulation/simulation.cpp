@@ -22,7 +22,7 @@
 namespace rainref {
 namespace {
 
-/// Whether images are kept between runs was said, and can be said no more.
+/// Whether keep_images was called, and whether a simulation has been opened, after which it may not be called.
 struct Keeping {
   std::mutex mutex{};
   bool is_said = false, has_begun = false;
@@ -32,11 +32,11 @@ Keeping& keeping() {
   return one;
 }
 
-/// Bytes that a process holds of what its simulations prepared: the default puddle at 1280x720, whose sky is the largest, takes 0.3 GiB.
+/// Limit of a process's cache of prepared data [byte]. The default puddle at 1280x720, with the largest sky, takes 0.3 GiB.
 constexpr std::size_t remembered_bytes = std::size_t{1} << 29;
 
-/// Called before a Simulation is opened, by any thread: from the first on what is prepared is remembered, and images are kept where
-/// keep_images said, or else where the command line keeps them.
+/// Called before a Simulation is opened, by any thread. From the first call on prepared data are cached, and images are kept in the folder
+/// of keep_images, or else in that of the command line.
 void begin_to_keep() {
   const std::lock_guard lock(keeping().mutex);
   if (std::exchange(keeping().has_begun, true)) return;
@@ -136,7 +136,7 @@ void Simulation::load(std::span<const std::byte> state) {
 }
 void Simulation::set(const std::string& key, const std::string& value) {
   const FloatingPointGuard guard;
-  // "key=value" would be cut at its first =.
+  // "key=value" would be split at its first =.
   if (const std::size_t at = key.find('='); at != std::string::npos)
     throw Error(ExitCode::usage, fmt::format("'{}': expected a key such as {}, found one with =", key, key.substr(0, at)));
   SceneText changed = state_->scene;

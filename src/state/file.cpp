@@ -16,11 +16,11 @@
 namespace rainref::state {
 namespace {
 
-// The end of line and the control character show a transfer as text, as in PNG.
+// The newline and the control character reveal a transfer in text mode, as in PNG.
 constexpr std::string_view magic = "rainref-state\r\n\x1a";
 constexpr std::size_t most_dimensions = 3, checksum_bytes = 16;
 
-/// Whole numbers of the file, lowest byte first.
+/// Writes integers, lowest byte first.
 class Writer {
  public:
   explicit Writer(const Sink* sink) : sink_(sink) {}
@@ -44,7 +44,7 @@ class Writer {
   Hash128 hash() const { return hasher_.finish(); }
 
  private:
-  const Sink* sink_;  // null: only counted
+  const Sink* sink_;  // null: only counts
   std::uint64_t count_ = 0;
   Hasher hasher_{0};
 };
@@ -66,7 +66,7 @@ void put_all(Writer& out, const Texts& texts, const Items& items, std::uint64_t 
   }
 }
 
-/// The same, read back; never beyond the end.
+/// Reads them back, never beyond the end.
 class Reader {
  public:
   Reader(std::span<const std::byte> bytes, const std::string& origin) : bytes_(bytes), origin_(origin) {}
@@ -95,7 +95,7 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-/// What the shape asks for, or more than any file has.
+/// Bytes that the shape needs, or more than any file has.
 std::uint64_t wanted_bytes(const Saved::Stored& item) {
   constexpr std::uint64_t most = std::uint64_t{1} << 62;
   std::uint64_t bytes = bytes_of(item.type);

@@ -16,18 +16,18 @@ namespace rainref::state {
 
 inline constexpr std::uint32_t format_version = 1;
 
-/// Whose state it is.
+/// Identifies the owner of a state.
 struct Texts {
   std::string scene;   ///< "key = value" lines
   std::string inputs;  ///< a line for each picture that was read: key and hash
-  std::string note;    ///< whatever else the writer keeps with it
+  std::string note;    ///< other text that the writer stores with it
 };
 
-/// Takes the bytes of a file in order.
+/// Receives the bytes of a file in order.
 using Sink = std::function<void(std::span<const std::byte>)>;
 void write(const Texts& texts, const Items& items, const Sink& sink);
 
-/// A state that was read: texts, and items as views of the bytes, which must outlive it.
+/// A state that was read: its texts, and its items as views of the bytes, which must outlive it.
 class Saved {
  public:
   struct Stored {
@@ -37,8 +37,8 @@ class Saved {
     std::span<const std::byte> bytes;
   };
 
-  /// `origin`: where the bytes are from, for messages. Throws Error(usage) for bytes that are no state, cut short, damaged, of another
-  /// format version or of another golden generation. Counts that the bytes name are looked at before anything is allocated by them.
+  /// `origin`: source of the bytes, for messages. Throws Error(usage) for bytes that are no state, cut short, damaged, of another format
+  /// version or of another golden generation. Counts in the bytes are checked before memory is allocated for them.
   Saved(std::span<const std::byte> bytes, std::string origin);
 
   const std::string& origin() const { return origin_; }
@@ -46,7 +46,7 @@ class Saved {
   std::string_view inputs() const { return inputs_; }
   std::string_view note() const { return note_; }
   const std::vector<Stored>& items() const { return items_; }
-  /// Frames behind it: the item `frame`, which every effect has; nothing where there is none.
+  /// Number of simulated frames: the item `frame`, which every effect has; nothing if it is missing.
   std::optional<std::int64_t> frame() const;
 
  private:
@@ -55,10 +55,10 @@ class Saved {
   std::vector<Stored> items_;
 };
 
-/// Throws Error(usage), naming the item, what is expected and what was found, unless the items of `saved` are those listed: the same
-/// names in the same order, types, shapes (lengths within their limits), numbers within their ranges. Changes nothing.
+/// Throws Error(usage) with the item, expected and found, unless the items of `saved` match the list: same names in the same order, types,
+/// shapes (lengths within their limits), numbers within their ranges. Changes nothing.
 void require_fit(const Saved& saved, const Items& items);
-/// After require_fit: overwrites what is listed.
+/// Call after require_fit: overwrites the listed items.
 void load(const Saved& saved, const Items& items);
 
 }  // namespace rainref::state

@@ -1,4 +1,4 @@
-// What an effect holds from one frame to the next, item by item. An effect lists its items once; saving and loading both read that list.
+// The state that an effect keeps between frames, as a list of items. Saving and loading use the same list.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace rainref::state {
 
-/// Of one number, as it is stored.
+/// Storage type of a number.
 enum class Type : std::uint8_t { u8, u32, i32, i64, f16, f32, f64 };
 /// "u8", "f16" ...
 const char* name(Type type);
@@ -21,17 +21,17 @@ std::size_t bytes_of(Type type);
 /// "wave f16 [512, 768, 1]": shapes slowest first, images as rows, columns, channels; [] is one number.
 std::string text_of(std::string_view name, Type type, std::span<const std::uint64_t> shape);
 
-/// What each number of an item may be; a NaN never is.
+/// Allowed values of the numbers of an item. A NaN is never allowed.
 struct Range {
   double low, high;
 };
-/// Of a type's finite numbers.
+/// All finite numbers of a type.
 Range finite();
 
-/// Numbers whose count changes from frame to frame; items of one list share it.
+/// A length that changes from frame to frame; the items of one list share it.
 struct Length {
   std::uint64_t now, most;
-  std::function<void(std::uint64_t)> resize;  ///< called with at most `most`; what is held beyond is lost
+  std::function<void(std::uint64_t)> resize;  ///< called with at most `most`; contents beyond that are lost
 };
 
 struct Item {
@@ -39,13 +39,13 @@ struct Item {
   Type type;
   std::vector<std::uint64_t> shape;
   Range range;
-  std::uint64_t rows;                                ///< pieces that lie together in memory
-  std::function<std::byte*(std::uint64_t row)> row;  ///< each of them; asked anew after a resize
-  std::shared_ptr<Length> length = nullptr;          ///< where the shape may be another one
-  std::size_t row_bytes() const;                     ///< of the shape now
+  std::uint64_t rows;                                ///< pieces that are contiguous in memory
+  std::function<std::byte*(std::uint64_t row)> row;  ///< address of a piece; called again after a resize
+  std::shared_ptr<Length> length = nullptr;          ///< set if the shape may differ
+  std::size_t row_bytes() const;                     ///< for the current shape
 };
 
-/// Refers to what is listed; lives no longer.
+/// References to the listed items; must not outlive them.
 class Items {
  public:
   void number(std::string name, std::int32_t& value, Range range);
@@ -53,16 +53,16 @@ class Items {
   void number(std::string name, std::uint32_t& value);
   void flag(std::string name, bool& value);
   void numbers(std::string name, std::span<double> values, Range range);
-  /// Its texels, without margins.
+  /// Adds the texels of an image, without margins.
   void image(std::string name, Image& image, Range range = finite());
-  /// One of several arrays of 4-byte numbers (f32, u32) of the same length; `data`: where it begins.
+  /// Adds one of several arrays of 4-byte numbers (f32, u32) with the same length; `data`: its start.
   void array(std::string name, Type type, Range range, const std::shared_ptr<Length>& length, std::function<void*()> data);
-  /// To be called once everything is loaded, in order: what follows from the items.
+  /// Adds an action to run after everything is loaded, in order, to compute values that follow from the items.
   void then(std::function<void()> action) { after_.push_back(std::move(action)); }
 
   const std::vector<Item>& all() const { return all_; }
   void finish() const;
-  /// Names of items to come begin with it; "": no longer.
+  /// Prefix for the names of the following items; "" ends it.
   void begin_names_with(std::string prefix) { prefix_ = std::move(prefix); }
 
  private:
@@ -73,9 +73,9 @@ class Items {
   std::vector<std::function<void()>> after_;
 };
 
-/// Frames that a state may have behind it: ten times what a scene may ask for, so that no counter overflows.
+/// Range of frame counts in a state: ten times the largest number that a scene may ask for, so no counter overflows.
 inline constexpr Range frames{0, 1e7};
-/// Sums of whole mass units: another frame overflows nothing.
+/// Range of sums of whole mass units: one more frame cannot overflow.
 inline constexpr Range sums{-0x1p62, 0x1p62};
 
 }  // namespace rainref::state

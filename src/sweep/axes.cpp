@@ -17,7 +17,7 @@ namespace {
 using scene::RawEntry;
 using scene::RawValue;
 
-/// Of a file of cases, in bytes.
+/// Largest size of a file of cases [byte].
 constexpr std::uint64_t longest_cases = std::uint64_t{256} << 20;
 
 [[noreturn]] void refuse(const SourceLocation& at, const std::string& key, const std::string& message) {
@@ -69,7 +69,7 @@ Range range_of(const std::string& key, const RangeKeys& said, const SourceLocati
 }
 
 // ---- CSV -------------------------------------------------------------------------------------------------------------------
-/// Fields of one line: commas part them; "" around one that holds commas, "" twice for a quote.
+/// Fields of one line, separated by commas; "" around a field with commas, "" twice for a quote.
 std::vector<std::string> fields(std::string_view line, const SourceLocation& at) {
   std::vector<std::string> out{""};
   bool is_quoted = false;
@@ -164,7 +164,7 @@ std::vector<Axis> axes_from(std::span<const RawEntry> entries, const std::filesy
       if (!keys.insert(key).second) refuse(at, key, "is there twice");
     axes.push_back(std::move(axis));
   };
-  std::vector<std::pair<std::size_t, Range>> ranges;  // of which axes; their rows are made last, when all is counted
+  std::vector<std::pair<std::size_t, Range>> ranges;  // with their axes; their rows are made last, after everything is counted
   std::int64_t cells = 1;                             // of the axes so far
   const auto grow = [&](std::int64_t rows, const SourceLocation& at) {
     if (rows > most_cells / cells)

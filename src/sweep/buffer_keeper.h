@@ -1,4 +1,4 @@
-// Buffers of a frame by their names, as its passes took or gave them last.
+// Keeps buffers of a frame by name, as its passes last read or wrote them.
 #pragma once
 
 #include <map>
@@ -16,13 +16,13 @@ class BufferKeeper : public Recorder {
  public:
   /// `info` must outlive it.
   BufferKeeper(const capture::EffectInfo& info, std::string variant, std::vector<std::string> names);
-  /// From here on buffers are copied, or not.
+  /// Sets whether buffers are copied from here on.
   void keep(bool is_on) { is_on_ = is_on; }
   bool reads(int, std::string_view) const override { return is_on_; }
   void before(const PassStart& start) override;
   void pass(const PassCall& call) override;
 
-  /// Of the frames since the last call; a buffer that no pass took or gave is not there.
+  /// The buffers of the frames since the last call; a buffer that no pass read or wrote is missing.
   std::map<std::string, capture::Array> take() { return std::exchange(found_, {}); }
 
  private:

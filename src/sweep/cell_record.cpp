@@ -45,7 +45,7 @@ std::uintmax_t CellWriter::bytes() const {
   return all;
 }
 
-// The first line holds the hash of all that follows it.
+// The first line contains the hash of everything after it.
 bool CellWriter::finish(nlohmann::ordered_json record, std::vector<fs::path>& names) {
   record["files"] = nlohmann::ordered_json::array();
   for (const KeptFile& f : files_) record["files"].push_back({{"path", f.path}, {"bytes", f.bytes}, {"xxh3", f.hash}});
@@ -75,7 +75,7 @@ CellRecord read_record(const fs::path& cell) {
   if (from.has("last_frame")) {
     const std::int64_t last = from["end"].whole(1, most_frame) - 1;
     for (const capture::JsonField& line : from["last_frame"].elements()) {
-      // Made from another frame's state, under this one's name.
+      // Made from the state of another frame, under this frame's name.
       if (line["frame"].whole(0, most_frame) != last) line["frame"].fail(fmt::format("{}, the one before its end", last));
       record.last_frame.emplace_back(new_name(line, line["pass"].text() + "." + line["buffer"].text()), line["xxh3"].text());
     }

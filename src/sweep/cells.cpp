@@ -21,7 +21,7 @@
 namespace rainref::sweep {
 namespace {
 
-/// The labels of cases, which no scene takes.
+/// The column with labels of cases, which is not a key of scenes.
 constexpr std::string_view label = "name";
 
 std::string text_of(const scene::Override& o) {
@@ -32,7 +32,7 @@ std::string text_of(const scene::Override& o) {
   return v.text();
 }
 
-/// A file that the plan names lies beside it.
+/// A file that the plan names is relative to it.
 void place(scene::Override& o, const std::filesystem::path& folder) {
   if (!effect::names_files(o.key)) return;
   std::string* text = std::get_if<std::string>(&o.value);
@@ -41,7 +41,7 @@ void place(scene::Override& o, const std::filesystem::path& folder) {
     *text = std::filesystem::absolute(folder / *text).lexically_normal().string();
 }
 
-/// Buffers that a plan keeps are the effect's.
+/// Checks that the effect has the buffers that a plan keeps.
 void check_keep(const Plan& plan, const scene::Config& config) {
   for (const Keep& keep : plan.keep) {
     if (keep.what != Keep::What::buffer) continue;
@@ -55,7 +55,7 @@ void check_keep(const Plan& plan, const scene::Config& config) {
   }
 }
 
-/// What is kept of these frames, whatever the plan calls it and in whatever order.
+/// The kept data of these frames, independent of the plan's wording and order.
 std::string kept_text(const Plan& plan, const Cell& cell) {
   std::vector<std::string> all;
   for (const Keep& keep : plan.keep) {
@@ -95,7 +95,7 @@ Cells::Cells(const Plan& plan, const Planned& planned) : plan_(plan) {
                 fmt::format("axes: expected at most {} cells, found {:.0f}", most_cells, cells));
   const auto points = static_cast<std::int64_t>(cells);
   std::int64_t done = 0;
-  std::optional<scene::Config> config;  // of the point before
+  std::optional<scene::Config> config;  // of the previous combination
   Cell before;
   const bool has_keys_anew = std::any_of(plan.axes.begin(), plan.axes.end(), [](const Axis& axis) {
     return std::any_of(axis.keys.begin(), axis.keys.end(), [](const std::string& key) { return key == "effect" || key == "variant"; });
@@ -119,7 +119,7 @@ Cells::Cells(const Plan& plan, const Planned& planned) : plan_(plan) {
       }
       if (planned) planned(++done, points);
       has_more = false;
-      for (std::size_t i = counts.size(); i-- > 0 && !has_more;) {  // the last axis is the fastest
+      for (std::size_t i = counts.size(); i-- > 0 && !has_more;) {  // the last axis varies fastest
         has_more = ++point.rows[i] < counts[i];
         if (!has_more) point.rows[i] = 0;
       }
@@ -187,7 +187,7 @@ std::string Cells::words(const Cell& cell) const {
 }
 
 void Cells::add_simulated(Cell point, const scene::Config& config) {
-  simulation::memory_of(config);  // which reads the settings, and so refuses what keys say together
+  simulation::memory_of(config);  // reads the settings, and so refuses combinations of keys that are invalid
   point.frames = config.integer("run.frames");
   if (plan_.first >= point.frames)
     throw Error(ExitCode::usage, SourceLocation{plan_.file.string()},

@@ -1,4 +1,4 @@
-// The cells of a plan: every point of its axes, checked and named before anything starts.
+// The cells of a plan: every combination of its axes, checked and named before any starts.
 #pragma once
 
 #include <cstdint>
@@ -16,35 +16,35 @@ namespace rainref::sweep {
 
 struct Cell {
   std::string id;
-  std::uint32_t scene = 0;          ///< of the plan's scenes, or packs
-  std::vector<std::uint32_t> rows;  ///< of each axis; of packs that of the profile
-  std::string film;                 ///< what all chunks of a run share; "" where nothing is simulated
-  std::int64_t first = 0, end = 0;  ///< frames that it holds, the last one excluded
+  std::uint32_t scene = 0;          ///< index in the plan's scenes or packs
+  std::vector<std::uint32_t> rows;  ///< of each axis; for packs that of the profile
+  std::string film;                 ///< shared by all chunks of a run; "" if nothing is simulated
+  std::int64_t first = 0, end = 0;  ///< its frames, the last one excluded
   std::int64_t frames = 0;          ///< of the whole run
 };
 
-/// Hears of each point of a plan's axes that was checked, and of how many.
+/// Receives the number of checked combinations of a plan's axes, and their total.
 using Planned = std::function<void(std::int64_t done, std::int64_t all)>;
 
 class Cells {
  public:
-  /// Parses the configuration of every cell. Throws Error(usage) for the first one that a scene refuses, for two that are the same, and for
-  /// more than most_cells; Error(io) where a file cannot be read. The plan must outlive it.
+  /// Parses the configuration of every cell. Throws Error(usage) for the first one that a scene refuses, for two equal cells, and for more
+  /// than most_cells; Error(io) if a file cannot be read. The plan must outlive it.
   explicit Cells(const Plan& plan, const Planned& planned = {});
 
   const Plan& plan() const { return plan_; }
   const std::vector<Cell>& all() const { return cells_; }
-  /// Of a cell that simulates.
+  /// For a cell that simulates.
   scene::Config config(const Cell& cell) const;
-  /// What the plan says of it: --set of a command line that gives the same.
+  /// The plan's settings of the cell, as values of --set for a command line with the same result.
   std::vector<std::string> overrides(const Cell& cell) const;
-  /// Scene or pack, by name, and the values of the axes, by key.
+  /// Scene or pack by name, and the values of the axes by key.
   std::vector<std::pair<std::string, std::string>> values(const Cell& cell) const;
   /// "scene x.toml, rain.rate 3, seed 7".
   std::string words(const Cell& cell) const;
 
  private:
-  /// The configuration of one point into that of the next, of the same scene.
+  /// Changes the configuration of one combination into that of the next, of the same scene.
   void change(scene::Config& config, const Cell& from, const Cell& to) const;
   void add_simulated(Cell point, const scene::Config& config);
   void add_judged(Cell point);
@@ -53,7 +53,7 @@ class Cells {
 
   const Plan& plan_;
   std::vector<std::vector<scene::RawEntry>> scenes_;  ///< each read once
-  std::vector<std::string> scene_ids_;                ///< of their texts
+  std::vector<std::string> scene_ids_;                ///< hashes of their texts
   std::vector<Cell> cells_;
   std::map<std::string, std::size_t> by_id_;
   Inputs inputs_;

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Words as a shell parts them. A quoted one may be a command itself: sh -c '...'.
+/// Words as a shell separates them. A quoted word may be a command itself: sh -c '...'.
 void add_words(std::string_view command, std::vector<std::string>& words) {
   std::string word;
   char quote = 0;
@@ -41,7 +41,7 @@ void add_words(std::string_view command, std::vector<std::string>& words) {
   end();
 }
 
-/// Empty where the word names none.
+/// Empty if the word names no file.
 fs::path file_of(const std::string& word) {
   std::error_code error;
   if (fs::is_regular_file(word, error)) return fs::absolute(word).lexically_normal();

@@ -1,4 +1,4 @@
-// What a port's command runs, as far as its text says it.
+// Finds the files that a port's command runs, from its text.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace rainref::sweep {
 
-/// The files that the words of a shell's command name, in their order, each once: a word, or what follows "=" in it, that leads to a
-/// regular file from the current folder, or to a program in a folder of PATH. Programs of /bin, /sbin, /usr/bin and /usr/sbin are the
-/// machine's and left out. What stands behind a variable, and what these files open themselves, is not seen.
+/// The files named by the words of a shell command, in order and without repetition: words, or parts after "=" of words, that are regular
+/// files relative to the current folder, or programs in a folder of PATH. Programs of /bin, /sbin, /usr/bin and /usr/sbin belong to the
+/// machine and are left out. Files named by a variable, and files opened by these files, are not found.
 std::vector<std::filesystem::path> files_named_by(const std::string& command);
 
 }  // namespace rainref::sweep

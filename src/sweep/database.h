@@ -7,8 +7,8 @@
 
 namespace rainref::sweep {
 
-/// Writes tables `cells`, `parameters`, `hashes`, `files` and `films`; in the place of an older file once it is whole. The same rows give
-/// the same bytes with the same version of SQLite. Throws Error(io).
+/// Writes tables `cells`, `parameters`, `hashes`, `files` and `films`; replaces an older file when it is complete. The same rows give the
+/// same bytes with the same version of SQLite. Throws Error(io).
 void write_database(const std::filesystem::path& path, const Cells& cells, const Table& table);
 
 }  // namespace rainref::sweep

@@ -29,7 +29,7 @@ BEGIN)";
 
 using Value = std::variant<std::int64_t, double, std::string>;
 
-/// Keys whose values are numbers. What is a label, a name of a file or a word stays text, whatever it looks like.
+/// Keys with numeric values. Labels, file names and words stay text, whatever they look like.
 std::set<std::string> numeric_keys() {
   std::set<std::string> keys;
   for (const scene::Effect& effect : simulation::effect_table().effects)
@@ -37,7 +37,7 @@ std::set<std::string> numeric_keys() {
       if (p.type == scene::Type::integer || p.type == scene::Type::real) keys.insert(p.key);
   return keys;
 }
-/// A number where the text is one.
+/// A number if the text is one.
 Value typed(const std::string& text) {
   if (const std::optional<std::int64_t> whole = whole_from<std::int64_t>(text)) return *whole;
   if (const std::optional<double> real = number_from<double>(text)) return *real;

@@ -36,7 +36,7 @@ bool keeps(const Plan& plan, Keep::What what) {
   return false;
 }
 
-/// What this machine has no room for another one may have: nothing that the scene is refused for.
+/// Another machine may have the memory that this one lacks, so this is not a reason to refuse the scene.
 void require_memory_here(const scene::Config& config) {
   const effect::RunMemory memory = simulation::memory_of(config);
   try {
@@ -48,9 +48,9 @@ void require_memory_here(const scene::Config& config) {
 
 struct Begun {
   std::int64_t frame = 0;
-  std::set<std::int64_t> wrong;  ///< frames whose states are damaged, or of another scene or frame than their names say
+  std::set<std::int64_t> wrong;  ///< frames whose states are damaged, or belong to another scene or frame than their names say
 };
-/// The newest state before the cell, where one fits. What does not fit is passed over: the run then begins earlier.
+/// The newest matching state before the cell. States that do not match are skipped; the run then begins earlier.
 Begun begin_from_state(simulation::Opened& opened, const Store& store, const Cell& cell) {
   Begun begun;
   for (std::int64_t frame = store.newest_state(cell.film, cell.first); frame > 0; frame = store.newest_state(cell.film, frame - 1)) {
@@ -69,7 +69,7 @@ Begun begin_from_state(simulation::Opened& opened, const Store& store, const Cel
   }
   return begun;
 }
-/// Unless a good one lies there.
+/// Unless there is already a good one.
 void leave_state(const simulation::Opened& opened, const Store& store, const Cell& cell, const Begun& begun, std::int64_t frame) {
   const fs::path path = store.state(cell.film, frame);
   std::error_code error;
@@ -80,7 +80,7 @@ void leave_state(const simulation::Opened& opened, const Store& store, const Cel
   file.commit();
 }
 
-/// One frame of a cell, being kept.
+/// Keeps the data of one frame of a cell.
 class Keeping {
  public:
   Keeping(const Cells& cells, const Cell& cell, simulation::Opened& opened, const Store& store)
@@ -140,12 +140,12 @@ class Keeping {
     nlohmann::ordered_json r{
         {"cell", cell_.id}, {"film", cell_.film}, {"golden_hash", golden_hash()}, {"first", cell_.first}, {"end", cell_.end}};
     r["config"] = scene::config_json(opened_.config());
-    r["config"].erase("run.frames");  // of whichever run it is part of
+    r["config"].erase("run.frames");  // independent of the run that the cell belongs to
     r["inputs"] = nlohmann::ordered_json::array();
     for (const effect::InputFile& f : opened_.inputs().files) r["inputs"].push_back({{"key", f.key}, {"hash", f.hash}, {"lossy", f.lossy}});
     for (const scene::Config::Entry& e : opened_.config().entries()) {
       const auto* name = std::get_if<std::string>(&e.value);
-      if (name && !name->empty() && effect::names_files(e.parameter.key)) r["config"].erase(e.parameter.key);  // a name says nothing
+      if (name && !name->empty() && effect::names_files(e.parameter.key)) r["config"].erase(e.parameter.key);  // a name is not significant
     }
     r["last_frame"] = nlohmann::ordered_json::array();
     for (const capture::HashLine& line : last_)
@@ -181,7 +181,7 @@ Made make_frames(const Cells& cells, const Cell& cell, const Store& store, const
   for (std::int64_t frame = made.begun_at; frame < cell.end; ++frame) {
     keeping.before(frame);
     opened.simulate(keeping.recorder());
-    // Passes that bake something once run with the first picture, and are of frame 0.
+    // Passes that bake something once run with the first picture, and belong to frame 0.
     if (frame < cell.first && frame > 0)
       opened.skip(keeping.recorder());
     else

@@ -1,4 +1,4 @@
-// A cell that simulates: its frames, and what is kept of them.
+// A cell that simulates: its frames, and the data kept from them.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace rainref::sweep {
 
-/// What making a cell took.
+/// Result of making a cell.
 struct Made {
-  bool was_first = true;  ///< false: another process had it meanwhile
+  bool was_first = true;  ///< false: another process finished it meanwhile
   std::uintmax_t bytes = 0;
-  std::int64_t begun_at = 0;  ///< the frame of the state that it went on from; 0: from the beginning
+  std::int64_t begun_at = 0;  ///< frame of the state from which it continued; 0: from the beginning
 };
 
-/// Folders that hold the names of finished cells, not yet on the disk.
+/// Parent folders of finished cells that are not yet synced to disk.
 using Names = std::vector<std::filesystem::path>;
 
-/// Simulates the frames and writes the cell. A cell that begins later goes on from the newest state that lies there, passes over the frames
-/// up to its own, and leaves a state at its end. Throws Error. `warn` gets what is doubtful about the scene's files.
+/// Simulates the frames and writes the cell. A cell with a later first frame continues from the newest stored state, skips the frames
+/// before its own, and stores a state at its end. Throws Error. `warn` receives doubtful properties of the scene's files.
 Made make_frames(const Cells& cells, const Cell& cell, const Store& store, const parallel::Executor& executor, Names& names,
                  const std::function<void(const std::string&)>& warn);
 

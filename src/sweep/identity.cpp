@@ -25,7 +25,7 @@ bool has(const scene::Config& config, std::string_view key) {
   return std::any_of(all.begin(), all.end(), [&](const scene::Config::Entry& e) { return e.parameter.key == key; });
 }
 
-/// To the bit.
+/// Equal bit for bit.
 bool is_same(const scene::Value& a, const scene::Value& b) {
   if (a.index() != b.index()) return false;
   return std::visit(
@@ -50,7 +50,7 @@ std::string Inputs::hash_of(const scene::Config& config, const std::string& key)
   const bool is_sequence = effect::is_sequence(named.name) && has(config, "sequence.first");
   if (is_sequence)
     name += fmt::format(" {} {} {}", config.integer("sequence.first"), config.integer("sequence.count"), config.integer("run.frames"));
-  // Of a file of several channels, what another key takes.
+  // If a file has several channels, the one that another key reads.
   if (effect::content_of(key) != image_io::Content::colour) name += " " + key;
   std::string& hash = known_[name];
   if (!hash.empty()) return hash;
@@ -75,7 +75,7 @@ std::string Inputs::text_of(const scene::Config& config) {
   const auto is_line = [](const scene::Config::Entry& e, const Line& line) { return e.parameter.key == line.key; };
   const bool is_like_before =
       directory_ == config.directory() && std::equal(entries.begin(), entries.end(), lines_.begin(), lines_.end(), is_line);
-  // What a name leads to hangs on the folder, and of a sequence on further keys.
+  // The meaning of a name depends on the folder, and for a sequence on further keys.
   bool is_same_sequence = is_like_before;
   for (std::size_t i = 0; i < entries.size() && is_same_sequence; ++i)
     is_same_sequence =

@@ -1,4 +1,4 @@
-// What a cell is called: a hash of all that its result depends on, and of nothing else.
+// The name of a cell: a hash of exactly the inputs of its result.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,16 @@ namespace rainref::sweep {
 /// 32 hexadecimal digits: the XXH3-128 of a text.
 std::string id_of(std::string_view text);
 
-/// Hashes of files, each read once as long as it stands there unchanged.
+/// Hashes of files; each file is read once while it is unchanged.
 class Inputs {
  public:
-  /// The configuration's canonical text without run.frames, files by what they hold in place of their names: a picture's decoded hash,
-  /// another file's or a sequence's bytes. Throws Error naming the key where a file cannot be read. Lines of values that are those of the
-  /// call before are not made again.
+  /// The configuration's canonical text without run.frames, with file names replaced by contents: the decoded hash of a picture, the bytes
+  /// of another file or a sequence. Throws Error with the key if a file cannot be read. Lines whose values did not change since the last
+  /// call are reused.
   std::string text_of(const scene::Config& config);
-  /// Of a folder's files, names and bytes. Throws Error(io).
+  /// Hash of a folder's files, names and bytes. Throws Error(io).
   std::string folder_hash(const std::filesystem::path& folder);
-  /// Of a file's bytes. Throws Error(io).
+  /// Hash of a file's bytes. Throws Error(io).
   std::string bytes_hash(const std::filesystem::path& file);
 
  private:

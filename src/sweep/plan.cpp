@@ -62,7 +62,7 @@ std::vector<std::string> words_of(const RawEntry& e, const char* what) {
   return out;
 }
 
-/// 120, or "40..119", whose ends are both part of it.
+/// 120, or "40..119", with both ends included.
 void take_frames(const RawEntry& e, Plan& plan) {
   std::int64_t frames = 0;
   if (const auto* text = std::get_if<std::string>(&e.value.data)) {
@@ -102,7 +102,7 @@ void take_size(const RawEntry& e, Plan& plan) {
   plan.set.push_back({"run.size", value, e.at});
 }
 
-/// A scene's file beside the plan; where there is none, the scene of this name that came with rainref.
+/// The path of a scene's file relative to the plan; if there is none, the bundled scene of this name.
 std::filesystem::path scene_file(const Plan& plan, const std::string& named) {
   const std::filesystem::path beside = plan.file.parent_path() / named;
   std::error_code none;
@@ -111,7 +111,7 @@ std::filesystem::path scene_file(const Plan& plan, const std::string& named) {
   return own.empty() ? beside : own;
 }
 
-/// A key of the plan: which verbs take it, and how.
+/// A key of the plan, with its verbs and its parser.
 struct Key {
   std::vector<Verb> verbs;  ///< empty: all
   std::function<void(const RawEntry&, Plan&)> take;

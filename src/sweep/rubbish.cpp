@@ -23,7 +23,7 @@ std::uintmax_t bytes_below(const fs::path& path) {
     if (i->is_regular_file(error)) all += i->file_size(error);
   return all;
 }
-/// Names of this type in a folder, sorted. Neither the folder nor they may be links; hidden names are results in the making.
+/// Names of this type in a folder, sorted. Ignores links, also as the folder, and hidden names, which are unfinished results.
 std::vector<fs::path> entries(const fs::path& folder, fs::file_type type) {
   std::vector<fs::path> found;
   std::error_code error;

@@ -1,4 +1,4 @@
-// What a store holds that none of the given plans needs.
+// Finds contents of a store that none of the given plans needs.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct Rubbish {
   std::uintmax_t bytes = 0;
 };
 
-/// By the names that rainref gives alone, and no link: cells and failures of no plan, states of films that no plan has or whose cells are
-/// all there, leftovers of killed processes; with `damaged` also cells whose files are not what their records say. Cells that are being
-/// made are none of it. Throws Error(usage) for a folder that is there and is no store.
+/// Considers only names that rainref makes, and no links: cells and failures of no plan, states of films that no plan has or whose cells
+/// all exist, leftovers of killed processes; with `damaged` also cells whose files differ from their records. Cells being made are never
+/// included. Throws Error(usage) for an existing folder that is not a store.
 std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& plans, bool damaged);
 
 }  // namespace rainref::sweep

@@ -15,17 +15,17 @@
 namespace rainref::sweep {
 namespace {
 
-/// As one word of a shell.
+/// Quoted as one word of a shell.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
 }
 
-/// As one value of YAML, which takes the texts of JSON.
+/// Quoted as one value of YAML, which accepts JSON texts.
 std::string yaml(const std::string& text) { return nlohmann::json(text).dump(-1, ' ', true); }
 
-/// A script is lines, and what engines put in for braces they put into paths too.
+/// A script consists of lines, and engines also expand braces in paths.
 void require_plain(const ScriptAsked& asked) {
   const std::pair<const char*, std::string> texts[] = {
       {"program", asked.program.string()}, {"PLAN", asked.plan.string()}, {"--output", asked.out.string()}, {"--image", asked.image}};
@@ -50,10 +50,10 @@ std::string run(const ScriptAsked& a, const std::string& shard) {
   return sweep(a, "run", fmt::format(" --shard {} --threads {}", shard, a.threads));
 }
 
-/// The line of a job's script, as one word of the script that submits it.
+/// The line of a job's script, quoted as one word of the script that submits it.
 std::string job(const std::string& command) { return quoted("exec " + command); }
 
-// A dead node's task starts anew by --requeue; which cells are there already it sees itself.
+// --requeue restarts the task of a dead node; it finds the finished cells itself.
 std::string slurm(const ScriptAsked& a) {
   return fmt::format(R"(#!/bin/sh
 # sh THIS [sbatch options, such as --partition=X --constraint=Y]: an array of {0} shards, and collect when the last one has ended.

@@ -1,4 +1,4 @@
-// What to hand to an engine that runs a sweep.
+// Writes the script for an engine that runs a sweep.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ struct ScriptAsked {
   std::string engine;
   std::filesystem::path program, plan, out;  ///< absolute
   std::int64_t shards = 1;
-  int threads = 1;    ///< of a shard
-  std::string image;  ///< of a container, for kubernetes
+  int threads = 1;    ///< per shard
+  std::string image;  ///< container image, for kubernetes
 };
 std::vector<std::string> engines();
 
-/// A shell script, or the manifest of an indexed job; with collect after the last shard. Throws Error(usage) for another engine, and for
-/// paths that its script could not hold as they are: with line ends or other control characters, with braces for GNU parallel, not UTF-8
-/// for kubernetes.
+/// A shell script, or the manifest of an indexed job; with collect after the last shard. Throws Error(usage) for an unknown engine, and for
+/// paths that its script cannot hold unchanged: with newlines or other control characters, with braces for GNU parallel, not UTF-8 for
+/// kubernetes.
 std::string script(const ScriptAsked& asked);
 
 }  // namespace rainref::sweep

@@ -19,8 +19,8 @@ std::optional<std::int64_t> number(const std::string& text) {
   return n && *n >= 0 && *n <= most ? n : std::nullopt;
 }
 
-/// An engine's names for an index, for the first index, for the step, and for the count or else the last index. A null pointer: it has
-/// none.
+/// An engine's variables for an index, for the first index, for the step, and for the count or else the last index. A null pointer: not
+/// available.
 struct Engine {
   const char *name, *index, *first, *step, *count, *last;
 };
@@ -34,11 +34,11 @@ constexpr Engine engines[] = {
     {"MPI", "PMI_RANK", nullptr, nullptr, "PMI_SIZE", nullptr},
 };
 
-/// said: the count, or 0.
+/// said: the given count, or 0.
 Shard automatic(std::int64_t said, const Environment& variables) {
   for (const Engine& e : engines) {
     const std::optional<std::string> index = variables(e.index);
-    if (!index || *index == "undefined") continue;  // Grid Engine's word for a job that is no array
+    if (!index || *index == "undefined") continue;  // Grid Engine's value for a job that is not an array
     const auto read = [&](const char* variable, std::int64_t otherwise) {
       const std::optional<std::string> text = variable ? variables(variable) : std::nullopt;
       if (!text || *text == "undefined") return otherwise;

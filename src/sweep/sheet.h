@@ -1,4 +1,4 @@
-// A contact sheet: a picture of each cell, small, side by side.
+// A contact sheet: small pictures of the cells, side by side.
 #pragma once
 
 #include "rainref/image.h"
@@ -6,8 +6,8 @@
 
 namespace rainref::sweep {
 
-/// The last picture of each cell that has one, at most this many cells, row by row from the top; rgba8, row 0 on top. Each is shrunk by a
-/// whole number until it is at most `largest` texels wide, whole texels averaged in display code and rounded to nearest. Empty where no
+/// The last picture of each cell that has one, at most most_cells cells, row by row from the top; rgba8, row 0 on top. Each is reduced by
+/// an integer factor until it is at most `largest` texels wide; texels are averaged in display code and rounded to nearest. Empty if no
 /// cell has a picture. Throws Error.
 Image contact_sheet(const Cells& cells, const Table& table, const Store& store, int most_cells = 400, int largest = 160);
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* marker = "rainref-store";
 
-/// Names in a folder that begin with this; none where there is no folder.
+/// Names in a folder with this prefix; none if there is no folder.
 std::vector<fs::path> beginning_with(const fs::path& folder, const std::string& begin) {
   std::vector<fs::path> found;
   std::error_code error;
@@ -30,11 +30,11 @@ std::vector<fs::path> beginning_with(const fs::path& folder, const std::string& 
   return found;
 }
 
-/// Of a cell that is, or was, being made. Where the file system has no locks nobody knows.
+/// State of the process that makes, or made, a cell. If the file system has no locks it is unknown.
 enum class MakerState : std::uint8_t { dead, alive, unknown };
 MakerState maker_of(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-  if (descriptor < 0) return MakerState::unknown;  // it is done
+  if (descriptor < 0) return MakerState::unknown;  // it is finished
   const FileLock lock = lock_file(descriptor);
   const bool is_there = is_still(descriptor, path);
   ::close(descriptor);
@@ -66,7 +66,7 @@ std::optional<Failure> Store::failure(const std::string& id) const {
     return Failure{static_cast<int>(from["code"].whole(0, 5)), from["sentence"].text()};
   } catch (const Error& e) {
     if (e.code() != ExitCode::port_files) throw;
-    return {};  // not ours: the cell is tried
+    return {};  // not accessible: the cell is tried
   }
 }
 
@@ -84,7 +84,7 @@ void Store::forget(const std::string& id) const {
 
 void Store::remove_cell(const std::string& id) const {
   std::error_code error;
-  fs::remove(cell(id) / "cell.json", error);  // first: from here on it is no finished cell
+  fs::remove(cell(id) / "cell.json", error);  // removed first, so that it is no longer a finished cell
   if (!error) fs::remove_all(cell(id), error);
   if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", cell(id).string(), error.message()));
 }

@@ -29,7 +29,7 @@ std::string csv_line(const std::vector<std::string>& fields) {
   return fmt::format("{}\n", fmt::join(quoted, ","));
 }
 
-/// Names in the order in which rows bring them.
+/// Names in the order of their first occurrence in rows.
 std::vector<std::string> columns(const Table& table, std::vector<std::pair<std::string, std::string>> Row::*pairs) {
   std::vector<std::string> names;
   std::map<std::string, bool> known;
@@ -58,7 +58,7 @@ void read_row(const Cell& cell, const Store& store, Row& row) {
   row.sentence = std::move(record.verdict);
 }
 
-/// Hash lines of consecutive cells, as long as none is missing.
+/// Joins hash lines of consecutive cells until one is missing.
 class Fold {
  public:
   void add(const Cell& cell, const Row& row, const Store& store) {

@@ -1,4 +1,4 @@
-// What a plan's cells gave, as rows: the same bytes wherever and in whatever order they were made.
+// Results of a plan's cells as rows: the same bytes for any place and order in which they were made.
 #pragma once
 
 #include <cstdint>
@@ -18,29 +18,29 @@ const char* name(State state);
 
 struct Row {
   State state = State::missing;
-  std::string sentence;                                     ///< why it is not done; of a judged cell its verdict
+  std::string sentence;                                     ///< why it is not done; for a judged cell its verdict
   std::vector<std::pair<std::string, std::string>> values;  ///< of the axes
   std::vector<std::pair<std::string, std::string>> hashes;  ///< "pass.buffer" of the last frame, and its hash
   std::vector<KeptFile> files;
 };
-/// The run that chunks are parts of, where their hashes were kept: what `rainref hash` of it prints last.
+/// The run to which chunks belong, if their hashes were kept: the last line of its `rainref hash`.
 struct Film {
   std::string words;
-  std::int64_t first = 0, end = 0;  ///< frames that are there without a gap
-  std::string scene_hash;           ///< of these
+  std::int64_t first = 0, end = 0;  ///< frames present without a gap
+  std::string scene_hash;           ///< hash of these
 };
 struct Table {
-  std::vector<Row> rows;    ///< of each cell
+  std::vector<Row> rows;    ///< one for each cell
   std::vector<Film> films;  ///< in the order of their first cells
   std::int64_t count(State state) const;
 };
 
 /// Reads every record and checks the hash of every file.
 Table read_table(const Cells& cells, const Store& store);
-/// What state a cell is in, as far as its record's presence says it: nothing is read.
+/// The state of a cell, from the presence of its record alone; nothing is read.
 State state_of(const Cell& cell, const Store& store, std::string& sentence);
 
-/// A line for each cell: number, id, state, sentence, frames, values, hashes. Fields with commas, quotes or line ends are quoted.
+/// A line for each cell: number, id, state, sentence, frames, values, hashes. Fields with commas, quotes or newlines are quoted.
 std::string table_csv(const Cells& cells, const Table& table);
 std::string films_csv(const Table& table);
 

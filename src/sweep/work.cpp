@@ -17,7 +17,7 @@
 namespace rainref::sweep {
 namespace {
 
-/// A line for each cell that this process made: of interest to people, and to nothing else.
+/// A log with a line for each cell made by this process, for people only.
 class TimeLog {
  public:
   explicit TimeLog(const std::filesystem::path& folder) : folder_(folder) {}
@@ -44,7 +44,7 @@ class Shift {
   Shift(const Cells& cells, const Store& store, const WorkOptions& options, const Maker& make)
       : cells_(cells), store_(store), options_(options), make_(make), log_(store.root() / "log") {}
 
-  /// Whether another process makes it just now, which may have begun with the same shard before.
+  /// Whether another process is making it, perhaps because it started with the same shard earlier.
   bool is_elsewhere(const Cell& cell) const { return !store_.has(cell.id) && store_.tries(cell.id).alive > 0; }
 
   Outcome take(const Cell& cell, std::string& sentence) {
@@ -79,7 +79,7 @@ class Shift {
       } catch (const std::exception& e) {
         last = {5, e.what()};
       }
-      if (store_.has(cell.id)) return Outcome::lost;  // it is there: another process made it meanwhile
+      if (store_.has(cell.id)) return Outcome::lost;  // another process finished it meanwhile
     }
     return fail(cell, last, sentence);
   }
@@ -104,7 +104,7 @@ class Shift {
   const WorkOptions& options_;
   const Maker& make_;
   TimeLog log_;
-  Names names_;  // a power cut takes one finished cell at most: the last one
+  Names names_;  // a power cut loses at most the last finished cell
 };
 
 }  // namespace

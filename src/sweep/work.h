@@ -1,4 +1,4 @@
-// The cells of a shard, one after the other, each as often as it takes.
+// Makes the cells of a shard one after the other, with repeated tries.
 #pragma once
 
 #include <functional>
@@ -13,15 +13,16 @@ namespace rainref::sweep {
 
 struct WorkOptions {
   Shard shard;
-  bool again = false;  ///< cells that failed for good, too; and finished ones of a port's command, which hang on more than their names say
+  bool again = false;  ///< also cells that failed permanently, and finished cells of a port's command, which depend on more than their
+                       ///< names
 };
-/// What became of a cell.
+/// Result for a cell.
 enum class Outcome : std::uint8_t {
-  had,  ///< it was there
+  had,  ///< already existed
   made,
   lost,     ///< another process made it meanwhile
   refused,  ///< ended with 2, now or before
-  failed    ///< ended otherwise, as often as the plan says
+  failed    ///< ended otherwise, after all tries of the plan
 };
 const char* name(Outcome outcome);
 
@@ -31,14 +32,14 @@ struct Counts {
   bool is_whole() const { return (*this)[Outcome::refused] + (*this)[Outcome::failed] == 0; }
 };
 
-/// Makes one cell, and waits for the names of the ones before it together with its own files. Throws Error.
+/// Makes one cell, and syncs the names of previous cells together with its own files. Throws Error.
 using Maker = std::function<Made(const Cell&, Names&)>;
-/// Hears of each cell of the shard: what became of it, and a sentence where it has none.
+/// Receives the result of each cell of the shard, and a sentence if it has none.
 using Listener = std::function<void(const Cell&, Outcome, const std::string& sentence)>;
 
-/// Takes the shard's cells in order, last those that another process is making meanwhile. What a scene refuses is recorded at once and
-/// never tried again; what ends with 4 or 5 is tried `plan.tries` times, a cell that killed so many processes no more. Throws Error(io)
-/// where the store itself cannot be written: nothing is lost, and the next run goes on there.
+/// Takes the shard's cells in order; cells that another process is making come last. A cell that a scene refuses is recorded at once and
+/// never tried again. A cell that ends with 4 or 5 is tried `plan.tries` times; a cell that killed that many processes is not tried again.
+/// Throws Error(io) if the store cannot be written; nothing is lost, and the next run continues there.
 Counts work(const Cells& cells, const Store& store, const WorkOptions& options, const Maker& make, const Listener& tell);
 
 }  // namespace rainref::sweep

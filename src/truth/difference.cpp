@@ -51,7 +51,7 @@ double Difference::mean() const {
 double Difference::scale() const {
   const double wanted = percentiles().p99;
   if (!(wanted > 0)) return 1;
-  // Powers of ten are exact upwards and rounded once downwards.
+  // Positive powers of ten are exact, negative ones rounded once.
   for (int decade = -12; decade < 12; ++decade) {
     double power = 1;
     for (int i = 0; i < std::abs(decade); ++i) power *= 10;

@@ -11,11 +11,11 @@ constexpr double cell_size = 0.3;  // m
 
 }  // namespace
 
-/// Where on the ray a drop's way is nearest to it; negative where it is further away than the drop's radius.
+/// t on the ray where a drop's path is nearest; negative if its distance exceeds the drop's radius.
 double FallingRainIndex::crossing(const Vec& origin, const Vec& direction, const Drop& d) {
   const Vec way = d.to - d.from, away = origin - d.from;
   const double along = glm::dot(way, way), slant = glm::dot(direction, way), level = glm::dot(away, way);
-  // The nearest point of the way to the line, held to its ends; then the ray's nearest to that.
+  // The point of the path nearest to the line, clamped to the path's ends; then the ray's point nearest to that.
   const double across = along - slant * slant;
   const double s = across > 1e-15 ? std::clamp((level - slant * glm::dot(away, direction)) / across, 0.0, 1.0) : 0.5;
   const Vec at = d.from + s * way - origin;
@@ -61,7 +61,7 @@ FallingRainIndex::FallingRainIndex(std::span<const windshield::FallingDropView> 
 
 Vec FallingRainIndex::through(const Vec& origin, const Vec& direction, double distance, Vec radiance) const {
   if (drops_.empty()) return radiance;
-  // From where the ray enters the grid to where it leaves.
+  // From the ray's entry into the grid to its exit.
   double enter = 0, leave = distance;
   for (int k = 0; k < 3; ++k) {
     const double from = low_[k], to = low_[k] + size_[k] * cell_size;
@@ -89,7 +89,7 @@ Vec FallingRainIndex::through(const Vec& origin, const Vec& direction, double di
     const double there = std::min(next[axis], leave);
     const std::size_t c = cell(at);
     for (std::uint32_t i = first_[c]; i < first_[c + 1]; ++i) {
-      // A drop that reaches into several cells counts in the one where the ray meets it.
+      // A drop that overlaps several cells counts in the cell where the ray meets it.
       const double t = crossing(origin, direction, drops_[in_cell_[i]]);
       if (t >= here && t < there) met.push_back({t, in_cell_[i]});
     }

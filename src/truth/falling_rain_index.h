@@ -1,4 +1,4 @@
-// The rain in the air as rays meet it.
+// The rain in the air, for rays.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace rainref::truth {
 
 using compositor::Vec;
 
-/// Drops of a frame in a grid of cells. From several threads at once.
+/// Drops of a frame in a grid of cells. Thread-safe.
 class FallingRainIndex {
  public:
   explicit FallingRainIndex(std::span<const windshield::FallingDropView> drops);
 
-  /// What arrives along a ray (unit direction, car axes) of this radiance from `distance` metres away: each drop whose way in the exposure
-  /// it meets stands in it for a share of that time.
+  /// Light that arrives along a ray (unit direction, car axes) with this radiance from `distance` metres away: each drop whose path during
+  /// the exposure the ray meets covers it for a share of that time.
   Vec through(const Vec& origin, const Vec& direction, double distance, Vec radiance) const;
 
  private:
@@ -42,7 +42,7 @@ class FallingRainIndex {
   std::vector<Drop> drops_;
   Vec low_{0, 0, 0};
   int size_[3] = {0, 0, 0};
-  std::vector<std::uint32_t> first_, in_cell_;  // drops in_cell_[first_[c]] to in_cell_[first_[c + 1] - 1] reach into cell c
+  std::vector<std::uint32_t> first_, in_cell_;  // drops in_cell_[first_[c]] to in_cell_[first_[c + 1] - 1] overlap cell c
 };
 
 }  // namespace rainref::truth

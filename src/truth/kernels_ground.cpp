@@ -23,7 +23,7 @@ void FinishGround(const GroundLook& look, const Places& places, const VecArrays*
   const puddle::ShadeUniforms& u = look.uniforms;
   const N zero(0.0), one(1.0);
   const float dry_film = 1 - u.wetness;
-  // Levels first: they end a long chain of dependent operations, and by themselves several chains run at once.
+  // Levels first, because they end a long chain of dependent operations, and separately several chains run at once.
   for (std::size_t i = 0; i < places.size(); i += n) {
     const N down = N::load(places.direction.component[1] + i);
     hn::StoreU(ground_level(N(u.ground_footprint * look.sample_scale), N::load(places.distance + i), -down).v, N::D(), finishes.blur + i);
@@ -44,7 +44,7 @@ void FinishGround(const GroundLook& look, const Places& places, const VecArrays*
       for (int k = 0; k < 3; ++k) albedo[k] = texel[k];
     }
     const auto wet = py < zero;
-    // Light comes down through the column of water; the way back is the medium's.
+    // Light comes down through the column of water; the medium handles the way back.
     N sunk[3] = {zero, zero, zero};
     if (any(wet)) {
       const N left = transmittance(N(u.water_turbidity), select(wet, -py, zero));
@@ -52,7 +52,7 @@ void FinishGround(const GroundLook& look, const Places& places, const VecArrays*
     }
     N reflectance = zero, level = zero, mx = zero, my = zero, mz = zero;
     if (any(!wet)) {
-      // Slopes of grains that a pixel does not resolve spread what it mirrors: they are sampled, not averaged away.
+      // Slopes of grains finer than a pixel blur its reflection, so they are sampled instead of averaged.
       const auto tilt = sample_bilinear<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(*look.relief), s, t);
       const N film = smoothstep(0.0f, u.shore_width, N(u.shore_width) - py), rough = one - film;
       N slope_x = zero, slope_z = zero;

@@ -1,12 +1,12 @@
-// What is traced of an effect on a pane of glass.
+// Tracing of effects on a pane of glass.
 #pragma once
 
 #include "truth/tracing.h"
 
 namespace rainref::truth {
 
-/// View: what is known of an effect's pane, with scene(running), camera(), width(), height(), display(radiance, executor) and
-/// compare(running, options, executor).
+/// View: the traced pane of an effect, with scene(running), camera(), width(), height(), display(radiance, executor) and compare(running,
+/// options, executor).
 template <class View, class Instance>
 class PaneTracing : public Tracing {
  public:
@@ -18,7 +18,7 @@ class PaneTracing : public Tracing {
  protected:
   PaneTracing(const scene::Config& config, const Instance& instance, View view, const parallel::Executor& on)
       : Tracing(choice_from(config), on), instance_(instance), view_(std::move(view)) {}
-  /// Hands the view the pictures of the frame that was rendered last, where those change.
+  /// Gives the view the pictures of the last rendered frame, if those change.
   virtual void look_outside() {}
   const Instance& instance() const { return instance_; }
   View& view() { return view_; }

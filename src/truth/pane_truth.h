@@ -1,4 +1,4 @@
-// A frame of a pane as its passes show it, beside what rays make of it.
+// A frame of a pane as its passes render it, and as rays do.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace rainref::truth {
 
-/// The picture that a display makes of a radiance (rgba16f). rgba8.
+/// The display picture of a radiance (rgba16f). rgba8.
 inline Image display_of(double exposure, Rounding rounding, const Image& radiance, const parallel::Executor& executor) {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
   pass::display_run(exposure, rounding, radiance, picture).tiles(executor, 8);
   return picture;
 }
 
-/// What the comparisons of all panes take. View: as PaneTracing says; `running` has rendered a frame.
+/// Common inputs of the comparisons of all panes. View: see PaneTracing; `running` has rendered a frame.
 template <class Running, class View>
 struct PaneTruth {
   const Running& running;
@@ -41,7 +41,7 @@ struct PaneTruth {
         basis(view.camera().basis()) {}
 
   Difference difference(const char* name, const char* unit) const { return {name, unit, width, height}; }
-  /// body(x, y) of every pixel, from several threads.
+  /// Calls body(x, y) for every pixel, from several threads.
   template <class Body>
   void each_pixel(const Body& body) const {
     executor.for_tiles(width, height, width, 8, [&](const parallel::Tile& tile) {

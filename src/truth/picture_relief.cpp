@@ -33,8 +33,8 @@ double PictureRelief::depth_at(const Place& at) const {
   return depth_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)];
 }
 
-// In the picture the ray runs straight from the place of its origin to its vanishing point, and with w = (origin's depth) / (depth there)
-// from w = 1 to 0: end + w (begin - end). It has met a plate of depth D where w D is no more than the origin's depth.
+// In the picture the ray is a straight line from the projection of its origin to its vanishing point. With w = (origin's depth) / (depth
+// there), from 1 to 0, it is end + w (begin - end). It has hit a plate of depth D if w D is at most the origin's depth.
 PictureRelief::Sight PictureRelief::look(const Vec& origin, const Vec& direction) const {
   const Vec from_eye = origin - eye_;
   const double depth = dot(from_eye, basis_.forward), ahead = dot(direction, basis_.forward), by = std::max(ahead, most_turn_cosine);
@@ -42,7 +42,7 @@ PictureRelief::Sight PictureRelief::look(const Vec& origin, const Vec& direction
   if (!(ahead >= most_turn_cosine && depth > 0)) return {std::numeric_limits<double>::infinity(), colour_at(end)};
   const Place begin = place(dot(from_eye, basis_.right) / depth, dot(from_eye, basis_.up) / depth);
   const Place way{begin.x - end.x, begin.y - end.y};
-  const int steps = 1 + static_cast<int>(std::max(std::abs(way.x), std::abs(way.y)));  // of less than a texel
+  const int steps = 1 + static_cast<int>(std::max(std::abs(way.x), std::abs(way.y)));  // each of less than a texel
   const auto at = [&](double w) { return Place{end.x + w * way.x, end.y + w * way.y}; };
   double before = 1, met = 1;
   for (int k = 0; k <= steps; ++k) {
@@ -58,7 +58,7 @@ PictureRelief::Sight PictureRelief::look(const Vec& origin, const Vec& direction
 
 namespace {
 
-/// For each index the nearest one that `is_there`, the lower one of two; itself where none is.
+/// For each index the nearest one with `is_there`, the lower one of two; itself if there is none.
 std::vector<int> nearest(const std::vector<bool>& is_there) {
   const int count = static_cast<int>(is_there.size());
   std::vector<int> out(is_there.size());

@@ -1,4 +1,4 @@
-// A picture with depths as rays meet it, where a scene is not made here but comes in files.
+// A picture with depths as a surface for rays, for scenes that come in files.
 #pragma once
 
 #include <vector>
@@ -10,24 +10,24 @@
 
 namespace rainref::truth {
 
-/// What a pinhole camera saw: each texel a plate across the view axis at its depth, with walls along the view between plates of different
-/// depths. So a ray that passes behind an edge ends there: what the picture hides it does not know. Beyond the picture its outermost
-/// texels go on.
+/// The view of a pinhole camera: each texel is a plate perpendicular to the view axis at its depth, with walls along the view between
+/// plates of different depths. So a ray that passes behind an edge ends there, because the picture does not know what it hides. Beyond the
+/// picture its outermost texels continue.
 class PictureRelief {
  public:
-  /// colour: rgba16f; depth: r32f of the same size, along the view axis [m], finite and not below 0; row 0 = bottom.
-  /// half_width, half_height: of the picture on the image plane at distance 1.
+  /// colour: rgba16f; depth: r32f of the same size, along the view axis [m], finite and nonnegative; row 0 = bottom. half_width,
+  /// half_height: of the picture on the image plane at distance 1.
   PictureRelief(const scene::Camera& camera, double half_width, double half_height, const Image& colour, const Image& depth);
 
   struct Sight {
     double distance;  ///< [m]; infinite for a ray that turns away from the picture by more than most_turn
     Vec radiance;     ///< linear
   };
-  /// What a ray meets that begins before the camera. direction: unit. One that turns away sees the texel at the picture's edge where its
-  /// direction points.
+  /// The hit of a ray that begins before the camera. direction: unit. A ray that turns away sees the texel at the picture's edge in its
+  /// direction.
   Sight look(const Vec& origin, const Vec& direction) const;
 
-  static constexpr double most_turn_cosine = 0.05;  ///< to the view axis
+  static constexpr double most_turn_cosine = 0.05;  ///< cosine of the largest angle to the view axis
 
  private:
   struct Place {
@@ -39,21 +39,21 @@ class PictureRelief {
 
   Vec eye_;
   scene::Camera::Basis basis_;
-  double scale_[2];  // of the image plane to texture coordinates
+  double scale_[2];  // from the image plane to texture coordinates
   int columns_, rows_;
   TextureData colour_;
   std::vector<float> depth_;
 };
 
-/// A picture with depths without what stands before the glass.
+/// A picture with depths from which objects before the glass are removed.
 struct Uncovered {
   Image colour;  ///< rgba32f
   Image depth;   ///< r32f [m]
 };
 
-/// What a picture (rgba32f, with depths r32f) shows behind the glass, whose depth in each texel is channel 2 of `surface` (rgba32f). What
-/// something nearer hides is not known: it is taken to be like the nearest texel of the row that is behind the glass, the left one of two,
-/// and a row without any like the nearest row with some, the lower one of two. Where nothing is behind the glass the picture stays.
+/// Removes objects before the glass from a picture (rgba32f, with depths r32f); the glass's depth in each texel is channel 2 of `surface`
+/// (rgba32f). Hidden texels are copied from the nearest texel in the row that is behind the glass, the left one of two. A row without any
+/// is copied from the nearest row with some, the lower one of two. If nothing is behind the glass the picture is unchanged.
 Uncovered uncovered(const Image& colour, const Image& depth, const Image& surface);
 
 }  // namespace rainref::truth

@@ -1,4 +1,4 @@
-// What comparisons of pictures have in common.
+// Shared parts of comparisons of pictures.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ inline double degrees_between(const Vec& a, const Vec& b) {
   return atan2_real(Real64(__builtin_sqrt(dot(c, c))), Real64(dot(a, b))).v * (180 / pi);
 }
 
-/// The signed difference of the channel that differs most.
+/// The signed difference in the channel that differs most.
 inline double largest_difference(const double (&trick)[3], const double (&truth)[3]) {
   double worst = 0;
   for (int k = 0; k < 3; ++k) {
@@ -36,7 +36,7 @@ inline void read(const Half* texel, double (&out)[3]) {
 inline void read(const Unorm8* texel, double (&out)[3]) {
   for (int k = 0; k < 3; ++k) out[k] = texel[k].code;
 }
-/// The same of pixel (x, y) of two images of one format, T.
+/// The same for pixel (x, y) of two images of one format, T.
 template <class T>
 double pixel_difference(const Image& trick, const Image& truth, int x, int y) {
   double a[3], b[3];

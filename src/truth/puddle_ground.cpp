@@ -8,7 +8,7 @@ namespace rainref::truth {
 
 void PuddleGround::finish(const Places& places, const Finishes& finishes) const {
   static thread_local Columns<3> room;
-  // Under water the slope does not show.
+  // Under water the slope is not visible.
   const double* height = places.point.component[1];
   const bool has_slopes = sheet_ && std::any_of(height, height + places.size(), [](double y) { return y >= 0; });
   room.make_room(places.size());

@@ -17,17 +17,17 @@ namespace rainref::truth {
 namespace {
 
 constexpr double everywhere = 1000;  // half a side of the level ground around the rectangle [m]
-constexpr double in_street = 6;      // the same where the street's own road goes on
+constexpr double in_street = 6;      // the same if the street's own road continues
 
-/// Height of the ground where the passes have this depth of water. They know dry ground only as level: what stands out of
-/// the water keeps its slope at the shore and is flattened toward 6 mm.
+/// Height of the ground where the passes have this depth of water. For the passes dry ground is level; here it keeps its slope at the shore
+/// and is flattened toward 6 mm.
 float ground_height(float depth) {
   constexpr double flattest = 0.006;
   const double height = -static_cast<double>(depth);
   return static_cast<float>(height <= 0 ? height : height * flattest / (flattest + height));
 }
 
-/// A level plane with a hole: four rectangles, their outside up.
+/// A level plane with a hole: four rectangles with their outside up.
 std::shared_ptr<Plates> surround(double half_x, double half_z, double height, double outer) {
   const auto piece = [height](double x0, double x1, double z0, double z1) {
     return Plate{Plate::parallelogram, {x0, height, z0}, {0, 0, z1 - z0}, {x1 - x0, 0, 0}};
@@ -36,7 +36,7 @@ std::shared_ptr<Plates> surround(double half_x, double half_z, double height, do
                                                      piece(-outer, -half_x, -half_z, half_z), piece(half_x, outer, -half_z, half_z)});
 }
 
-/// A sheet whose vertices are the centres of texels, with a ring of vertices at `border` around them.
+/// A heightfield with vertices at the centres of texels, and a ring of vertices at `border` around them.
 struct Ringed {
   std::shared_ptr<Heightfield> sheet;
   std::vector<float> heights;
@@ -56,7 +56,7 @@ struct Ringed {
   float* row(int y) { return heights.data() + static_cast<std::size_t>(y + 1) * (width + 2) + 1; }
 };
 
-/// Slopes of a sheet at its vertices by central differences, for normals between them.
+/// Slopes of a heightfield at its vertices by central differences, for normals between them.
 class Slopes {
  public:
   void take(const Ringed& sheet, double cell, const parallel::Executor& executor) {
@@ -76,7 +76,7 @@ class Slopes {
       }
     });
   }
-  /// Normals at hits of the sheet: slopes interpolated, as surface_hit does.
+  /// Normals at hits: slopes interpolated, as in surface_hit.
   void normals(const Places& places, const VecArraysOut& out) const {
     normals_of_interpolated_slopes({slopes_.data(), width_ - 1}, places.size(), places.hits, out);
   }

@@ -16,7 +16,7 @@
 namespace rainref::truth {
 namespace {
 
-/// What shade takes for the end of the refracted ray: the bed's depth under the surface point, straight along the ray.
+/// shade's end of the refracted ray: the bed's depth under the surface point, straight along the ray.
 Vec ground_of_passes(const Vec& point, const Vec& view, const Vec& normal, double depth) {
   const Vec bent = split(view, normal, 1, water_refractive_index).refracted;
   return point + depth / std::max(-bent.y, 0.05) * bent;
@@ -67,7 +67,7 @@ Comparison compare(const puddle::Puddle& puddle, const puddle::Settings& setting
     std::vector<Ray> bent = rays;
     std::vector<Vec> normals(rays.size());
     for (int x = 0; x < width; ++x) {
-      bent[x].farthest = 0;  // not asked for, unless the ray meets water
+      bent[x].farthest = 0;  // skipped unless the ray hits water
       if (!hits[x].is_surface() || !scene.material(hits[x].surface).is_masked) continue;
       const Material& water = scene.material(hits[x].surface);
       Place at;
@@ -128,7 +128,7 @@ Comparison compare(const puddle::Puddle& puddle, const puddle::Settings& setting
 
 namespace {
 
-/// Null where rays see the passes' picture.
+/// Null if rays see the passes' picture.
 std::shared_ptr<const scene::Scenery> street(const scene::Config& config, const effect::Inputs& inputs) {
   if (config.text("compositor.surroundings") != "street") return nullptr;
   if (!config.text("environment.image").empty()) {

@@ -61,7 +61,7 @@ RainyGlassView::Street street_behind(const scene::Config& config, const rainy_gl
 
 class RainyGlassTracing : public PaneTracing<RainyGlassView, rainy_glass::Instance> {
  public:
-  /// street: nothing where the scene comes in pictures.
+  /// street: none if the scene comes in pictures.
   RainyGlassTracing(const scene::Config& config, const rainy_glass::Instance& glass, std::optional<RainyGlassView::Street> street,
                     const parallel::Executor& on)
       : PaneTracing(config, glass,

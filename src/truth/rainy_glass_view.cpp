@@ -16,7 +16,7 @@ namespace {
 
 using rainy_glass::Settings;
 
-/// The camera, where settings are such as can be traced.
+/// The camera, if the settings can be traced.
 scene::Camera checked(const Settings& s, double thickness) {
   if (s.variant != Variant::corrected || s.shape != rainy_glass::Shape::pane || s.use_probe) {
     throw Error(ExitCode::usage, "a traced pane: expected the corrected variant, glass.shape = \"pane\" and glass.background = \"grab\"");
@@ -29,7 +29,7 @@ scene::Camera checked(const Settings& s, double thickness) {
   return rainy_glass::camera(s);
 }
 
-/// As much of the glass as the picture shows and a little more; no further than can be seen on glass at a slant.
+/// The part of the glass in the picture and a little more; limited for glass at a grazing angle.
 RainyGlassView::Extent extent_of(const Settings& s, const scene::Camera::Basis& basis, double half_width, double half_height) {
   const Vec level = rainy_glass::level_forward(s), normal = rainy_glass::facing(s), across = cross(Vec(0, 1, 0), normal);
   const double most = 100 * s.distance, margin = 0.05 * s.distance;
@@ -52,7 +52,7 @@ PaneShape shape_of(const Settings& s, const RainyGlassView::Extent& extent, doub
   return {middle + extent.low.u * across + extent.low.v * up, extent.size.u * across, extent.size.v * up, normal, thickness, 0};
 }
 
-/// Water of given slopes, met on the face; where a slope turns away from the ray the face's own normal counts.
+/// Water of given slopes, hit on the face; if a slope turns away from the ray, the face's own normal is used.
 class SlopeFace : public FacePatch {
  public:
   SlopeFace(const Pane& pane, std::function<rainy_glass::ShownGlass::Slope(double, double)> slope)
@@ -71,7 +71,7 @@ class SlopeFace : public FacePatch {
   double width_, height_;
 };
 
-/// What stands before the glass, as the picture shows it: a screen between the eye and the pane.
+/// Objects before the glass, from the picture: a screen between the eye and the pane.
 class Foreground {
  public:
   Foreground(const RainyGlassView& view, const Image& surface)
@@ -154,7 +154,7 @@ RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction)
   const double u = 0.5 + 0.5 * dot(from_eye, basis_.right) / (z * half_width_),
                v = 0.5 + 0.5 * dot(from_eye, basis_.up) / (z * half_height_);
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return {from_eye, seen.radiance};
-  // The eye sees the place unless something nearer hides it, there and all around: a texel's depth is that of its centre.
+  // The eye sees the point unless something nearer hides it, there and in all neighbours, because a texel's depth is that of its centre.
   const int column = static_cast<int>(u * settings_.width), row = static_cast<int>(v * settings_.height);
   float deepest = 0;
   for (int y = std::max(row - 1, 0); y <= std::min(row + 1, settings_.height - 1); ++y) {

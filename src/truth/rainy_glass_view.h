@@ -1,9 +1,9 @@
-// The pane of rainy_glass as rays see it: the eye, glass of real thickness, water whose slopes the maps give, a street or a
-// picture with depths behind it, seen by a camera that focuses on the pane.
+// The pane of rainy_glass for rays: the eye, glass of real thickness, water whose slopes the maps give, a street or a picture with depths
+// behind it, seen by a camera that focuses on the pane.
 //
-// The effect knows no height of its water, and none can be had: a slope that is masked, or mixed of two phases, is the gradient of
-// no surface. So the truth here is a sheet too thin to matter, with these slopes: rays are met on the outer face and bent there,
-// twice by Snell's law, with the normal of the slope at that very place.
+// The effect has no height of its water, and none can be derived: a slope that is masked, or mixed from two phases, is not the gradient of
+// a surface. So the truth is an infinitely thin sheet with these slopes. Rays hit the outer face and are refracted there twice by Snell's
+// law, with the normal of the slope at that point.
 #pragma once
 
 #include <memory>
@@ -23,21 +23,20 @@ namespace rainref::truth {
 
 class RainyGlassView {
  public:
-  /// The street, and its picture without anything before the glass.
+  /// The street, and its picture without objects before the glass.
   struct Street {
     std::shared_ptr<const scene::Scenery> scenery;
     rainy_glass::Surroundings unbarred;
   };
-  /// around: what the passes take, which must outlive the view; street: nothing where the scene comes in pictures, which `show` hands over.
-  /// thickness [m]. Throws Error(usage) unless the settings are a corrected pane before the grabbed scene, and for glass that reaches to
-  /// the eye.
+  /// around: inputs of the passes, which must outlive the view; street: none if the scene comes in pictures, which `show` sets. thickness
+  /// [m]. Throws Error(usage) unless the settings are a corrected pane before the grabbed scene, and for glass that reaches to the eye.
   RainyGlassView(const rainy_glass::Settings& settings, const rainy_glass::Surroundings& around, std::optional<Street> street,
                  double thickness, const TracerOptions& tracer);
 
-  /// The pictures that `around` has now, with what stands before the glass, where `surface` of the running effect says that it is, away.
+  /// Sets the current pictures of `around`, and removes objects that are before the glass according to `surface` of the running effect.
   void show(const Image& surface);
 
-  /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene.
+  /// Surfaces and surroundings of the last rendered frame, committed. The view must outlive the scene.
   std::unique_ptr<Scene> scene(const rainy_glass::RainyGlass& rendered) const;
 
   scene::Camera camera() const { return camera_; }
@@ -46,9 +45,9 @@ class RainyGlassView {
   const rainy_glass::Surroundings& surroundings() const { return *around_; }
   int width() const { return settings_.width; }
   int height() const { return settings_.height; }
-  /// The picture that the effect's display makes of a radiance (rgba16f). rgba8.
+  /// The effect's display of a radiance (rgba16f). rgba8.
   Image display(const Image& radiance, const parallel::Executor& executor) const;
-  /// Of the pane's (u, v), as the passes know places on the glass [m].
+  /// Position on the glass [m] for the pane's (u, v), in the coordinates of the passes.
   struct Spot {
     double u, v;
   };
@@ -58,16 +57,16 @@ class RainyGlassView {
     Spot low, size;
   };
 
-  /// What a ray that left the glass comes to: from the eye toward the place where it meets the scene, and linear radiance. Of the street:
-  /// where the eye sees that place, radiance is its picture's, out of focus as that is; elsewhere the street's own, sharp.
+  /// Result of a ray that left the glass: the direction from the eye to the point where it hits the scene, and linear radiance. For a
+  /// street: if the eye sees that point, radiance is that of its picture, which is out of focus; elsewhere it is the street's own, sharp.
   struct Met {
     Vec from_eye, radiance;
   };
   /// direction: unit.
   Met met(const Vec& origin, const Vec& direction) const;
 
-  /// What pass rain_on_glass makes of wet glass against what rays make of it; `rendered` has rendered a frame. Compared where the picture
-  /// looks through the glass; a pixel is wet where both the pass and the ray through its centre find water there.
+  /// Compares pass rain_on_glass on wet glass with rays; `rendered` has rendered a frame. Only pixels behind the glass are compared; a
+  /// pixel is wet if both the pass and the ray through its centre find water there.
   ///   pixels       pixels; glass_pixels; wet_pixels, wet_in_pass_only, wet_in_truth_only; mirrored_pixels: wet ones whose ray meets the
   ///                water's surface beyond the critical angle
   ///   refraction [deg]        wet, not mirrored: between the place in the street that the pass shows and the one that the refracted

@@ -1,4 +1,4 @@
-// This room speaks the tracer's language: its scenes, surfaces and pictures are named here without their room.
+// Names of the tracer's scenes, surfaces and pictures without their namespace, for this room.
 #pragma once
 
 #include "compositor/picture.h"

@@ -1,4 +1,4 @@
-// What is traced of a running effect: its pictures, and its passes against them.
+// Traced pictures of a running effect, and comparisons of its passes with them.
 #pragma once
 
 #include <memory>
@@ -14,41 +14,41 @@
 
 namespace rainref::truth {
 
-/// Scene parameters of traced pictures, which the command line adds to those of an effect:
-/// compositor.picture, .samples, .depth and .embree_config, of corrected variants.
+/// Scene parameters of traced pictures, which are added to those of an effect:
+/// compositor.picture, .samples, .depth and .embree_config, for corrected variants.
 std::vector<scene::Parameter> parameters();
-/// compositor.glass_thickness, of what is seen through a pane.
+/// compositor.glass_thickness, for scenes seen through a pane.
 scene::Parameter pane_thickness();
-/// Those and the thickness, of corrected panes.
+/// Those and the thickness, for corrected panes.
 std::vector<scene::Parameter> pane_parameters();
 
 struct Choice {
-  bool is_traced = false;  ///< the picture is traced, not the passes'
+  bool is_traced = false;  ///< the picture is traced instead of made by the passes
   PictureOptions picture;
   TracerOptions tracer;
 };
-/// What a scene chose; where these parameters are not declared, the passes' picture.
+/// The choice of a scene; if these parameters are not declared, the passes' picture.
 Choice choice_from(const scene::Config& config);
 
-/// The name under which traced pictures are recorded; no pass of an effect, so no pack holds it.
+/// The name under which traced pictures are recorded. It is not a pass of an effect, so no pack contains it.
 inline constexpr std::string_view traced_pass = "compositor";
 
 class Tracing {
  public:
   virtual ~Tracing() = default;
-  /// Traces the frame that was rendered last, number `frame`, and records it.
+  /// Traces the last rendered frame, number `frame`, and records it.
   void trace(int frame, Recorder* recorder);
-  /// That picture as display code, row 0 = bottom.
+  /// The traced picture as display code, row 0 = bottom.
   const Image& shown() const { return shown_; }
-  /// All that was traced, as named channels: R G B, normal.X .Y .Z, depth.Z, film, mask; row 0 = bottom.
+  /// All traced channels by name: R G B, normal.X .Y .Z, depth.Z, film, mask; row 0 = bottom.
   std::vector<image_io::Layer> layers() const;
-  /// The passes of the frame that was rendered last against its truth.
+  /// Compares the passes of the last rendered frame with the truth.
   virtual Comparison compare() = 0;
 
  protected:
   Tracing(Choice choice, const parallel::Executor& executor) : choice_(std::move(choice)), executor_(executor) {}
   virtual Picture picture() = 0;
-  /// The picture that the effect's display makes of a radiance.
+  /// The effect's display of a radiance.
   virtual Image display(const Image& radiance) const = 0;
   const Choice& choice() const { return choice_; }
   const parallel::Executor& executor() const { return executor_; }
@@ -63,19 +63,19 @@ class Tracing {
 /// How an effect is traced.
 struct EffectTracing {
   const char* effect;
-  /// What its scenes may say of it.
+  /// Its scene parameters.
   std::vector<scene::Parameter> (*parameters)();
-  /// Null where this scene has no truth. Throws Error(usage) where it wants a traced picture that cannot be. Instance and executor must
-  /// outlive it. inputs: those that the instance was opened with.
+  /// Null if this scene has no truth. Throws Error(usage) if it asks for a traced picture that is impossible. Instance and executor must
+  /// outlive it. inputs: those with which the instance was opened.
   std::unique_ptr<Tracing> (*make)(const scene::Config& config, const effect::Instance& instance, const effect::Inputs& inputs,
                                    const parallel::Executor& executor);
-  /// Adds what traced pictures take, where the scene wants them.
+  /// Adds the memory of traced pictures, if the scene asks for them.
   void (*hold)(effect::RunMemory& memory, const scene::Config& config);
 };
-/// Null for an effect that is not traced.
+/// Null for an effect without tracing.
 const EffectTracing* tracing_of(std::string_view effect);
 
-/// A traced picture, its channels and its display.
+/// Adds the memory of a traced picture, its channels and its display.
 void hold_traced(effect::RunMemory& memory, const scene::Config& config);
 
 EffectTracing puddle_tracing();

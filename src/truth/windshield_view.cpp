@@ -86,8 +86,8 @@ EffectTracing windshield_tracing() {
             return std::make_unique<WindshieldTracing>(config, static_cast<const windshield::Instance&>(instance), inputs, executor);
           },
           [](effect::RunMemory& m, const scene::Config& config) {
-            // The pictures as rays look them up: floats, and their depths. Their size is not known yet; as the effect does, the street's
-            // counts.
+            // The pictures for lookups by rays: floats, and their depths. Their size is unknown yet, so the street's is assumed, as in the
+            // effect.
             const auto [width, height] = config.integer2("scene.size");
             if (choice_from(config).is_traced && effect::is_named(config, "scene.image"))
               m.peak.hold(static_cast<std::size_t>(width * height) * (4 + 1) * sizeof(float));
@@ -104,7 +104,7 @@ PaneShape shape_of(const windshield::Corners& corners, const WindshieldGlass& gl
   return {vec(plane.origin), vec(plane.e_u), vec(plane.e_v), vec(plane.normal), glass.thickness, glass.radius};
 }
 
-/// The street or the pictures outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
+/// The street or the pictures outside, and the dark cabin for rays that stay on the driver's side or return to the car.
 class OutsideCar : public Environment {
  public:
   OutsideCar(const WindshieldView& view, double distance, std::span<const windshield::FallingDropView> falling)
@@ -122,14 +122,14 @@ class OutsideCar : public Environment {
         continue;
       }
       const scene::Scenery::Sight seen = view_.look(distance_, escaped_ray.origin, escaped_ray.direction);
-      // The fog of level 0 of the blur pyramid, by the length of the ray; there the sky is as far as can be.
+      // The fog of level 0 of the blur pyramid, by the length of the ray; the sky has the largest distance.
       const double far = std::min(seen.distance, windshield::street_far), clear = exp_real(Real64(-s.blur.fog_density * far)).v;
       out[i] = falling_.through(escaped_ray.origin, escaped_ray.direction, seen.distance, (1 - clear) * fog + clear * seen.radiance);
     }
   }
 
  private:
-  /// A ray that was cut off at the inner face looks out as if nothing followed. One that left through a pane begins at its surface.
+  /// A ray that was cut off at the inner face looks out as if nothing followed. A ray that left through a pane begins at its surface.
   bool is_outside(const EscapedRay& ray) const {
     const std::vector<Pane>& panes = view_.panes();
     for (std::size_t k = 0; k < panes.size(); ++k) {
@@ -139,7 +139,7 @@ class OutsideCar : public Environment {
     }
     return false;
   }
-  static constexpr double near_surface = 0.05;  // m: above any drop, below what parts two panes
+  static constexpr double near_surface = 0.05;  // m: above any drop, less than the gap between two panes
 
   const WindshieldView& view_;
   FallingRainIndex falling_;

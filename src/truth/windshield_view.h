@@ -1,4 +1,4 @@
-// The windshield as rays see it: the driver's eye, a pane of glass, the water of a frame, the street at night behind it.
+// The windshield for rays: the driver's eye, a pane of glass, the water of a frame, the street at night behind it.
 #pragma once
 
 #include <memory>
@@ -24,38 +24,36 @@ struct WindshieldGlass {
 
 class WindshieldView {
  public:
-  /// street: null where `show` hands over pictures. Throws Error(usage) for a pane that cannot be.
+  /// street: null if `show` sets pictures. Throws Error(usage) for an invalid pane.
   WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
                  std::shared_ptr<const scene::Scenery> street, const parallel::Executor& executor);
 
-  /// Pictures in the street's place from now on, as the windshield has them: scene_colour() and scene_depth().
+  /// Sets pictures that replace the street, as the windshield has them: scene_colour() and scene_depth().
   void show(const Image& colour, const Image& depth);
 
-  /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene,
-  /// and the executor the view.
+  /// Surfaces and surroundings of the last rendered frame, committed. The view must outlive the scene, and the executor the view.
   std::unique_ptr<Scene> scene(const windshield::Windshield& rendered) const;
-  /// The same with these height textures [mm], of the windshield and of as many further panes as there are, the car `distance` metres on
-  /// from where it began.
-  /// `falling` rain behind the glass must outlive the scene.
+  /// The same with these height textures [mm], of the windshield and of its further panes, with the car `distance` metres after its start.
+  /// The rain `falling` behind the glass must outlive the scene.
   std::unique_ptr<Scene> scene(std::span<const Image* const> heights, double distance,
                                std::span<const windshield::FallingDropView> falling = {}) const;
-  /// Where the car of that frame is along the street [m].
+  /// Position of that frame's car along the street [m].
   double distance(const windshield::Windshield& rendered) const;
 
   /// The windshield, and the car's further panes.
   const std::vector<Pane>& panes() const { return panes_; }
-  /// What lies outside in the direction of a ray, without fog: of the pictures, or of the street for a car `distance` metres on.
-  /// direction: unit. An infinite distance is the sky's.
+  /// The light from outside in the direction of a ray, without fog: from the pictures, or from the street for a car `distance` metres after
+  /// its start. direction: unit. The sky has infinite distance.
   scene::Scenery::Sight look(double distance, const Vec& origin, const Vec& direction) const;
   scene::Camera camera() const { return windshield::camera(settings_.picture); }
   const windshield::Settings& settings() const { return settings_; }
   int width() const { return settings_.picture.width; }
   int height() const { return settings_.picture.height; }
-  /// The picture that the windshield's display makes of a radiance (rgba16f). rgba8.
+  /// The windshield's display of a radiance (rgba16f). rgba8.
   Image display(const Image& radiance, const parallel::Executor& executor) const;
 
-  /// What composite makes of a wet windshield against what rays make of it, on the glass; `rendered` has rendered a frame, whose pictures
-  /// this view shows where it is not of the street. A pixel is a drop's where composite shows it as one by half or more, else the film's.
+  /// Compares composite on a wet windshield with rays, on the glass; `rendered` has rendered a frame, whose pictures this view shows if it
+  /// has no street. A pixel is a drop pixel if composite shows at least half of it as a drop, else a film pixel.
   ///   pixels                   glass_pixels, drop_pixels; mirrored_pixels: drops' whose ray meets the water's surface beyond the critical
   ///                            angle
   ///   refraction [deg]         drops: between the place outside that composite shows and the one that the refracted ray meets, as the

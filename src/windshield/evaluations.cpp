@@ -44,7 +44,7 @@ namespace {
 
 using scalar::PlanePoint;
 
-/// Plane coordinates of a place on the glass, of a texture of so many texels.
+/// Plane coordinates of a point on the glass, for a texture of this number of texels.
 template <class N>
 PlanePoint<N> place_in_plane(const WipeTextureUniforms& u, const float* place, int width, int height) {
   const N column = N(place[0]) * N(static_cast<float>(width)), row = N(place[1]) * N(static_cast<float>(height));

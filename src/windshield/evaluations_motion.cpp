@@ -24,7 +24,7 @@ using Number = scalar::Scalar<float>;
 
 using WipedPass = pass::Bound<WipeDropsPass, scalar::WipeDropsPassText>;
 
-/// What wipe_drops corrected takes.
+/// Inputs of wipe_drops corrected.
 struct Sweep {
   const WipedPass& pass;
   const WipeDropsUniforms& uniforms = pass.uniforms;
@@ -56,24 +56,24 @@ struct Sweep {
 };
 
 constexpr std::uint64_t most_units = static_cast<std::uint64_t>(drops::most_mass);
-/// Whole mass units, as the pass has them.
+/// Integer mass units, as in the pass.
 std::uint64_t mass_units_of(float x) { return x > 0 ? static_cast<std::uint64_t>(std::min(x, drops::most_mass)) : 0; }
 
-/// A record and one of its radial bins; none: nothing is handed on there.
+/// A record and one of its radial bins; none: no water is handed on.
 using Place = int;
 constexpr Place none = -1;
 Place place_of(const WipeDropsUniforms& u, float wiper, float bin) {
   if (!(wiper >= 0)) return none;
   return whole_within(wiper, 0, u.wiper_count - 1) * u.bin_count + whole_within(bin, 0, u.bin_count - 1);
 }
-/// The place of a drop or texel in one run of a paths.
+/// The place of a drop or texel on one path.
 template <class Swept>
 Place decided_place(const WipeDropsUniforms& u, const Swept& s) {
   if (s.wiper.is_point() && s.bin.is_point()) return place_of(u, s.wiper.lo, s.bin.lo);
   enclosed::give_up();
   return none;
 }
-/// Every place that `decide` comes to, ascending. False where there are too many.
+/// All results of `decide`, ascending. False if there are too many.
 template <class Decide>
 bool places(Decide decide, std::vector<Place>& out) {
   enclosed::PathEnumeration paths;
@@ -84,9 +84,9 @@ bool places(Decide decide, std::vector<Place>& out) {
   return whole;
 }
 
-/// The drops after the sweep. What a texel of the film hands on is whole mass units, so the water that a place gets is a sum
-/// of integers: of the texels that surely go there, and of those beside a border, each of which may or may not. Drops that
-/// may get the water of one place are one group, because which of them gets it hangs on where the others are.
+/// The drops after the sweep. A texel of the film hands on whole mass units, so the water of a place is a sum of integers: of the texels
+/// that certainly go there, and of texels beside a border, each of which may or may not. Drops that may get the water of one place form a
+/// group, because the receiver depends on the positions of the others.
 class SweptDrops : public capture::KeyedModel {
  public:
   explicit SweptDrops(const WipedPass& pass) : s_{pass} {
@@ -104,7 +104,7 @@ class SweptDrops : public capture::KeyedModel {
       const Drop& drop = s_.drops[i];
       const scalar::WipedDrop<Enclosure> d = s_.wiped<Enclosure>(drop);
       const Place place = decided_place(s_.uniforms, d);
-      // That the others of this place are in the group was settled beforehand.
+      // It was settled beforehand that the others of this place are in the group.
       if (!std::binary_search(places_[i].begin(), places_[i].end(), place)) enclosed::give_up();
       out.push_back(pass::keyed_record<scalar::DropState<Enclosure>>(d, d.lives(), drop.id));
       if (place == none) continue;
@@ -168,7 +168,7 @@ class SweptDrops : public capture::KeyedModel {
         if (!is_first) to[root(i)] = root(other->second);
       }
     }
-    // One that may be anywhere belongs to all of them: its group is given up.
+    // A drop that may be anywhere belongs to all groups, so its group is given up.
     for (const std::size_t i : anywhere)
       for (const auto& [place, other] : first) to[root(other)] = root(i);
     std::map<std::size_t, std::size_t> number;
@@ -178,7 +178,7 @@ class SweptDrops : public capture::KeyedModel {
       groups_[at->second].push_back(i);
     }
   }
-  /// The least and the most that a place gets under the profile in force.
+  /// Minimum and maximum water of a place under the current profile.
   std::pair<std::uint64_t, std::uint64_t> film_of(Place place) const {
     const auto found = shares_.find(place);
     if (found == shares_.end()) return {0, 0};

@@ -22,7 +22,7 @@ namespace {
 using namespace rainref::scene;
 using namespace rainref::capture;
 
-/// What the picture's passes take and give.
+/// Inputs and outputs of the picture's passes.
 std::vector<BufferInfo> picture_buffers() {
   std::vector<BufferInfo> all{{.name = "glints", .format = "records", .sentence = "Lights that drops mirror.", .record = "Glint"},
                               {.name = "streaks",

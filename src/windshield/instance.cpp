@@ -27,11 +27,12 @@ effect::RunMemory memory_of(const scene::Config& config) {
                       6};
   const std::size_t texels = static_cast<std::size_t>(scene[0]) * static_cast<std::size_t>(scene[1]);
   if (effect::is_sequence(config.text("scene.image")) || effect::is_sequence(config.text("scene.depth_image")))
-    m.peak.pass(texels * (3 * 16 + 3 * 4 + 8));  // decoded, turned over, as they are taken
+    m.peak.pass(texels * (3 * 16 + 3 * 4 + 8));  // decoded, flipped, and as inputs of the passes
   return m;
 }
 
-/// Of a frame, as the passes take them; empty where none is named. Without a depth all is as far as the street's sky.
+/// The pictures of a frame as inputs of the passes; empty if none is named. Without a depth everything is at the distance of the street's
+/// sky.
 Surroundings pictures_of(const effect::ScenePictures& named, int frame, effect::Inputs& files) {
   Surroundings s;
   if (!named.are_named()) return s;

@@ -1,4 +1,4 @@
-// The windshield as a scene says it: opened, run and written like every effect.
+// The windshield of a scene, with the common interface of all effects.
 #pragma once
 
 #include "drops/records.h"
@@ -9,13 +9,13 @@
 
 namespace rainref::windshield {
 
-/// What the passes take of a picture of linear radiance, rgba32f: as rgba16f, alpha 1, below 0 as 0 and beyond the largest half as that;
-/// all of it as far away as the street's sky.
+/// Converts a picture of linear radiance, rgba32f, to the input of the passes: rgba16f, alpha 1, clamped to [0, largest half]; all of it at
+/// the distance of the street's sky.
 Surroundings surroundings_of(const Image& linear);
 
-/// What the registry holds.
+/// Entry of the registry.
 effect::Effect entry();
-/// The street that such a scene drives along where it names no pictures.
+/// The street along which a scene without pictures drives.
 std::shared_ptr<const scene::Scenery> street_of(const Settings& settings, const effect::Inputs& inputs);
 
 class Instance final : public effect::InstanceOf<Windshield> {
@@ -32,7 +32,7 @@ class Instance final : public effect::InstanceOf<Windshield> {
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
   bool has_drops_layer() const override { return true; }
-  /// Of the windshield itself, before its interior.
+  /// For the windshield itself, before its interior.
   effect::DropsLayer drops_layer(const parallel::Executor& executor) const override;
   std::optional<effect::Display> display() const override;
 
@@ -42,7 +42,7 @@ class Instance final : public effect::InstanceOf<Windshield> {
   Settings settings_;
   effect::ScenePictures named_;
   effect::ScenePictures::Shown shown_;
-  std::vector<drops::Drop> drops_;  // of frame drops_frame_, as buffers() gave them
+  std::vector<drops::Drop> drops_;  // of frame drops_frame_, as buffers() returned them
   int drops_frame_ = -1;
 };
 

@@ -14,14 +14,14 @@
 namespace rainref::windshield {
 namespace {
 
-/// Drops that arrive on a pane in so many frames, of which there is room for some.
+/// Number of drops that arrive on a pane in this many frames, limited by the capacity.
 std::int64_t most_drops(const Settings& s, const Vehicle& vehicle, const Weather& weather, int frames) {
   const Glass glass = make_glass(s.corners);
   const Shelter shelter(s.weather.shelter, vehicle, middle_of(glass));
   double arrivals = s.drops_share * shelter.rained(weather, frames / s.fps);
   if (s.corrected) {
     arrivals = 0;
-    // In parts of the run of about a second: the flux is a sum over sizes, and speed, wind and rain change slowly.
+    // In parts of about a second of the run, because the flux is a sum over sizes, and speed, wind and rain change slowly.
     const int parts = std::max(1, static_cast<int>(frames / s.fps));
     drops::Settings rain = s.drops;
     const double part = frames / s.fps / parts;
@@ -54,7 +54,7 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const auto image = [](Format f, int width, int height) { return Image::memory_bytes(f, width, height); };
   const Weather weather(s.weather);
   MemoryPeak m;
-  std::uint64_t wet_more = 0, wet_most = 0;  // drops as they come: of all panes; what the passes of one take besides
+  std::uint64_t wet_more = 0, wet_most = 0;  // arrivals of drops: on all panes; extra scratch of one pane's passes
   for (int k = 0; k <= static_cast<int>(s.panes.size()); ++k) {
     const Settings of = settings_of_pane(s, k);
     const int columns = of.surface.width, rows = of.surface.height;
@@ -82,8 +82,8 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const bool moves = own && s.scene_moves;
   if (own && !moves) m.pass(rendered.peak());
   m.hold(s.shows_blades ? 2 * view : view);
-  // Two pictures of the street, of which the view is made: at the start one alone, for there is no way yet. A car that comes to the next
-  // one has both while that is rendered.
+  // The view is made from two pictures of the street; at the start from one, because the car has not moved. A car that reaches the next one
+  // has both while that one is rendered.
   const double apart = StreetDrive::spacing / s.keyframes, way = vehicle.at((frames - 1) / s.fps).distance;
   if (moves) {
     m.pass(rendered.peak());
@@ -95,7 +95,7 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
     m.hold(image(Format::rgba16f, w, h));
     texels += static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h);
   }
-  m.hold(4 * sizeof(Half) * texels);  // as they are looked up
+  m.hold(4 * sizeof(Half) * texels);  // as stored for lookups
   m.pass(wet_more + wet_most);
   m.hold(wet_more);
   if (moves && way > 0) {

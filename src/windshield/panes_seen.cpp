@@ -1,4 +1,4 @@
-// What is seen through the panes and before them, with the windshield's drops or without.
+// The view through the panes and the interior before them, with or without the windshield's drops.
 #include "base/floating_point.h"
 #include "windshield/picture/interior.pass.h"
 #include "windshield/picture/join_panes.pass.h"
@@ -6,7 +6,7 @@
 
 namespace rainref::windshield {
 
-/// composite of each pane in turn, each beyond the first joined to those before it. `before`: seconds that the first took already.
+/// composite of each pane in turn, with each one after the first joined to those before. `before`: time already spent on the first [s].
 void Windshield::State::show_panes(const pass::Moment& now, bool shows_drops, Image& all, double before) {
   const Rounding rounding = settings.surface.rounding;
   for (std::size_t k = 0; k < panes.size(); ++k) {
@@ -28,7 +28,7 @@ void Windshield::State::show_panes(const pass::Moment& now, bool shows_drops, Im
   }
 }
 
-/// interior, on what all panes show.
+/// interior, over the view through all panes.
 void Windshield::State::sit_inside(const pass::Moment& now, Image& seen) {
   pass::HostIo<InteriorPass> io;
   io.interior = interior;

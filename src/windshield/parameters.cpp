@@ -15,7 +15,7 @@ namespace {
 
 using namespace rainref::scene;
 
-/// The picture and its passes; size and margin are said elsewhere.
+/// The picture and its passes; size and margin are handled elsewhere.
 const std::vector<MemberParameter<PictureSettings>>& picture_members() {
   using P = PictureSettings;
   static const std::vector<MemberParameter<P>> table{
@@ -136,7 +136,7 @@ const std::vector<MemberParameter<Settings>>& step_members() {
 }
 
 constexpr int fewest_texels = 8, most_texels = 16384;
-// Odd, so that panes of one scene, and of scenes with seeds beside one another, draw other numbers.
+// Odd, so that panes of one scene, and scenes with neighbouring seeds, draw different numbers.
 constexpr std::uint64_t next_seed = 0x9e3779b97f4a7c15;
 
 int texels(double of_windshield, double metres, double metres_of_windshield) {

@@ -1,4 +1,4 @@
-// What a scene says of a windshield: every part's settings, and the parameters that say it.
+// The settings of all parts of a windshield, and their parameters.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct Settings : MotionSettings {
   std::uint64_t seed = 1;
   double fps = 60;
   int substeps = 1;
-  double drops_share = 1;  ///< of a pane as published: its new drops over the windshield's
+  double drops_share = 1;  ///< for a pane as published: its new drops relative to the windshield's
   drops::Settings drops;
   drops::SplatSettings splat;
   SurfaceSettings surface;
@@ -41,17 +41,17 @@ struct Settings : MotionSettings {
 };
 
 std::span<const scene::Parameter> parameters();
-/// Throws Error(usage) where a value cannot be, alone or with others.
+/// Throws Error(usage) for a value that is invalid, alone or with others.
 Settings settings_from(const scene::Config& config);
-/// The settings of one pane. Number 0 is the windshield: all as they are. The others have their own corners, textures with texels of the
-/// windshield's size, wipers and drops of their own, and as published the windshield's new drops by area.
+/// The settings of one pane. For number 0, the windshield, they are unchanged. The others have their own corners, textures with texels of
+/// the windshield's size, and their own wipers and drops; as published the windshield's new drops are scaled by area.
 Settings settings_of_pane(const Settings& car, int number);
 
-/// Memory of the constructor and of so many frames. scene: columns and rows of a picture that takes the street's place, which the
-/// windshield then owns; 0: the street.
+/// Memory of the constructor and of this many frames. scene: columns and rows of a picture that replaces the street, which the windshield
+/// then owns; 0: the street.
 MemoryPeak memory(const Settings& settings, int frames, std::array<int, 2> scene = {0, 0});
 
-/// Drops of falling_rain in view at the most, in so many seconds.
+/// Largest number of drops of falling_rain in view within this many seconds.
 double most_falling(const Settings& settings, double seconds);
 
 }  // namespace rainref::windshield

@@ -1,5 +1,5 @@
-// The scalar evaluations of every pass: Scalar, Enclosure, Rearranged and Perturbed. A namespace of their own, so that argument types of
-// this room do not pull them into the lanes.
+// The scalar evaluations of every pass: Scalar, Enclosure, Rearranged and Perturbed. They have their own namespace, so that argument types
+// of this room do not pull them into the lanes.
 #pragma once
 
 #include "image/footprint.h"

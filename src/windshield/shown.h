@@ -1,4 +1,4 @@
-// Where composite takes from what a pixel shows: for judging its refraction, not a pass.
+// The scene point that composite shows at a pixel, to check its refraction. Not a pass.
 #pragma once
 
 #include "image/texture.h"
@@ -11,10 +11,10 @@ namespace rainref::windshield {
 struct Shown {
   bool is_on_glass;
   double visibility;  ///< of its drop: 0 none, 1 fully
-  double x, y;        ///< the point of the scene that a drop shows here, on the image plane at distance 1
+  double x, y;        ///< scene point that a drop shows here, on the image plane at distance 1
 };
 
-/// The double evaluation of composite's text, on the textures of the frame that was rendered last.
+/// Evaluates composite's text in double, on the textures of the last rendered frame.
 class ShownScene {
  public:
   ShownScene(const Settings& settings, const Windshield& rendered);

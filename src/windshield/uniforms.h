@@ -1,5 +1,5 @@
-// What the windshield's passes take besides images: uniform blocks and the wiper record. Sizes are multiples of 16 bytes,
-// nothing straddles a 16-byte row, and every gap is a named padding member, so the bytes serve every GPU language.
+// Uniform blocks of the windshield's passes, and the wiper record. Sizes are multiples of 16 bytes, no member crosses a 16-byte row, and
+// every gap is a named padding member, so the bytes are valid in every GPU language.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ struct Wiper {
   float half_width, rate, direction, padding0;
 };
 
-/// A light that the water mirrors.
+/// A light that the water reflects.
 struct Glint {
   float direction[3], padding0;
   float radiance[3], padding1;
 };
 
-/// A drop that falls behind the glass while the shutter is open. Places in texels of the scene's picture: x of columns, y of rows.
+/// A drop that falls behind the glass while the shutter is open. Positions in texels of the scene's picture: x of columns, y of rows.
 struct Streak {
   float opened[2], closed[2];
   float radius, depth, opacity, padding0;

@@ -15,9 +15,9 @@ namespace {
 
 double steps_per_second(const Settings& s) { return s.fps * s.substeps; }
 
-constexpr int composite_rows = 2;  // of a tile: rows differ in cost
+constexpr int composite_rows = 2;  // of a tile; few, because rows differ in cost
 
-/// All of its texels; before: seconds that the host spent on it.
+/// Runs all of its texels; before: host time already spent on it [s].
 template <class P>
 void draw_all(pass::Run<P> pass, const pass::Moment& now, const parallel::Executor& executor, double before = 0, int rows = tile_rows) {
   pass.start(now);
@@ -67,7 +67,7 @@ WetPane::WetPane(const Settings& settings, int number, const Vehicle& vehicle, c
   condensation_ = Image(Format::r16f, w, h);
 }
 
-/// body computes it.
+/// The same, with body computing it.
 template <class P, class Body>
 void WetPane::run(const pass::Moment& now, const typename P::Uniforms& uniforms, const pass::HostIo<P>& io, const Body& body) const {
   pass::Run<P> pass(uniforms, corrected_, now.rounding, io);
@@ -80,11 +80,11 @@ drops::Exposure WetPane::exposure(std::int64_t n, double t, const VehicleState& 
   drops::Exposure e{glass_.area, glass_.normal[2], wind_along_normal(glass_, car, weather.wind(t))};
   const auto begin_of = [&](std::int64_t step) { return static_cast<double>(step) / steps_per_second(settings_); };
   if (corrected_) {
-    // The sizes are those of the rain; of its drops a share meets no roof.
+    // The sizes are those of the rain; only a share of its drops falls outside roofs.
     e.area *= shelter_.open_share(begin_of(n), begin_of(n + 1));
     if (weather.rain_changes()) e.rain_rate = weather.rain(t);
   } else if (weather.rain_changes() || !shelter_.is_open_until(begin_of(n + 1))) {
-    // A millionth: rounding of the integral should not hold back a drop that is due.
+    // The millionth keeps rounding of the integral from delaying a drop that is due.
     const auto until = [&](std::int64_t step) {
       return static_cast<std::int64_t>(settings_.drops_share * shelter_.rained(weather, begin_of(step)) + 1e-6);
     };
@@ -110,7 +110,7 @@ void WetPane::take_forces(double t, const VehicleState& car, const Weather& weat
   forces_ = windshield_frame(windshield_frame_uniforms(glass_, car, weather.wind(t), settings_.gravity, corrected_), corrected_);
 }
 
-// As published the first frame has no frame before it: the blades stand.
+// As published the first frame has no previous frame, so the blades are at rest.
 std::vector<Wiper> WetPane::swept(std::int64_t n, double t, double dt) const {
   return n == 0 && !corrected_ ? wipers_at(settings_.wipers, plane_, t) : wipers_between(settings_.wipers, plane_, t, t + dt, corrected_);
 }
@@ -140,7 +140,7 @@ void WetPane::wipe(const pass::Moment& now, std::int64_t n, double t) {
     const std::int64_t gone = static_cast<std::int64_t>(
         wipe_drops(wipe, corrected_, swept, {d.u(), d.v(), d.velocity_u(), d.velocity_v(), d.mass(), d.life(), d.id()},
                    corrected_ ? &water_.film : nullptr, executor_));
-    // What the drops gained, or lost less than what is gone, came from the film.
+    // Water that the drops gained, or did not lose although it is gone, came from the film.
     water_.mass_balance.removed += gone;
     if (corrected_) water_.mass_balance.to_film -= d.water(executor_) - drops_before + gone;
   });
@@ -232,7 +232,7 @@ void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTextur
   seen.glints = lights;
   seen.colour = colour;
   CompositeUniforms view = view_;
-  if (!shows_drops) {  // no water is so high that it shows as a drop
+  if (!shows_drops) {  // a height that no water reaches, so no drop is visible
     view.visible_from = 1e6f;
     view.visible_to = 2e6f;
   }

@@ -1,4 +1,4 @@
-// One pane of the car: its drops, its blades, its textures, and the order of the passes on them. No arithmetic.
+// One pane of the car: its drops, blades and textures, and the order of the passes on them. No arithmetic.
 #pragma once
 
 #include <vector>
@@ -12,37 +12,37 @@
 
 namespace rainref::windshield {
 
-/// Rows of a tile, of the passes whose tiles are whole rows.
+/// Rows of a tile, for the passes whose tiles are whole rows.
 inline constexpr int tile_rows = 4;
 
 class WetPane {
  public:
-  /// settings: of this pane (settings_of_pane), number: 0 the windshield. The executor must outlive it. Throws Error(usage) for blades and
-  /// an eye that cannot be.
+  /// settings: of this pane (settings_of_pane), number: 0 for the windshield. The executor must outlive it. Throws Error(usage) for invalid
+  /// blades or an invalid eye.
   WetPane(const Settings& settings, int number, const Vehicle& vehicle, const parallel::Executor& executor);
 
   void begin_frame() { wipers_.clear(); }
-  /// windshield_frame to merge, the step after n others, from time t [s].
+  /// Runs windshield_frame to merge: the step after n others, from time t [s].
   void step(const pass::Moment& now, std::int64_t n, double t, const VehicleState& car, const Weather& weather);
-  /// splat to normals of frame number `frame`.
+  /// Runs splat to normals of frame number `frame`.
   void draw(const pass::Moment& now, int frame);
-  /// Of these the ones that leave something for later frames: splat to condense.
+  /// Runs only those passes that later frames need: splat to condense.
   void leave_traces(const pass::Moment& now, int frame);
-  /// composite: the scene through it, into a picture of the camera's size. `before`: seconds that the host spent on it already.
-  /// Where it does not show its drops they are as thin as the film.
+  /// composite: the scene through the pane, into a picture of the camera's size. `before`: host time already spent on it [s]. If the pane
+  /// does not show its drops, they are as thin as the film.
   void composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
                  const Image& scene_depth, std::span<const Glint> lights, bool shows_drops, Image& colour, double before);
-  /// soften, on what composite made; for a scene with smear.
+  /// soften, on the output of composite; for a scene with smear.
   void soften(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const;
-  /// mist, on that; for panes with condensation.
+  /// mist, on that output; for panes with condensation.
   void mist(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const;
 
-  /// What it holds between frames; the blades of a frame are given anew by the steps of it.
+  /// The state between frames. The blades are not part of it; the steps of a frame set them.
   void list_state(state::Items& items);
-  /// Of a step like step(): the blades alone, whose way of a frame the passes on its textures take. For a frame that was simulated
-  /// elsewhere.
+  /// The blades of a step like step(), without the drops; the passes on the textures use their path over the frame. For a frame that was
+  /// simulated elsewhere.
   void sweep(std::int64_t n, double t, double dt);
-  /// Likewise the forces on its drops in that step, by which they lean.
+  /// Likewise the forces on the drops in that step, which determine their lean.
   void take_forces(double t, const VehicleState& car, const Weather& weather);
 
   const Settings& settings() const { return settings_; }
@@ -71,7 +71,7 @@ class WetPane {
 
   Settings settings_;
   const parallel::Executor& executor_;
-  bool corrected_, has_blades_;  ///< where a further pane has none the blades' passes do not run on it
+  bool corrected_, has_blades_;  ///< a further pane may have no blades; the passes of blades then do not run on it
   Glass glass_;
   PlaneFrame plane_;
   CompositeUniforms view_;
@@ -80,16 +80,16 @@ class WetPane {
   drops::GlassFrame forces_{};  ///< of the last step
   std::vector<Wiper> wipers_;   ///< of the frame
   Image height_, mask_, wiped_, normal_;
-  Image previous_height_;            ///< where it persists
-  Image laid_, smear_, profile_;     ///< with smear, of a pane with blades
+  Image previous_height_;            ///< if it persists
+  Image laid_, smear_, profile_;     ///< with smear, for a pane with blades
   Image clear_time_, condensation_;  ///< with condensation
 };
 
-/// How far the middle of a glass lies before the car's origin [m].
+/// Distance of a glass's centre before the car's origin [m].
 double middle_of(const Glass& glass);
-/// The wind as the car meets it, in its axes [m/s], of a wind in world axes.
+/// The wind relative to the car, in its axes [m/s], from a wind in world axes.
 Real3 apparent_wind(const VehicleState& car, const Real3& wind);
-/// The same along the outward normal of a glass; negative: onto it.
+/// Its component along the outward normal of a glass; negative: onto it.
 double wind_along_normal(const Glass& glass, const VehicleState& car, const Real3& wind);
 
 }  // namespace rainref::windshield

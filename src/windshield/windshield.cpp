@@ -25,7 +25,7 @@ using capture::Stopwatch;
 
 void Windshield::State::list(state::Items& items) {
   items.number("frame", frame, state::frames);
-  constexpr state::Range ways{-1e10, 1e10};  // [m]: cells of the air are counted
+  constexpr state::Range ways{-1e10, 1e10};  // [m]; limited because cells of the air are counted
   items.numbers("air_moved", air_moved, ways);
   items.numbers("air_of_frame", air_of_frame, ways);
   for (std::size_t k = 0; k < panes.size(); ++k) {
@@ -44,7 +44,7 @@ void Windshield::State::list(state::Items& items) {
   });
 }
 
-// The passes of pane k are the steps behind those of the panes before it.
+// The steps of pane k are numbered after those of the panes before it.
 void Windshield::State::step(Recorder* recorder, int substep) {
   const double dt = step_time(), t = static_cast<double>(steps) * dt;
   const VehicleState car = vehicle.at(t);
@@ -55,7 +55,7 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   ++steps;
 }
 
-/// The scene as the camera sees it in this frame, with the blades where they are to be seen; whether it is another one than before.
+/// Updates the scene in the camera's view in this frame, with the blades if they are shown; returns whether it changed.
 bool Windshield::State::look() {
   const bool is_new = look_at_scene();
   if (!settings.shows_blades) return is_new;
@@ -91,7 +91,7 @@ void Windshield::State::rain_behind(const pass::Moment& now) {
   std::vector<RainLamp> lamps;
   if (street) lamps = lamps_from(street->street(), place_in_street(settings.street_start, settings.scene_moves ? car.distance : 0));
   falling = falling_drops(settings.falling, settings.seed, air, view, glasses, lamps);
-  // Straight ahead of the car, as far as is seen, the way goes on.
+  // Straight ahead of the car, as far as visible, the road continues.
   std::erase_if(falling, [&](const FallingDrop& drop) {
     return is_covered(settings.weather.shelter, car.distance + 0.5 * (drop.from.x + drop.to.x));
   });
@@ -100,7 +100,7 @@ void Windshield::State::rain_behind(const pass::Moment& now) {
 
   FallingRainUniforms uniforms{};
   uniforms.streak_count = static_cast<std::int32_t>(streaks.size());
-  uniforms.sharpness = 10;  // what stands in the street hides a streak within 10 cm
+  uniforms.sharpness = 10;  // an object in the street hides a streak within 10 cm
   pass::HostIo<FallingRainPass> io;
   io.blurred = levels[0];
   io.scene_depth = scene.depth;
@@ -109,14 +109,14 @@ void Windshield::State::rain_behind(const pass::Moment& now) {
   pass::Run<FallingRainPass> run(uniforms, corrected, settings.surface.rounding, io);
   const double prepared = clock.seconds();
   run.start(now);
-  run.tiles(executor, 16, 32);  // in place: columns of whole vectors
+  run.tiles(executor, 16, 32);  // in place, so tiles have columns of whole vectors
   run.finish(now, 1, prepared);
 }
 
-/// blur_pyramid and all that is seen through the panes.
+/// blur_pyramid and the view through all panes.
 void Windshield::State::look_through(const pass::Moment& now) {
   const Rounding rounding = settings.surface.rounding;
-  // A scene that stands still has its pyramid already.
+  // A still scene already has its pyramid.
   const bool anew = look() || settings.falling.on;
   const int width = scene.colour.width(), height = scene.colour.height();
   if (levels.empty()) {
@@ -186,7 +186,7 @@ void Windshield::skip(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   const int recorded_frame = s.frame;
-  s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
+  s.frame = std::max(0, recorded_frame - 1);  // the frame to which this water belongs
   for (std::size_t k = 0; k < s.panes.size(); ++k)
     s.panes[k]->leave_traces(s.moment(recorder, static_cast<int>(k), s.frame_time()), s.frame);
   s.frame = recorded_frame;
@@ -196,7 +196,7 @@ void Windshield::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   const int recorded_frame = s.frame;
-  s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
+  s.frame = std::max(0, recorded_frame - 1);  // the frame to which this water belongs
   for (std::size_t k = 0; k < s.panes.size(); ++k) s.panes[k]->draw(s.moment(recorder, static_cast<int>(k), s.frame_time()), s.frame);
   const pass::Moment now = s.moment(recorder, 0, s.frame_time());
   s.look_through(now);

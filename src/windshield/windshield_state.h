@@ -1,4 +1,4 @@
-// What a running windshield holds.
+// State of a running windshield.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@
 namespace rainref::windshield {
 
 struct Windshield::State {
-  /// Refuses what does not fit before the drops, the first large thing, are made.
+  /// Refuses a scene that does not fit before the drops, the first large allocation.
   static Settings fitting(Settings s, const scene::Config& config, const Surroundings& around) {
     require_memory(fmt::format("windshield.height_size {}x{} with scene.size {}x{} for {} drops", s.surface.width, s.surface.height,
                                s.scene_size[0], s.scene_size[1], s.drops.capacity),
@@ -45,16 +45,16 @@ struct Windshield::State {
   int frame = 0;
   std::int64_t steps = 0;
 
-  Real3 air_moved{0, 0, 0}, air_of_frame{0, 0, 0};  // way of the air past the car; at the frame's start [m]
+  Real3 air_moved{0, 0, 0}, air_of_frame{0, 0, 0};  // distance that the air has moved past the car; at the frame's start [m]
   std::vector<FallingDrop> falling;
 
   std::vector<std::unique_ptr<WetPane>> panes;  // the windshield first
 
   Image colour, pane_colour, picture;
-  Image interior;  // where the scene asks for it
+  Image interior;  // if the scene asks for it
   CodeTable display;
   SceneView scene;
-  SceneView without_blades;  // where they are drawn: what lies behind
+  SceneView without_blades;  // if blades are drawn: the scene behind them
   std::vector<SeenBlade> blades;
   bool own_scene, scene_is_new = false;
   std::optional<StreetDrive> street;

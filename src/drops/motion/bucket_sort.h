@@ -1,4 +1,4 @@
-// A sort by small keys that threads share.
+// A parallel sort by small keys.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace rainref::drops {
 
-/// Elements sorted into buckets of neighbouring keys: the first step of a counting sort, of which the second takes each bucket by
-/// itself. In a bucket they are in their own order, for every number of threads.
+/// Elements sorted into buckets of neighbouring keys: the first step of a counting sort. The second step sorts each bucket separately. The
+/// elements of a bucket keep their order for any number of threads.
 class BucketSort {
  public:
   static constexpr std::uint32_t no_key = 0xffffffffu;
@@ -21,7 +21,7 @@ class BucketSort {
     std::uint32_t key, element;
   };
 
-  /// Elements 0 to count - 1. key_of(element) is below `keys`, or no_key for what is left out; it is asked twice, the first time as
+  /// Elements 0 to count - 1. key_of(element) is below `keys`, or no_key to leave the element out. It is called twice, the first time as
   /// make_key(element).
   template <class MakeKey, class KeyOf>
   void sort(const parallel::Executor& executor, std::int64_t count, std::int64_t chunk, std::uint32_t keys, const MakeKey& make_key,
@@ -31,7 +31,7 @@ class BucketSort {
     const std::int64_t most = std::clamp<std::int64_t>(count / elements_in_bucket, 1, most_buckets);
     while ((keys >> shift_) >= most) ++shift_;
     const std::size_t buckets = (keys >> shift_) + 1u, chunks = static_cast<std::size_t>((count + chunk - 1) / chunk);
-    // Of a bucket those of all chunks stand together: the sums are what one thread does alone.
+    // In a bucket the elements of all chunks follow each other in order, so the offsets are those of a single thread.
     std::vector<std::uint32_t>& offset = offset_;
     offset.resize(std::max(offset.size(), chunks * buckets));
     using Counts = std::array<std::uint32_t, most_buckets + 1>;
@@ -58,12 +58,12 @@ class BucketSort {
   }
 
   std::size_t buckets() const { return start_.size() - 1; }
-  /// Where a bucket begins among all sorted elements, and what is in it.
+  /// Start of a bucket among all sorted elements, and its elements.
   std::uint32_t start(std::size_t bucket) const { return start_[bucket]; }
   std::span<const Entry> operator[](std::size_t bucket) const {
     return {entries_.data() + start_[bucket], entries_.data() + start_[bucket + 1]};
   }
-  /// Its keys: from the first to one before the second.
+  /// Keys of a bucket: from the first to one before the second.
   std::pair<std::uint32_t, std::uint32_t> keys(std::size_t bucket) const {
     const auto at = [&](std::size_t b) {
       const std::uint64_t key = static_cast<std::uint64_t>(b) << shift_;
@@ -73,7 +73,7 @@ class BucketSort {
   }
 
  private:
-  static constexpr std::int64_t most_buckets = 512, elements_in_bucket = 256;  // handing out a bucket costs as much as some elements
+  static constexpr std::int64_t most_buckets = 512, elements_in_bucket = 256;  // starting a bucket costs as much as some elements
   std::uint32_t keys_ = 0;
   int shift_ = 0;
   std::vector<std::uint32_t> offset_, start_;

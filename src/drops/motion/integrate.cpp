@@ -8,7 +8,7 @@ MassBalance integrate(const parallel::Executor& executor, DropArrays& drops, con
   pass::HostIo<IntegratePass> io;
   io.drops.columns = drops.columns();
   io.glass_frame = std::span(&glass, 1);
-  // Over fixed chunks. Whole numbers, so the order of the sum is free.
+  // Over fixed chunks. Integers, so the order of the sum does not matter.
   const std::int64_t chunk = chunk_of(drops.extent());
   std::vector<MassBalance> of_chunk(static_cast<std::size_t>((drops.extent() + chunk - 1) / chunk));
   executor.for_range(drops.extent(), chunk, [&](std::int64_t begin, std::int64_t end) {

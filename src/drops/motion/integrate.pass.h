@@ -1,4 +1,4 @@
-// Pass integrate: how one drop moves in a step. Needs drop-inl.h.
+// Pass integrate: the motion of one drop in a step. Needs drop-inl.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_DROPS_INTEGRATE_PASS_H_
 #define RAINREF_DROPS_INTEGRATE_PASS_H_
@@ -9,7 +9,7 @@
 
 namespace rainref::drops {
 
-/// Each drop by itself.
+/// Treats each drop separately.
 struct IntegratePass : pass::Takes<IntegrateUniforms> {
   static constexpr pass::About about{"integrate",
                                      "Forces, motion, evaporation and age of every drop.",
@@ -43,7 +43,7 @@ struct IntegratePass : pass::Takes<IntegrateUniforms> {
 
 // ---- as published --------------------------------------------------------------------------------------------------
 //   a = gravity mass - acceleration inertia_coupling + wind wind_coupling - velocity drag           (seed 000)
-// The source stops there. Semi-implicit Euler is chosen: velocity += a dt, then position += velocity dt.
+// The source does not give the integrator. We choose semi-implicit Euler: velocity += a dt, then position += velocity dt.
 template <class N>
 RAINREF_FN N force_as_published(const IntegrateUniforms& c, float gravity, float acceleration, float wind, N velocity, N mass) {
   return sum_any_order(N(gravity) * mass, -N(acceleration) * N(c.inertia_coupling), N(wind) * N(c.wind_coupling), -velocity * N(c.drag));
@@ -64,17 +64,17 @@ RAINREF_FN DropState<N> integrate_as_published(const IntegrateUniforms& c, const
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-// Everything that acts on the mass alone comes as one specific force, so that braking and a slope are the same. What the
-// size of the drop decides goes by the cube root of its mass: a hold of contact-angle hysteresis (force ~ width), a push
-// of the wind (~ area), a viscous drag k (~ width). Under them the motion is exact, with v_inf = a / k:
+// All forces proportional to the mass are one specific force, so braking equals a slope. Forces that depend on the size use the cube root
+// of the mass: a hold of contact-angle hysteresis (force ~ width), a push of the wind (~ area), a viscous drag k (~ width). The motion
+// under them is integrated exactly, with v_inf = a / k:
 //   v' = v_inf + (v - v_inf) e^-kt        = v e^-kt + a t f,       f = (1 - e^-kt) / kt
 //   x' = x + v_inf t + (v - v_inf) t f    = x + (v f + a t g) t,   g = (1 - f) / kt
-// On the right nothing cancels, and k may be 0.
+// The forms on the right have no cancellation, and k may be 0.
 template <class N>
 struct Integrated : DropState<N> {
   N evaporated, removed;  ///< [mass units]
   RAINREF_FN Integrated() {}
-  /// Who stays is decided already: the life of the others is set to 0.
+  /// Ended drops are already marked by a life of 0.
   auto lives() const { return !is_ended(this->life); }
 };
 /// The length [m] of a vector in glass coordinates.
@@ -115,16 +115,16 @@ RAINREF_FN Integrated<N> integrate_corrected(const IntegrateUniforms& c, const G
                               N(g.coriolis[2]) * d.velocity_u + N(g.coriolis[3]) * d.velocity_v, push * wind_v);
 
   const N pull = max(length_on_glass(c.frame, a_u, a_v), N(1e-6f));
-  const N share = max(one - (N(c.hold) * inverse_sq) / pull, zero);  // of the force that is left to move the drop
+  const N share = max(one - (N(c.hold) * inverse_sq) / pull, zero);  // share of the force that is left to move the drop
   const N push_u = (a_u * share) * dt, push_v = (a_v * share) * dt;
   const Decay<N> decay = decay_of(N(c.drag) * inverse_sq * dt);
   const N velocity_u = d.velocity_u * decay.speed + push_u * decay.mean, velocity_v = d.velocity_v * decay.speed + push_v * decay.mean;
   const N u = d.u + (d.velocity_u * decay.mean + push_u * decay.way) * dt, v = d.v + (d.velocity_v * decay.mean + push_v * decay.way) * dt;
-  // A held drop would slow down for ever.
+  // A held drop would slow down forever, so it is stopped.
   const auto rests = (share <= zero) & (length_on_glass(c.frame, velocity_u, velocity_v) < N(c.rest_speed));
 
-  // Whole mass units leave. A phase that runs evenly through [0, 1) rounds the loss down or up, so that it is right in the mean;
-  // a phase of the water lost so far would run ahead, because each mass unit lost changes the rate.
+  // Whole mass units leave. A phase uniform in [0, 1) rounds the loss down or up, so the mean is right. A phase from the accumulated loss
+  // would drift, because each lost mass unit changes the rate.
   const N life = d.life - dt;
   const N loss = N(c.evaporation) * mass_3 * dt, phase = fract(fract(d.life * N(1.0f / 64)) * N(c.phase_rate));
   const N mass = max(d.mass - floor(loss + phase), zero);

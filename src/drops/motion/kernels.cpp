@@ -78,7 +78,7 @@ void Measure(const MergeUniforms& uniforms, const Slots& s, std::int64_t begin, 
   }
 }
 
-// Which of the sorted drops [from, to) touches drop i and is the largest, if it is larger than `best`, or else `best`.
+// The largest of the sorted drops [from, to) that touches drop i and is larger than `best`, else `best`.
 HWY_INLINE std::int32_t largest_touching(const MergeGrid& g, std::size_t i, std::uint32_t from, std::uint32_t to, std::int32_t best) {
   const Lanes x(g.x[i]), y(g.y[i]), radius(g.radius[i]), zero(0.0f), one(1.0f);
   for (std::uint32_t k = from; k < to; k += static_cast<std::uint32_t>(Lanes::size())) {

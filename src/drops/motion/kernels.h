@@ -1,4 +1,4 @@
-// The shells of this room's passes, for the SIMD target in use: ranges of slots in, ranges of slots out.
+// The shells of this room's passes, from ranges of slots to ranges of slots, for the SIMD target in use.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,11 @@ struct Slots {
         life(d.life().data()) {}
 };
 
-/// as-published the balance counts the lives that ended, as removed.
+/// as-published, the balance counts the ended lives as removed.
 MassBalance integrate_range(const IntegrateUniforms& uniforms, bool corrected, const pass::HostIo<IntegratePass>& io, std::int64_t begin,
                             std::int64_t end);
 
-/// Plane coordinates and base radius [m] of slots, free ones too, into arrays with room for a whole vector beyond `end`.
+/// Writes plane coordinates and base radius [m] of slots, including free ones, into arrays with room for a whole vector beyond `end`.
 void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y,
                    float* radius);
 /// For each of the sorted drops [begin, end): the index of the drop that it points to, or -1.
@@ -39,9 +39,9 @@ struct Deposit {
   std::int32_t column, row;
   float mass_units;
 };
-/// Takes the trails from the drops and appends them, in slot order.
+/// Takes the trails from the drops and appends them in slot order.
 void trail_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, std::vector<Deposit>& deposits);
-/// Dries a row of the film and returns what it lost.
+/// Dries a row of the film and returns the lost mass units.
 std::int64_t dry_row(const MergeUniforms& uniforms, float* row, int width);
 
 }  // namespace rainref::drops

@@ -18,12 +18,12 @@ Drop drop_of(const scalar::DropState<F>& s, std::uint32_t id) {
   return {{s.u.v + 0.0f, s.v.v + 0.0f}, {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f}, s.mass.v, s.life.v, id, 0};
 }
 
-/// A drop that ends: the end of its chain by its place in the grid, its own id and slot.
+/// A drop that ends: the end of its chain by its index in the grid, its own id and slot.
 struct Member {
   std::uint32_t root, id, slot;
 };
 
-/// Asks for a drop that is soon read and written.
+/// Prefetches a drop that is soon read and written.
 void prefetch(DropArrays& drops, std::int64_t slot) {
   for (float* field :
        {drops.u().data(), drops.v().data(), drops.velocity_u().data(), drops.velocity_v().data(), drops.mass().data(), drops.life().data()})
@@ -31,7 +31,7 @@ void prefetch(DropArrays& drops, std::int64_t slot) {
   __builtin_prefetch(drops.id().data() + slot, 1);
 }
 
-/// Into how many parts work on the elements of these lists is cut where each part looks through all of them.
+/// Largest number of parts of work on these lists if each part scans all elements.
 constexpr std::int64_t most_parts = 32;
 template <class T>
 std::size_t elements_of(const std::vector<std::vector<T>>& lists) {
@@ -41,12 +41,12 @@ std::size_t elements_of(const std::vector<std::vector<T>>& lists) {
 }
 template <class T>
 std::int64_t parts_of(const std::vector<std::vector<T>>& lists) {
-  constexpr std::size_t least = 64;  // elements that are worth handing out
+  constexpr std::size_t least = 64;  // elements that are worth a task
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(elements_of(lists) / least), 1, most_parts);
 }
 
-/// Places [result[k], result[k + 1]) of the grid are part k's: in each about as many ends of chains, by counts of a sample in blocks of
-/// places. Drops crowd where a blade has pushed them.
+/// Indices [result[k], result[k + 1]) of the grid belong to part k. Each part has about the same number of chain ends, by counts of a
+/// sample in blocks of indices, because drops crowd where a blade has pushed them.
 std::vector<std::int64_t> places_of_parts(const std::vector<std::vector<Member>>& lists, std::int64_t places, std::int64_t parts) {
   constexpr std::size_t blocks = 1024, sampled = 8192;
   int shift = 0;
@@ -71,7 +71,8 @@ std::vector<std::int64_t> places_of_parts(const std::vector<std::vector<Member>>
 
 constexpr std::int64_t links_of_chunk = 256;
 
-/// Drops that end, all of theirs that end in the same one among them, into those in which they end. How many did.
+/// Merges ending drops into the drops in which their chains end. `members` holds all members of each of its chains. Returns the number of
+/// merged drops.
 std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropArrays& drops) {
   std::sort(members.begin(), members.end(),
             [](const Member& a, const Member& b) { return std::tie(a.root, a.id) < std::tie(b.root, b.id); });
@@ -87,7 +88,7 @@ std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropAr
       }
       const std::int64_t slot = members[i].slot;
       const Drop d = drops.get(slot);
-      if (d.mass > most_mass - sum.mass.v) continue;  // exact, where the sum is not
+      if (d.mass > most_mass - sum.mass.v) continue;  // exact, unlike the sum
       sum = scalar::absorb(sum, state_of<F>(d));
       drops.set(slot, {{d.position[0], d.position[1]}, {0, 0}, 0, 0, d.id, 0});
       ++ended;
@@ -97,14 +98,14 @@ std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropAr
   return ended;
 }
 
-/// What happens to the film: it dries, then takes the trails of those that leave some.
+/// Changes the film: it dries, then receives the trails of drops that leave some.
 MassBalance change_film(const parallel::Executor& executor, const MergeUniforms& uniforms, DropArrays* leaving, bool dries, Image& film) {
   const std::int64_t extent = leaving ? leaving->extent() : 0, chunk = chunk_of(extent);
   std::vector<std::vector<Deposit>> deposits(static_cast<std::size_t>((extent + chunk - 1) / chunk));
   executor.for_range(extent, chunk, [&](std::int64_t begin, std::int64_t end) {
     trail_range(uniforms, Slots(*leaving), begin, end, deposits[static_cast<std::size_t>(begin / chunk)]);
   });
-  // A band of rows looks through all deposits for its own.
+  // A band of rows searches all deposits for its own.
   const bool is_drying = dries && uniforms.drying > 0;
   const std::int64_t bands = std::min<std::int64_t>(film.height(), is_drying ? most_parts : parts_of(deposits));
   std::vector<MassBalance> of_band(static_cast<std::size_t>(bands));
@@ -117,7 +118,7 @@ MassBalance change_film(const parallel::Executor& executor, const MergeUniforms&
       for (const Deposit& d : some) {
         if (d.row < first || d.row >= last) continue;
         float& texel = film.row<float>(d.row)[d.column];
-        // Both are at most 2^24, so room is exact, and so is what is put there: any order gives the same film.
+        // Both are at most 2^24, so the room and the added water are exact: any order gives the same film.
         const float put = std::min(d.mass_units, most_mass - texel);
         texel += put;
         balance.to_film += static_cast<std::int64_t>(put);
@@ -186,8 +187,8 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
   const MergeGrid& grid = scratch_->grid;
   std::vector<std::int32_t>& larger = scratch_->larger;
 
-  // Ends of chains. What is known of a chain shortens it for the others: whatever of it a thread meets leads to the same end.
-  // With the compilers' own atomics: libc++ before 19 has no std::atomic_ref.
+  // Ends of chains. Known parts of a chain shorten it for other threads, because every part leads to the same end. Uses compiler atomics,
+  // because libc++ before 19 has no std::atomic_ref.
   const auto next = [&](std::int64_t i) { return &larger[static_cast<std::size_t>(i)]; };
   std::vector<std::vector<Member>> of_chunk(static_cast<std::size_t>((grid.count + links_of_chunk - 1) / links_of_chunk));
   executor.for_range(grid.count, links_of_chunk, [&](std::int64_t begin, std::int64_t end) {
@@ -200,7 +201,7 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
       ended.push_back({static_cast<std::uint32_t>(root), grid.id[static_cast<std::size_t>(i)], grid.slot[static_cast<std::size_t>(i)]});
     }
   });
-  // Each part takes those whose chains end in its share of the grid; looking through all of them costs less than sorting them.
+  // Each part takes the drops whose chains end in its share of the grid; scanning all of them is faster than sorting.
   const std::int64_t parts = parts_of(of_chunk);
   const std::vector<std::int64_t> places = places_of_parts(of_chunk, grid.count, parts);
   std::vector<std::int64_t> ended_in(static_cast<std::size_t>(parts), 0);

@@ -1,7 +1,7 @@
-// Pass merge, corrected: which drops touch, what two of them become, and what a sliding drop leaves behind. Needs integrate.pass.h.
+// Pass merge, corrected: which drops touch, the merger of two drops, and the trail of a sliding drop. Needs integrate.pass.h.
 //
-// What becomes of a drop hangs on those that it touches, and of a texel of the film on those that slide over it: who they are is
-// found by other means (merge.cpp; evaluations_merge.cpp for the judge), so the arithmetic here is that of a pair, a drop and a texel.
+// The result for a drop depends on the drops that it touches, and for a texel of the film on the drops that slide over it. Other code finds
+// them (merge.cpp; evaluations_merge.cpp for the judge), so the arithmetic here is for a pair, a drop and a texel.
 #ifndef RAINREF_FN
 #ifndef RAINREF_DROPS_MERGE_PASS_H_
 #define RAINREF_DROPS_MERGE_PASS_H_
@@ -66,13 +66,13 @@ RAINREF_FN N plane_y(const MergeUniforms& c, N v) {
   return N(c.frame[2]) * v;
 }
 
-/// Whether two base circles overlap: centres [m] and radii [m].
+/// Whether two base circles overlap, given centres [m] and radii [m].
 template <class N>
 RAINREF_FN auto touches(N x1, N y1, N radius1, N x2, N y2, N radius2) {
   return square(x1 - x2) + square(y1 - y2) < square(radius1 + radius2);
 }
 
-/// a with b in it: mass and momentum are kept, the place is the centre of mass. id and life stay a's. (physics: W8)
+/// Drop a after it takes b: mass and momentum are kept, the position is the centre of mass. id and life stay those of a. (physics: W8)
 template <class N>
 RAINREF_FN DropState<N> absorb(const DropState<N>& a, const DropState<N>& b) {
   DropState<N> out = a;
@@ -85,16 +85,16 @@ RAINREF_FN DropState<N> absorb(const DropState<N>& a, const DropState<N>& b) {
   return out;
 }
 
-/// The film after a step of drying. Trails come on top of it.
+/// The film after a step of drying, before trails are added.
 template <class N>
 RAINREF_FN N dried(const MergeUniforms& c, N film) {
   return max(film - N(c.drying), N(0.0f));
 }
 
-/// What a sliding drop leaves on the glass, and where: under its tail, one base radius behind the centre.
+/// The trail of a sliding drop, and its position: under the tail, one base radius behind the centre.
 template <class N>
 struct Trail {
-  N mass_units, u, v;  ///< not yet whole where tail() gives them
+  N mass_units, u, v;  ///< mass_units is not yet whole as tail() returns it
   RAINREF_FN Trail() {}
 };
 /// Before rounding down to whole mass units.
@@ -102,7 +102,7 @@ template <class N>
 RAINREF_FN Trail<N> tail(const MergeUniforms& c, const DropState<N>& d) {
   const N zero(0.0f), one(1.0f), radius = base_radius(c, d.mass);
   const N speed = length_on_glass(c.frame, d.velocity_u, d.velocity_v);
-  const N back = radius / max(speed, N(1e-12f));  // seconds since the centre was there
+  const N back = radius / max(speed, N(1e-12f));  // time [s] since the centre was there
   Trail<N> out;
   out.u = d.u - d.velocity_u * back;
   out.v = d.v - d.velocity_v * back;
@@ -110,7 +110,7 @@ RAINREF_FN Trail<N> tail(const MergeUniforms& c, const DropState<N>& d) {
   out.mass_units = select(on_glass, (N(c.trail) * radius) * (speed * N(c.dt)), zero);
   return out;
 }
-/// A drop keeps a mass unit.
+/// A drop keeps at least one mass unit.
 template <class N>
 RAINREF_FN N whole_trail(N mass, N whole) {
   return guard<N>(max(min(mass - N(1.0f), whole), N(0.0f)), all_have_mass);

@@ -8,9 +8,9 @@
 namespace rainref::drops {
 namespace {
 
-constexpr std::size_t room_behind = 64;  // slots of a vector, and more
+constexpr std::size_t room_behind = 64;  // more than a vector of slots
 constexpr double slack = 1.0001;         // more than the rounding of radii and coordinates
-constexpr std::size_t ahead = 16;        // elements between asking for a slot and using it
+constexpr std::size_t ahead = 16;        // elements between prefetch and use of a slot
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -28,7 +28,7 @@ void MergeGrid::lay_out(const std::array<std::int64_t, size_classes>& counts, co
     g = {};
     const std::int64_t n = counts[static_cast<std::size_t>(k)];
     if (n == 0) continue;
-    // No more cells than drops, or the empty ones would cost more than they save.
+    // At most as many cells as drops, because empty ones would cost more than they save.
     const double side = std::max(2 * most_radius, __builtin_sqrt(width * height / static_cast<double>(n)));
     g = {x0, 0, 1 / side, std::max(1, static_cast<int>(width / side)), std::max(1, static_cast<int>(height / side)), cells};
     cells += static_cast<std::uint32_t>(g.columns) * static_cast<std::uint32_t>(g.rows);
@@ -87,7 +87,7 @@ void MergeGrid::sort(const parallel::Executor& executor, const DropArrays& drops
       next[c - first_cell + 1] += next[c - first_cell];
     }
     for (std::size_t k = 0; k < entries.size(); ++k) {
-      if (k + ahead < entries.size()) {  // the slots lie anywhere
+      if (k + ahead < entries.size()) {  // the slots are in random order
         const std::size_t soon = entries[k + ahead].element;
         for (const std::vector<float>* a : {&slot_x_, &slot_y_, &slot_radius_}) __builtin_prefetch(a->data() + soon);
         __builtin_prefetch(masses.data() + soon);

@@ -1,5 +1,5 @@
-// Where the drops lie, for finding the ones that touch: a grid of cells for each class of sizes, so that the work grows
-// with the number of drops however different their sizes are.
+// Finds touching drops with a grid of cells for each class of sizes, so that the work is proportional to the number of drops even if their
+// sizes differ much.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ constexpr int size_class_of(float mass) {
   return k;
 }
 
-/// A grid over the glass. Two drops that touch, the larger of this class, are in neighbouring cells or in the same one;
-/// drops beyond the edge count to the cells there.
+/// A grid over the glass. If two drops touch and the larger is of this class, they are in the same or in neighbouring cells; drops beyond
+/// the edge belong to the cells at the edge.
 struct ClassGrid {
   double x0 = 0, y0 = 0, inverse_side = 0;
   int columns = 0, rows = 0;  ///< 0: the class has no drops
@@ -40,8 +40,8 @@ struct ClassGrid {
 /// The live drops sorted by class and cell.
 struct MergeGrid {
   std::array<ClassGrid, size_classes> classes;
-  std::vector<std::uint32_t> cell_start;  ///< one more than cells
-  std::vector<float> x, y, radius, mass;  ///< with room for a vector behind the last
+  std::vector<std::uint32_t> cell_start;  ///< one more entry than cells
+  std::vector<float> x, y, radius, mass;  ///< with room for a vector after the last entry
   std::vector<std::uint32_t> id, slot;
   std::int64_t count = 0;
 

@@ -44,7 +44,7 @@ void Necks::step(const DropArrays& drops, const NecksUniforms& uniforms, std::sp
     scalar::NeckState<F> state;
   };
   std::vector<Kept> kept;
-  // A slot may hold another drop by now.
+  // A slot may now hold another drop.
   list();
   for (std::size_t i = 0; i < size(); ++i) {
     const std::uint32_t slot = slot_[i];

@@ -1,4 +1,4 @@
-// Outlines of merged drops, kept from step to step.
+// Outlines of merged drops, kept between steps.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@
 
 namespace rainref::drops {
 
-/// A drop that ends in another one, and that one, which ends in none: by their slots.
+/// A drop that merges into another one, and that one, which remains: by their slots.
 struct Joining {
   std::uint32_t into, slot;
 };
 
-/// The necks of the drops on a glass, at most one of a drop, in ascending id.
+/// The necks of the drops on a glass, at most one per drop, in ascending id.
 class Necks {
  public:
-  /// The pass. joining: of each drop that others end in, the largest of these (of equal ones the lowest id), in any order; ended: slots of
-  /// all that end, ascending.
+  /// The pass. joining: for each drop that others merge into, the largest of these (of equal ones the lowest id), in any order. ended:
+  /// slots of all drops that end, ascending.
   void step(const DropArrays& drops, const NecksUniforms& uniforms, std::span<const Joining> joining, std::span<const std::uint32_t> ended);
-  /// As records; valid until the next step.
+  /// The necks as records; valid until the next step.
   const std::vector<Neck>& list();
   void list_state(state::Items& items, std::int64_t most);
 
@@ -33,7 +33,7 @@ class Necks {
   std::size_t size() const { return id_.size(); }
   void resize(std::size_t count);
 
-  std::vector<float> numbers_[4];  ///< as NeckState has them
+  std::vector<float> numbers_[4];  ///< as in NeckState
   std::vector<std::uint32_t> id_, slot_;
   std::vector<Neck> listed_;
 };

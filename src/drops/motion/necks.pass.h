@@ -1,14 +1,14 @@
-// Pass necks, corrected: what stays for a while of the outlines of drops that become one. Before merge, whose rule it follows: of the drops
-// that end in one, the largest touches it and gives it its neck. Needs merge.pass.h and
+// Pass necks, corrected: the outlines of merged drops, which persist for a while. It runs before merge and follows its rule: of the drops
+// that merge into one, the largest touches it and gives it its neck. Needs merge.pass.h and
 // neck-inl.h.
 //
-// On glass with contact-angle hysteresis a line recedes only where the angle falls below the receding one, so that two drops that meet
-// keep their outlines, with a neck between. Measured, such a drop comes to its round form exponentially, far more slowly than water flows
-// (Andrieu, Beysens, Nikolayev and Pomeau 2002, J. Fluid Mech. 453, 427):
+// On glass with contact-angle hysteresis the contact line recedes only where the angle is below the receding angle. So two drops that meet
+// keep their outlines, with a neck between them. Measurements show that such a drop becomes round exponentially, far more slowly than water
+// flows (Andrieu, Beysens, Nikolayev and Pomeau 2002, J. Fluid Mech. 453, 427):
 //   left = left e^(-dt / neck_time) - |velocity| dt / r
-// A drop that slides carries its line with it, so the neck is gone when it has slid by its own base radius r.
+// A sliding drop carries its contact line with it, so the neck is gone when the drop has slid by its base radius r.
 //
-// Who touches whom is found by other means (necks.cpp; evaluations_necks.cpp for the judge), as in merge.
+// As for merge, other code finds the touching drops (necks.cpp; evaluations_necks.cpp for the judge).
 #ifndef RAINREF_FN
 #ifndef RAINREF_DROPS_NECKS_PASS_H_
 #define RAINREF_DROPS_NECKS_PASS_H_
@@ -23,7 +23,7 @@
 
 namespace rainref::drops {
 
-/// Why these are no necks, or "".
+/// Returns why these records are not valid necks, or "".
 template <class Records>
 std::string necks_fault(const Records& necks) {
   for (const Neck& n : necks)
@@ -72,13 +72,13 @@ template <class N>
 RAINREF_FN N neck_radius(const NecksUniforms& c, N mass) {
   return N(c.radius) * cube_root_of_mass(mass, 1.0f);
 }
-/// Whether two drops touch, as merge has it.
+/// Whether two drops touch, as in merge.
 template <class N>
 RAINREF_FN auto overlap(const NecksUniforms& c, const DropState<N>& a, const DropState<N>& b) {
   const N x1 = N(c.frame[0]) * a.u + N(c.frame[1]) * a.v, x2 = N(c.frame[0]) * b.u + N(c.frame[1]) * b.v;
   return touches(x1, N(c.frame[2]) * a.v, neck_radius(c, a.mass), x2, N(c.frame[2]) * b.v, neck_radius(c, b.mass));
 }
-/// Of a that takes b.
+/// The neck of a drop a that takes b.
 template <class N>
 RAINREF_FN NeckState<N> joined(const NecksUniforms& c, const DropState<N>& a, const DropState<N>& b) {
   const N mass = a.mass + b.mass, inverse = N(1.0f) / neck_radius(c, mass), u = b.u - a.u, v = b.v - a.v;
@@ -89,7 +89,7 @@ RAINREF_FN NeckState<N> joined(const NecksUniforms& c, const DropState<N>& a, co
   out.left = N(1.0f);
   return out;
 }
-/// After a step of the drop d.
+/// The neck after a step of the drop d.
 template <class N>
 RAINREF_FN NeckState<N> receded(const NecksUniforms& c, const NeckState<N>& n, const DropState<N>& d) {
   NeckState<N> out = n;
@@ -97,13 +97,13 @@ RAINREF_FN NeckState<N> receded(const NecksUniforms& c, const NeckState<N>& n, c
   out.left = max(n.left * N(c.keep) - way / neck_radius(c, d.mass), N(0.0f));
   return out;
 }
-/// Whether the smaller footprint is seen beside the larger one. The last 64th of a neck is dropped.
+/// Whether the smaller footprint is visible beside the larger one. The last 64th of a neck is dropped.
 template <class N>
 RAINREF_FN auto stands_out(const NeckState<N>& n) {
   const Footprints<N> r = footprints(n.share, n.left);
   return (n.left > N(1.0f / 64)) & (length(n.offset_x, n.offset_y) * n.left + r.smaller > r.larger);
 }
-/// Of a drop that has one and gets another: a larger lobe is not given up for a smaller one.
+/// For a drop that already has a neck and gets another: a larger lobe is not replaced by a smaller one.
 template <class N>
 RAINREF_FN NeckState<N> more_seen(const NeckState<N>& old, const NeckState<N>& fresh) {
   const auto stays = !stands_out(fresh) | (old.share * old.left > fresh.share);

@@ -1,5 +1,5 @@
-// A drop, and the texts of integrate, merge and necks, with every number but lanes: Scalar, Enclosure, Rearranged and Perturbed. A
-// namespace of their own, so that argument types of this room do not pull them into the lanes.
+// A drop, and the texts of integrate, merge and necks, for every number type except lanes: Scalar, Enclosure, Rearranged and Perturbed.
+// They have their own namespace, so that argument types of this room do not pull them into the lanes.
 #pragma once
 
 #include "drops/motion/integrate.pass.h"
@@ -12,7 +12,7 @@
 namespace rainref::drops::scalar {
 using namespace rainref::scalar;
 
-/// Whether a pass has set this life to 0; to compare it would be a decision more.
+/// Whether a pass has set this life to 0. A comparison would be another decision.
 template <class N>
 bool is_ended(N life) {
   return life.v == 0;
@@ -34,7 +34,7 @@ inline bool is_ended(const enclosed::Rearranged& life) { return is_ended(life.se
 
 namespace rainref::drops {
 
-/// A stored drop as a number reads it.
+/// Converts a stored drop to a number type.
 template <class N>
 scalar::DropState<N> state_of(const Drop& d) {
   return pass::loaded<scalar::DropState<N>>(d);

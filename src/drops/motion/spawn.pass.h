@@ -1,5 +1,5 @@
-// Pass spawn: the drops that arrive in a step. Its arithmetic is that of whole numbers, of counters hashed and looked up in tables
-// (spawn.cpp), and not of a record: how many there are follows from it. There is nothing to evaluate with other numbers.
+// Pass spawn: the drops that arrive in a step. Its arithmetic uses integers, hashed counters and table lookups (spawn.cpp). It is not
+// written per record, because it determines the number of records. Other number types do not apply.
 #pragma once
 
 #include "drops/drops.h"

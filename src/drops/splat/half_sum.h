@@ -1,4 +1,4 @@
-// What a half holds of a number, for passes that round between their operations.
+// Rounding of a number to half, for passes that round between their operations.
 #pragma once
 
 #include "image/code_range.h"
@@ -7,12 +7,12 @@
 
 namespace rainref::drops {
 
-/// The value of the half that a number is stored as. `own`: how the reference rounds.
+/// The value of the half that stores a number. `own`: the reference's rounding.
 template <class T>
 scalar::Scalar<T> half_of(scalar::Scalar<T> x, Rounding own) {
   return scalar::Scalar<T>(to_float(to_half(static_cast<float>(x.v), own)));
 }
-/// By the profile's rule of stores.
+/// By the profile's store rules.
 inline enclosed::Enclosure half_of(enclosed::Enclosure x, Rounding own) {
   using enclosed::Enclosure;
   if (x.is_vacuous()) return x;
@@ -23,7 +23,7 @@ inline enclosed::Enclosure half_of(enclosed::Enclosure x, Rounding own) {
   return Enclosure::checked(value(codes.lo), value(codes.hi));
 }
 inline enclosed::Rearranged half_of(const enclosed::Rearranged& x, Rounding own) { return enclosed::Rearranged(half_of(x.settled(), own)); }
-/// As the variations' profile stores; where it leaves the rounding open, either neighbour at random.
+/// As the variations' profile stores; if it leaves the rounding open, a random neighbour.
 inline perturbed::Perturbed half_of(perturbed::Perturbed x, Rounding own) {
   perturbed::Behaviour& b = perturbed::behaviour();
   const auto coin = [&] {

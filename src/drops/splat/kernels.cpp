@@ -22,15 +22,15 @@ RAINREF_TARGET_BEGIN(drops)
 #include "drops/splat/splat.pass.h"
 #undef RAINREF_FN
 
-// Where a texel may get something: a little more than the pass says, because its own arithmetic is rounded. What is
-// offered in vain gets exactly 0. A span of centres c +- r covers the texels from past(c - r - more) to
-// past(c + r + more - 1): half a texel leads from an index to its centre, an eighth is to spare.
+// Texels that may receive water: slightly more than the pass says, because this arithmetic is rounded. A surplus texel gets exactly 0. A
+// span of centres c +- r covers the texels from past(c - r - more) to past(c + r + more - 1): half a texel is the distance from an index to
+// its centre, an eighth is a margin.
 constexpr float wider = 1.001f, more = 0.625f;
 
 /// The first index above z, in [0, size].
 HWY_INLINE int past(float z, int size) { return z < 0 ? 0 : z >= static_cast<float>(size) ? size : static_cast<int>(z) + 1; }
 
-/// Its place among the necks, which are in ascending id, or -1.
+/// Index of its neck, which are in ascending id, or -1.
 std::int32_t place_of(std::span<const Neck> necks, std::uint32_t id) {
   const auto at = std::lower_bound(necks.begin(), necks.end(), id, [](const Neck& n, std::uint32_t sought) { return n.id < sought; });
   return at != necks.end() && at->id == id ? static_cast<std::int32_t>(at - necks.begin()) : -1;
@@ -138,7 +138,7 @@ void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops
   }
 }
 
-/// What a band draws on: halves of the texture itself, or floats that are stored when all drops are in.
+/// Target of a band: halves of the texture itself, or floats that are stored after all drops.
 template <SplatKernel kernel, bool is_leaning, bool has_neck, class Target>
 HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const StampRecord& r, const LeanRecord* lean,
                               const NeckRecord* neck, int row0, int row1, int width, const Target& row_of) {
@@ -191,7 +191,7 @@ HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const S
   }
 }
 
-// Calls drawn(stamp, how it leans or null, its neck or null) for every stamp of the band, in slot order.
+// Calls drawn(stamp, its lean or null, its neck or null) for every stamp of the band, in slot order.
 template <class Drawn>
 HWY_INLINE HWY_ATTR void for_stamps_of(std::span<const StampChunk> chunks, int band, const Drawn& drawn) {
   const std::size_t b = static_cast<std::size_t>(band);
@@ -204,7 +204,7 @@ HWY_INLINE HWY_ATTR void for_stamps_of(std::span<const StampChunk> chunks, int b
   }
 }
 
-// A row of the film, its end texels once more on both sides.
+// Copies a row of the film, with its end texels repeated on both sides.
 HWY_INLINE void copy_film_row(const Image& film, int y, float* to) {
   const int width = film.width();
   const float* from = film.row<float>(std::clamp(y, 0, film.height() - 1));
@@ -285,7 +285,7 @@ RAINREF_EXPORT(MakeStamps);
 RAINREF_EXPORT(SplatBand);
 
 Bands splat_bands(int height) {
-  // More than a processor has cores, and not so low that a drop reaches several.
+  // Gives more bands than processors have cores, but bands high enough that a drop rarely reaches several.
   constexpr int fewest_rows = 16;
   const int rows = std::max(fewest_rows, (height + Bands::most - 1) / Bands::most);
   return {rows, (height + rows - 1) / rows};

@@ -1,4 +1,4 @@
-// The text of splat with every number but lanes.
+// The text of splat for every number type except lanes.
 #pragma once
 
 #include "drops/motion/scalar.h"
@@ -7,7 +7,7 @@
 
 namespace rainref::drops::scalar {
 
-/// The quotient grows with x, and the two x in it are one.
+/// Tighter than interval division: the quotient grows with x, and both x are the same number.
 inline enclosed::Enclosure over_larger(enclosed::Enclosure x, float least) {
   const enclosed::Enclosure s(least);
   if (enclosed::profile().reference) return x / max(x, s);

@@ -51,7 +51,7 @@ std::vector<MemberParameter<SplatKeys>> splat_members(const std::string& prefix)
   };
 }
 
-constexpr double longest = 0.3, tapered = 0.3;  // of a drop that is just held
+constexpr double longest = 0.3, tapered = 0.3;  // for a drop that is just held
 constexpr double steepest = 89 * degree, most_skewed = 0.95;
 
 }  // namespace

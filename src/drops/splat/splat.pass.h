@@ -2,20 +2,20 @@
 //
 //   height = film + drops in slot order,    a drop gives h kernel(q),    q = |distance in the plane of the glass| / R
 //
-// Contact-angle hysteresis holds a drop by its line: the more pulls on it, the longer it is, the wider below, and the steeper where
-// it would advance. With a along the pull and b across, in lengths of its own,
+// Contact-angle hysteresis holds a drop by its contact line. The stronger the pull, the longer the drop is, the wider below, and the
+// steeper at its advancing side. With a along the pull and b across it, in the drop's own lengths, it
 //   gives h (1 + K a) kernel(q),    q^2 = (a / L)^2 + (b / (1 + T a / L))^2,    h over L (1 + T K <a^2>)
-// which keeps its volume, and lays its centre of mass below its middle. T = K = 0, L = 1: round.
+// This keeps its volume, and moves its centre of mass below its centre. T = K = 0, L = 1: round.
 //
-// Of one that necks says to be two still (corrected), both footprints stay, discs of radii A and B about places on a line through its
-// middle, in lengths of R:
+// If necks says that a drop still consists of two (corrected), both footprints are drawn: discs of radii A and B around points on a line
+// through its centre, in lengths of R:
 //   q^2 = smooth minimum of |p - a|^2 + 1 - A^2 and |p - b|^2 + 1 - B^2
-// Both caps have one curvature: under the surface of a flat drop the pressure is the same everywhere, so that height has one Laplacian.
-// What the minimum rounds off is the neck. The larger grows to R while they come together; h is over the volume, summed along the line.
-// While it is two it leans less.
+// Both caps have the same curvature: the pressure under a flat drop is the same everywhere, so its height has one Laplacian. The rounded
+// part of the minimum is the neck. The larger disc grows to R while they approach each other; h is divided by the volume, summed along the
+// line. While it is two the drop leans less.
 //
-// R and h grow as the cube root of the mass. as-published measures each axis by its own length, so frame[1] is 0 there;
-// corrected measures in the plane, where a drop is round on sheared glass too. Needs drop-inl.h.
+// R and h grow as the cube root of the mass. as-published measures each axis by its own length, so frame[1] is 0 there; corrected measures
+// in the plane, where a drop is round on sheared glass too. Needs drop-inl.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_DROPS_SPLAT_PASS_H_
 #define RAINREF_DROPS_SPLAT_PASS_H_
@@ -54,23 +54,23 @@ struct SplatPass : pass::Takes<SplatUniforms> {
                   member<&U::skew>("1", scene::share, "Its height's slope along its half length; 0 as published."),
                   member<&U::moment>("1", scene::share, "corrected: mean squared place along it, over its half length squared.")});
   }
-  /// Whether a drop may add something to a tile of texels. Others surely add nothing: this one ends a texel and a fiftieth of its radius
-  /// further out than the text says. has_neck: it may have one.
+  /// Whether a drop may add something to a tile of texels. Other drops certainly add nothing: the test extends a texel and a fiftieth of
+  /// its radius further than the text. has_neck: it may have one.
   static bool reaches(const SplatUniforms& u, const Drop& d, const parallel::Tile& t, bool has_neck) {
     if (!(d.life > 0 && d.mass > 0)) return false;
     const double column = 0.5 * (t.x0 + t.x1) - static_cast<double>(d.position[0]) * u.size[0],
                  row = 0.5 * (t.y0 + t.y1) - static_cast<double>(d.position[1]) * u.size[1];
     const double plane_x = u.frame[0] * column + u.frame[1] * row, plane_y = u.frame[2] * row;
     const auto magnitude = [](double z) { return z < 0 ? -z : z; };
-    // From the middle of the tile to the farthest centre in it, and a texel more.
+    // From the centre of the tile to its farthest texel centre, and one texel more.
     const double columns = 0.5 * (t.x1 - t.x0) + 0.5, rows = 0.5 * (t.y1 - t.y0) + 0.5;
     const double around = magnitude(u.frame[0]) * columns + (magnitude(u.frame[1]) + magnitude(u.frame[2])) * rows;
     const double reach = 1.02 * static_cast<double>(has_neck ? lean_reach(u) * neck_reach : lean_reach(u));
-    const double needed = (__builtin_sqrt(plane_x * plane_x + plane_y * plane_y) - around) / reach;  // of the radius
+    const double needed = (__builtin_sqrt(plane_x * plane_x + plane_y * plane_y) - around) / reach;  // in units of the radius
     const double scale = u.radius_scale;
     return needed < u.smallest_radius || needed * needed * needed < scale * scale * scale * d.mass;
   }
-  /// As many as the uniform says, or all: of a port that lost some there may be fewer.
+  /// The number given by the uniform, or all: a port that lost some may have fewer.
   static std::span<const Drop> counted(const SplatUniforms& u, std::span<const Drop> all) {
     const auto said = static_cast<std::size_t>(u.drop_count);
     return u.drop_count < 0 || said > all.size() ? all : all.first(said);
@@ -81,7 +81,7 @@ struct SplatPass : pass::Takes<SplatUniforms> {
       if (reaches(u, d, t, corrected)) near.push_back(d);
     return near;
   }
-  /// That of a drop, or null.
+  /// The neck of a drop, or null.
   static const Neck* neck_of(std::span<const Neck> necks, std::uint32_t id) {
     for (const Neck& n : necks)
       if (n.id == id) return &n;
@@ -106,22 +106,22 @@ struct SplatPass : pass::Takes<SplatUniforms> {
 #endif
 #else
 
-/// A drop as it is drawn: centre [texel], radius [m], height [mm], 0 for a dead one.
+/// A drop as drawn: centre [texel], radius [m], height [mm], 0 for a dead one.
 template <class N>
 struct Stamp {
   N x, y, radius, inverse_radius_sq, height;
-  // Of one that leans: a unit vector in the plane, 1 over its half length and half width, slopes.
+  // For a leaning drop: a unit vector in the plane, 1 over its half length and half width, slopes.
   N lean_x, lean_y, inverse_length, inverse_radius, taper, skew;
-  // Of one that is two: the line through both middles, a unit vector; what is added to q^2 for each, and that over the way along the line.
+  // For a drop that is two: the line through both centres, a unit vector; the amount added to q^2 for each, and its change along the line.
   N neck_x, neck_y, larger, larger_slope, smaller, smaller_slope, fillet, inverse_fillet;
   RAINREF_FN Stamp() {}
 };
-/// x / max(x, least): the share of a drop's own radius in the one that it is drawn with.
+/// x / max(x, least): the drop's own radius divided by the radius with which it is drawn.
 template <class N>
 RAINREF_FN N over_larger(N x, float least) {
   return x / max(x, N(least));
 }
-/// Which way a drop leans, and how far: 1 where hysteresis just holds it, and where it slides.
+/// Direction and amount of a drop's lean: 1 if hysteresis just holds it, and if it slides.
 template <class N>
 struct Lean {
   N x, y, load;
@@ -131,17 +131,17 @@ RAINREF_FN Lean<N> lean_of(const SplatUniforms& u, N root) {
   const N root_sq = square(root);
   const N x = root_sq * N(u.gravity[0]) + root * N(u.wind[0]), y = root_sq * N(u.gravity[1]) + root * N(u.wind[1]);
   const N size = length(x, y), inverse = N(1.0f) / max(size, N(1e-6f));
-  // On which nothing pulls is round whatever the way.
+  // A drop without pull is round, whatever the direction.
   const auto is_pulled = size > N(1e-6f);
   return {select(is_pulled, x * inverse, N(1.0f)), select(is_pulled, y * inverse, N(0.0f)), min(size, N(1.0f))};
 }
-/// What of q^2 changes along the line through both middles, over its square: the smooth minimum of two straight lines.
+/// The varying part of q^2 along the line through both centres, divided by its square: the smooth minimum of two straight lines.
 template <class N>
 RAINREF_FN N neck_profile(const Stamp<N>& s, N along) {
   const N a = s.larger - s.larger_slope * along, b = s.smaller - s.smaller_slope * along;
   return min(a, b) - square(max(s.fillet - abs(a - b), N(0.0f))) * s.inverse_fillet;
 }
-/// Area under the profile across the line where 1 - q^2 is c on it, over a factor; the smoothstep is nearly (1 - q^2)^(7/3).
+/// Area under the profile across the line at a point where 1 - q^2 is c, divided by a factor; the smoothstep is nearly (1 - q^2)^(7/3).
 template <class N>
 RAINREF_FN N section(SplatKernel kernel, N c) {
   switch (kernel) {
@@ -157,7 +157,8 @@ RAINREF_FN N section(SplatKernel kernel, N c) {
       return sqrt(c);
   }
 }
-/// The stamp of a drop with this neck. To a five-hundredth of the volume, but with the smoothstep, whose power is a likeness: a fourteenth.
+/// The stamp of a drop with this neck. Its volume is accurate to a five-hundredth; for the smoothstep, whose power is an approximation, to
+/// a fourteenth.
 template <class N>
 RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp<N>& s) {
   const N zero(0.0f), one(1.0f);
@@ -175,7 +176,7 @@ RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp
   s.fillet = guard<N>(max((N(neck_width) * neck.left) * square(r.smaller), N(1e-6f)), "a neck has a width while it is kept");
   s.inverse_fillet = N(0.25f) / s.fillet;
   s.inverse_radius = one / s.radius;
-  // Of both and of a round drop, in the middles of equal parts of their length.
+  // For both, and for a round drop, at the centres of equal parts of their length.
   const N low = to_larger - r.larger, high = to_smaller + r.smaller;
   const N middle = N(0.5f) * (low + high), half = N(0.5f) * (high - low);
   const auto kernel = static_cast<SplatKernel>(u.kernel);
@@ -192,14 +193,15 @@ RAINREF_FN void put_neck(const SplatUniforms& u, const NeckState<N>& neck, Stamp
   constexpr const char* hold_water = "both footprints hold water";
   s.height = s.height * (round / guard<N>(max(both * half, N(1e-6f)), hold_water));
   if (leans(u)) {
-    // Caps of one curvature hold more where they are larger: the middle of mass is beside the middle, and a drop is higher and wider below.
+    // If both caps have the same curvature the larger one holds more water. So the centre of mass is off the centre, and the drop is higher
+    // and wider below.
     const N below = (s.neck_x * s.lean_x + s.neck_y * s.lean_y) * (moment / guard<N>(max(both, N(1e-6f)), hold_water));
     const N even = one + (s.taper * s.skew) * N(u.moment);
     const N least = guard<N>(max(even + (s.taper + s.skew) * below, N(0.25f)), "the middle of mass is near the middle");
     s.height = s.height * (even / least);
   }
 }
-/// neck: null where the drop has none.
+/// neck: null if the drop has none.
 template <class N>
 RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position_v, N mass, N life, const NeckState<N>* neck = nullptr) {
   Stamp<N> s;
@@ -208,7 +210,7 @@ RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position
   const N root = cube_root_of_mass(mass, 0.0f), own = N(u.radius_scale) * root;
   s.radius = max(own, N(u.smallest_radius));
   s.inverse_radius_sq = N(1.0f) / square(s.radius);
-  // A drop drawn wider than it is keeps its volume.
+  // A drop that is drawn wider than it is keeps its volume.
   N height = (N(u.height_scale) * root) * square(over_larger(own, u.smallest_radius));
   if (leans(u)) {
     const N one(1.0f);
@@ -228,7 +230,7 @@ RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position
   return s;
 }
 
-/// kernel(q); 0 from q = 1 on, but for the disc, which ends beyond it.
+/// kernel(q); 0 from q = 1 on, except for the disc, which ends beyond it.
 template <class N>
 RAINREF_FN N splat_profile(SplatKernel kernel, N q_sq) {
   const N inside = max(N(1.0f) - q_sq, N(0.0f));
@@ -245,17 +247,17 @@ RAINREF_FN N splat_profile(SplatKernel kernel, N q_sq) {
       return select(q_sq <= N(1.0f), N(1.0f), N(0.0f));
   }
 }
-/// The same of a drop with a neck, whose fillet may take q^2 below 0.
+/// The same for a drop with a neck, whose fillet may make q^2 negative.
 template <class N>
 RAINREF_FN N necked_profile(SplatKernel kernel, N q_sq) {
   return splat_profile(kernel, max(q_sq, N(0.0f)));
 }
-/// The height of a drop that leans, where it has this share of that in its middle.
+/// Height of a leaning drop at a point with this share of its central height.
 template <class N>
 RAINREF_FN N skewed_height(const Stamp<N>& s, N share) {
   return s.height * max(share, N(0.0f));
 }
-/// What a drop gives to the texel with its centre at (x, y) [texel].
+/// Contribution of a drop to the texel with its centre at (x, y) [texel].
 template <bool is_leaning, bool has_neck = false, class N>
 RAINREF_FN N splat_contribution(const SplatUniforms& u, SplatKernel kernel, const Stamp<N>& s, N x, N y) {
   const N column = x - s.x, row = y - s.y;
@@ -282,8 +284,8 @@ RAINREF_FN N splat_blend(SplatBlend blend, N before, N drop) {
   return blend == SplatBlend::max ? max(before, drop) : before + drop;
 }
 
-/// The drops in a texel, which has all stamps offered. `blended` gives what the target holds after a drop: with `accumulate = half` its
-/// half, else the number itself. have_necks: of each stamp.
+/// The drops in a texel, which gets all stamps. `blended` gives the target's value after a drop: with `accumulate = half` rounded to half,
+/// else the number itself. have_necks: for each stamp.
 template <class N, class Blended>
 RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, const unsigned char* have_necks, int x, int y, Blended blended) {
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
@@ -300,9 +302,9 @@ RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, const u
   return height;
 }
 
-/// corrected: the film, whole mass units in each texel, under a tent of 3 x 3 texels, which keeps its volume. Rows are readable
-/// one texel to both sides, where the nearest texel stands again. Operands have names because compilers evaluate those of + in
-/// different orders, and the diagnosis names equal causes in the order in which they are met.
+/// corrected: the film, in whole mass units per texel, filtered by a tent of 3 x 3 texels, which keeps its volume. Rows are readable one
+/// texel to both sides, where the nearest texel is repeated. Operands have names because compilers evaluate the operands of + in different
+/// orders, and the diagnosis names equal causes in the order of evaluation.
 template <class N>
 RAINREF_FN N film_tent(N before, N here, N after) {
   const N middle = N(0.5f) * here, sides = N(0.25f) * (before + after);

@@ -1,4 +1,4 @@
-// The library behind Codec: the only file that knows OpenImageIO.
+// The library behind Codec: the only file that uses OpenImageIO.
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
@@ -13,7 +13,7 @@ namespace rainref::image_io {
 
 namespace {
 
-/// OpenImageIO 2.4 takes an offset of -1, as damaged tables of EXRs have it, and reads before the bytes.
+/// OpenImageIO 2.4 accepts an offset of -1, as in damaged tables of EXRs, and reads before the bytes.
 class Memory : public OIIO::Filesystem::IOMemReader {
  public:
   using IOMemReader::IOMemReader;
@@ -33,14 +33,14 @@ class Reader : public PictureReader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : memory_(bytes.data(), bytes.size()) {}
 
-  /// False when this OpenImageIO cannot read the format.
+  /// Returns false if this OpenImageIO cannot read the format.
   bool open(const char* format) {
     input_ = OIIO::ImageInput::create(format);
     if (!input_ || !input_->set_ioproxy(&memory_)) return false;
     OIIO::ImageSpec config, spec;
     config.attribute("oiio:UnassociatedAlpha", 1);  // colour not multiplied by alpha
     config.attribute("oiio:RawColor", 1);           // no change of colour model
-    // The bytes come from memory; OpenImageIO needs a name for its messages only.
+    // The bytes come from memory; OpenImageIO needs a name only for its messages.
     take_png_refusal();  // of an earlier picture
     if (!input_->open("picture", spec, config)) fail(input_->geterror());
     take(spec);
@@ -52,7 +52,7 @@ class Reader : public PictureReader {
   void read(std::size_t first, std::size_t end, std::byte* texels) override {
     // The unknown type asks for the file's own types, each channel in its own.
     const bool whole = input_->read_image(0, 0, static_cast<int>(first), static_cast<int>(end), OIIO::TypeUnknown, texels);
-    // Some readers return partial data and success, and leave only a message behind.
+    // Some readers return success with partial data, and only leave a message.
     if (!whole || input_->has_error()) fail(input_->geterror());
   }
 
@@ -101,20 +101,20 @@ OIIO::ImageSpec spec_of(const StoredPicture& picture) {
   if (std::ranges::all_of(spec.channelformats, [&](OIIO::TypeDesc type) { return type == first; })) spec.channelformats.clear();
   if (!picture.compression.empty()) spec.attribute("compression", picture.compression);
   spec.attribute("oiio:UnassociatedAlpha", 1);  // colour is stored as it is
-  // An empty date: without one, OpenImageIO stores the time of day in an EXR, and no two files would be equal.
+  // An empty date, because otherwise OpenImageIO stores the time of day in an EXR, and no two files would be equal.
   spec.attribute("DateTime", "");
   for (const Note& note : picture.notes) spec.attribute(note.key, note.value);
   return spec;
 }
 
-/// In memory: OpenImageIO would open the final name, and its errors do not tell why a disk refused.
+/// In memory, because OpenImageIO would open the final name, and its errors do not say why a disk refused.
 std::optional<std::vector<std::byte>> encode_exr(const std::string& name, const StoredPicture& picture, const std::byte* texels) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);  // outlives its writer
   const auto output = OIIO::ImageOutput::create("openexr");
   if (!output || !output->set_ioproxy(&memory)) return std::nullopt;
   const OIIO::ImageSpec spec = spec_of(picture);
-  // The texels are in the file's own types: for one type to be named, for several to be left unknown.
+  // The texels are in the file's own types: name it if there is one type, leave it unknown for several.
   const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeUnknown;
   const bool whole = output->open(name, spec) && output->write_image(type, texels) && output->close();
   if (!whole || output->has_error()) fail(output->geterror());
@@ -124,9 +124,9 @@ std::optional<std::vector<std::byte>> encode_exr(const std::string& name, const 
 
 }  // namespace
 
-/// What codec() looks for. Sets the state that OpenImageIO keeps for the whole process to what determinism needs: one thread for
-/// OpenImageIO and none for OpenEXR's pool, so that decoding happens on the caller's thread; no filling in of missing pixels; OpenEXR's
-/// C++ reader. Overrides the environment (OPENIMAGEIO_OPTIONS).
+/// The function that codec() loads. Sets the state that OpenImageIO keeps for the whole process to what determinism needs: one thread for
+/// OpenImageIO and none for OpenEXR's pool, so that decoding happens on the caller's thread; no filling in of missing pixels; OpenEXR's C++
+/// reader. Overrides the environment (OPENIMAGEIO_OPTIONS).
 extern "C" __attribute__((visibility("default"))) const Codec* rainref_openimageio() {
   OIIO::attribute("threads", 1);
   // -1: decode in the calling thread. 0 would mean as many threads as cores, 1 a pool of one extra thread.

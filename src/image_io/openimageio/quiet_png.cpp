@@ -1,6 +1,6 @@
-// OpenImageIO's handler of libpng's errors returns, and then libpng prints. So this module has its own png_set_error_fn: the loader binds
-// OpenImageIO to it, for it lies in the object that was opened, before the libraries that it brings. It gives libpng handlers that print
-// nothing. Where the host program has loaded a libpng of its own for everyone, that one's function is taken, and prints.
+// OpenImageIO's handler of libpng's errors returns, and then libpng prints. So this module has its own png_set_error_fn, which gives libpng
+// handlers that print nothing. The loader binds OpenImageIO to it, because it is in the opened object, which comes before the object's
+// libraries. If the host program has loaded a libpng globally, that libpng's function is used, and prints.
 #include "image_io/openimageio/quiet_png.h"
 
 #include <dlfcn.h>
@@ -22,7 +22,7 @@ thread_local std::string refusal;
 }
 void warn(png_structp, png_const_charp) {}
 
-/// libpng's own function, behind the one below; null where libpng cannot be found, which cannot be: it has called us.
+/// libpng's own function, hidden by the one below; null only if libpng is not found, which cannot happen because it has called us.
 SetErrorFunctions original() {
   Dl_info libpng;
   if (!::dladdr(reinterpret_cast<void*>(&png_longjmp), &libpng)) return nullptr;

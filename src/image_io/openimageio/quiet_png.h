@@ -1,11 +1,11 @@
-// libpng prints what it finds wrong to standard error, beside our own error, and OpenImageIO lets it.
+// Keeps libpng from printing errors to standard error beside rainref's own error; OpenImageIO does not prevent that.
 #pragma once
 
 #include <string>
 
 namespace rainref::image_io {
 
-/// What libpng refused last in this thread, "" where it refused nothing since this was called.
+/// The last refusal of libpng in this thread since the last call; "" if there was none.
 std::string take_png_refusal();
 
 }  // namespace rainref::image_io

@@ -1,4 +1,4 @@
-"""rainref from Python: scenes that run, their buffers as arrays, and verdicts on ports.
+"""rainref for Python: runs scenes, returns their buffers as arrays, and judges ports.
 
 >>> import rainref
 >>> sim = rainref.open("edge_splash", {"run.size": (32, 18)})
@@ -7,8 +7,8 @@
 >>> picture.shape, picture.dtype
 ((18, 32, 4), dtype('uint8'))
 
-It stands on librainref.so and needs NumPy and no compiler. What is wrong is an `Error`, which is a ValueError and names place, key, what
-was expected, what was found and the nearest name.
+It calls librainref.so and needs NumPy, but no compiler. Failures raise `Error`, a ValueError that names place, key, what was expected,
+what was found and the nearest name.
 """
 
 from ._library import golden_generation, keep_images, version

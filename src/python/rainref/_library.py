@@ -17,8 +17,8 @@ _HERE = Path(__file__).resolve().parent
 
 
 def _places() -> list[str]:
-    """Where the library may lie: where the environment says, in this package, in the build folder of the clone that this file lies in,
-    where the system looks."""
+    """Possible places of the library: the one given by the environment, this package, the build folder of this file's clone, and the
+    system's search path."""
     told = os.environ.get("RAINREF_LIBRARY")
     if told:
         return [told]
@@ -105,7 +105,7 @@ for _name, (_restype, _argtypes) in _PROTOTYPES.items():
 
 
 def call(name: str, *arguments: object) -> Any:
-    """rr_NAME(arguments). A function that can fail raises the Error that it names. Other threads run meanwhile."""
+    """Calls rr_NAME(arguments). Raises Error if the function fails. Other threads run meanwhile."""
     result = _functions[name](*arguments)
     if _PROTOTYPES[name][0] is _result and result != 0:
         raise error_of(result, decoded(_functions["error"]()))
@@ -113,21 +113,21 @@ def call(name: str, *arguments: object) -> Any:
 
 
 def filled(name: str, struct: type[_S], *arguments: object) -> _S:
-    """The struct that rr_NAME fills, its last argument."""
+    """Returns the struct that rr_NAME fills through its last argument."""
     out = struct.new()
     call(name, *arguments, c.byref(out))
     return out
 
 
 def text_of(name: str, *arguments: object) -> str:
-    """The text that rr_NAME gives by its last argument."""
+    """Returns the text that rr_NAME gives through its last argument."""
     out = c.c_char_p()
     call(name, *arguments, c.byref(out))
     return decoded(out.value)
 
 
 def decoded(text: bytes | None) -> str:
-    """Names of files need not be UTF-8."""
+    """Decodes a text. File names need not be UTF-8."""
     return (text or b"").decode("utf-8", "surrogateescape")
 
 
@@ -136,21 +136,21 @@ def encoded(text: str | os.PathLike[str]) -> bytes:
 
 
 def texts(many: Iterable[str]) -> tuple[c.Array[c.c_char_p], int]:
-    """An array of texts, and how many they are."""
+    """Returns an array of texts, and its length."""
     all_of_them = [encoded(t) for t in many]
     return (c.c_char_p * len(all_of_them))(*all_of_them), len(all_of_them)
 
 
 class Handle:
-    """A handle of the library, freed when nothing refers to it any more: arrays that look into it do."""
+    """A handle of the library. It is freed when nothing refers to it; arrays that view its memory refer to it."""
 
     def __init__(self, free: str, make: str, *arguments: object) -> None:
         made = c.c_void_p()
         call(make, *arguments, c.byref(made))
         self._as_parameter_ = made
-        #: The memory of the library's that arrays look into, by the id of what owns it in Python.
+        #: Library memory that arrays view, by the id of its owner in Python.
         self.looked_into: weakref.WeakValueDictionary[int, object] = weakref.WeakValueDictionary()
-        # Not at the end of the program, when arrays may still look into it.
+        # Not at the end of the program, because arrays may still view it.
         weakref.finalize(self, _functions[free], made).atexit = False
 
 
@@ -160,11 +160,12 @@ def version() -> str:
 
 
 def keep_images(folder: str | os.PathLike[str] | None) -> None:
-    """Where made images that are the same in every run (the street around a puddle) are kept for later runs; None: nowhere. Without this call
-    as `rainref run` keeps them: in $XDG_CACHE_HOME/rainref, or ~/.cache/rainref. No bit hangs on it. Error once a scene was opened."""
+    """Sets the folder in which generated images that are the same in every run (such as the street around a puddle) are kept for later
+    runs. None: they are not kept. Without this call the folder is that of `rainref run`: $XDG_CACHE_HOME/rainref, or ~/.cache/rainref.
+    Does not affect results. Raises Error after a scene has been opened."""
     call("keep_images", None if folder is None else encoded(folder))
 
 
 def golden_generation() -> int:
-    """The identity of the bits: it rises when a change alters those of any published pass."""
+    """Generation of the golden results. It rises when a change alters the bits of any published pass."""
     return int(_functions["golden_generation"]())

@@ -1,4 +1,4 @@
-"""The structs of rainref.h, member for member. The library refuses one whose size is not its own."""
+"""The structs of rainref.h, member for member. The library refuses a struct of another size."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _S = TypeVar("_S", bound="Struct")
 
 
 class Struct(c.Structure):
-    """Each begins with its size."""
+    """A struct that begins with its size."""
 
     @classmethod
     def new(cls: type[_S], **members: object) -> _S:
@@ -17,7 +17,7 @@ class Struct(c.Structure):
 
 
 def _members(text: str) -> list[tuple[str, object]]:
-    """'struct_bytes:size name:text': names and their types."""
+    """Parses names with their types: 'struct_bytes:size name:text'."""
     types = {"size": c.c_size_t, "text": c.c_char_p, "i32": c.c_int32, "i64": c.c_int64, "real": c.c_double, "float": c.c_float,
              "pointer": c.c_void_p, "texts": c.POINTER(c.c_char_p), "pointers": c.c_void_p * 4, "floats": c.c_float * 4}
     return [("struct_bytes", c.c_size_t)] + [(n, types[t]) for n, t in (word.split(":") for word in text.split())]

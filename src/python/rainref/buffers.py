@@ -1,7 +1,7 @@
 """Arrays of the library as NumPy arrays.
 
-An image is (height, width) or (height, width, channels), row 0 the bottom one of pictures, in its storage type: float16, float32, uint32,
-or uint8 codes. Records and uniform blocks are structured arrays with the names of `rainref describe`.
+An image is (height, width) or (height, width, channels), in its storage type: float16, float32, uint32, or uint8 codes. Row 0 is the bottom
+row of a picture. Records and uniform blocks are structured arrays with the names of `rainref describe`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _RECORDS = 7
 
 
 def dtype_of(layout: int) -> np.dtype:
-    """The structured dtype of a layout; each field's title says its unit and what it is."""
+    """Returns the structured dtype of a layout. The title of each field is its unit and description."""
     about = filled("get_layout", s.LayoutInfo, layout)
     fields = []
     for i in range(about.members):
@@ -38,7 +38,7 @@ def dtype_of(layout: int) -> np.dtype:
 
 @dataclasses.dataclass(frozen=True)
 class Place:
-    """Where texels lie in the library's memory: from `address` on, `length` bytes of it, of which `offset` come before the first."""
+    """Position of texels in the library's memory: `length` bytes from `address` on; the first texel is at `offset`."""
 
     address: int
     length: int
@@ -49,17 +49,17 @@ class Place:
     offset: int = 0
 
     def array(self) -> np.ndarray:
-        """A look at them, not writeable and not to be made so. The library's memory lives as long as it."""
+        """Returns a view that is not writeable and cannot be made so. It keeps the library's memory alive."""
         memory = (c.c_char * self.length).from_address(self.address)
         memory._owner = self.owner  # type: ignore[attr-defined]
         self.owner.looked_into[id(memory)] = memory
-        # Of a memoryview itself ndarray would take the memory behind it, which may be written.
+        # Given the memoryview itself, ndarray would take the writeable memory behind it.
         unwriteable = np.frombuffer(memoryview(memory).toreadonly(), np.uint8)
         return np.ndarray(self.shape, self.dtype, unwriteable, self.offset, self.strides)  # type: ignore[arg-type]
 
 
 def _place_of(raw: s.Array, plane: int, owner: Handle) -> Place:
-    """A plane: (height, width, channels of it)."""
+    """Returns the position of a plane: (height, width, channels in the plane)."""
     scalar = np.dtype(_CHANNEL[raw.type])
     length = (raw.height - 1) * raw.row_bytes + raw.width * raw.texel_bytes
     shape = (raw.height, raw.width, raw.channels if raw.planes == 1 else 1)
@@ -67,7 +67,7 @@ def _place_of(raw: s.Array, plane: int, owner: Handle) -> Place:
 
 
 def copy_of(raw: s.Array, owner: Handle) -> np.ndarray:
-    """An array of its own."""
+    """Returns a copy."""
     if raw.type == _RECORDS:
         dtype = dtype_of(raw.layout)
         out = np.zeros(raw.width, dtype)
@@ -84,7 +84,7 @@ def copy_of(raw: s.Array, owner: Handle) -> np.ndarray:
 
 
 def view_of(raw: s.Array, channel: int | None, handle: Handle, now: Simulation) -> View:
-    """A view that `now.changes` ends. Of an image whose channels lie apart one channel must be named."""
+    """Returns a view that is valid until `now.changes` changes. If the channels lie in separate planes, one must be named."""
     name = decoded(raw.name)
     if raw.type == _RECORDS:
         raise Error(f"{name}: records have no view, which the next frame could move; take a copy")
@@ -98,13 +98,13 @@ def view_of(raw: s.Array, channel: int | None, handle: Handle, now: Simulation) 
     return view if channel is None and raw.channels > 1 else view[..., (channel or 0) if raw.planes == 1 else 0]
 
 
-#: Types that a port may give texels in: rr_type. Doubles become floats.
+#: Texel types (rr_type) accepted from ports. Doubles are converted to floats.
 _GIVEN = {np.dtype(kind): number for number, kind in _CHANNEL.items() if number in (1, 3, 4, 5)}
 
 
 def image_given(array: np.ndarray, like: s.Array, place: str) -> tuple[s.Array, np.ndarray]:
-    """A port's image as rr_give_image takes it, and the rows that it looks into. Channels beyond the buffer's and floats stay: the library
-    knows what becomes of them."""
+    """Returns a port's image as rr_give_image takes it, and the rows that it refers to. Surplus channels and floats are kept, because
+    the library handles them."""
     rows = np.asarray(array)
     shape = (like.height, like.width) + ((like.channels,) if like.channels > 1 else ())
     texels = rows[..., np.newaxis] if rows.ndim == 2 else rows
@@ -123,7 +123,7 @@ def image_given(array: np.ndarray, like: s.Array, place: str) -> tuple[s.Array, 
 
 
 def records_given(array: np.ndarray, like: np.dtype, place: str) -> np.ndarray:
-    """A port's list, one record behind the other."""
+    """Returns a port's list with its records packed one after the other."""
     records = np.asarray(array)
     if records.ndim != 1 or records.dtype != like:
         raise Error(f"{place}: expected a list of {like}, found the shape {records.shape} of {records.dtype}")
@@ -131,7 +131,7 @@ def records_given(array: np.ndarray, like: np.dtype, place: str) -> np.ndarray:
 
 
 def buffer_of(simulation: object, name: str) -> s.Array:
-    """What rr_get_buffer says of a buffer."""
+    """Returns what rr_get_buffer returns for a buffer."""
     raw = s.Array.new()
     call("get_buffer", simulation, encoded(name), c.byref(raw))
     return raw

@@ -1,4 +1,4 @@
-"""Runs of passes with what they took and gave: what a port is run on."""
+"""Cases: runs of passes with their inputs and outputs. A port runs on them."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Sampling:
 
 
 class Inputs(SimpleNamespace):
-    """A case's inputs by name, level 0 of those that have mip levels: `inputs.wave`."""
+    """Inputs of a case by name: `inputs.wave`. For an input with mip levels this is level 0."""
 
     def __getattr__(self, name: str) -> object:
         if name.startswith("_"):
@@ -40,7 +40,7 @@ class Inputs(SimpleNamespace):
 
 
 class Uniforms(np.record):
-    """A uniform block by name; a wrong one names the nearest."""
+    """The members of a uniform block by name. An error for an unknown name suggests the nearest."""
 
     def __getattr__(self, name: str) -> object:
         if name.startswith("_"):
@@ -95,7 +95,7 @@ class Case:
         return Inputs(**{name: copy_of(self._input(i, 0), self._handle) for name, i in self._inputs.items()})
 
     def levels(self, name: str) -> list[np.ndarray]:
-        """All mip levels of an input, the largest first."""
+        """All mip levels of an input, largest first."""
         i = self._index_of(name)
         return [copy_of(self._input(i, level), self._handle) for level in range(self._input(i, 0).levels)]
 
@@ -107,19 +107,20 @@ class Case:
 
     @property
     def expected(self) -> dict[str, np.ndarray]:
-        """What the reference gives, by output."""
+        """The reference's outputs by name."""
         return {name: copy_of(self._expected(o), self._handle) for name, o in self._outputs.items()}
 
     @property
     def judged(self) -> dict[str, str]:
-        """How each output is judged: "envelope", "bits", "keyed" or "input_only" (not at all)."""
+        """How each output is judged: "envelope", "bits", "keyed" or "input_only" (not judged)."""
         return {name: decoded(call("get_judge", self._handle, self._index, o)) for name, o in self._outputs.items()}
 
     def give(self, outputs: np.ndarray | dict[str, np.ndarray]) -> None:
-        """What a port gave: an array of a pass with one output, else a dict by name.
+        """Takes a port's result: an array for a pass with one output, else a dict by name.
 
-        As of files (docs/dumps.md) channels beyond the buffer's are left out, which the report notes. Floats are stored as the buffer's are: to
-        nearest even; in 8 bits rint(255 x), sRGB encoded where the buffer is sRGB. Raises Error for a shape or a type that cannot be stored."""
+        As for files (docs/dumps.md), channels beyond the buffer's are ignored, and the report notes this. Floats are converted to the
+        buffer's format: rounded to nearest even; in 8 bits rint(255 x), sRGB-encoded if the buffer is sRGB. Raises Error for a shape or
+        type that cannot be stored."""
         if not isinstance(outputs, dict):
             if len(self._outputs) != 1:
                 raise Error(f"{self.id}: expected a dict with {', '.join(self._outputs)}, found {type(outputs).__name__}")
@@ -135,7 +136,7 @@ class Case:
             else:
                 image, rows = image_given(array, raw, place)
                 call("give_image", self._handle, self._index, at, c.byref(image))
-                del rows  # they had to live until here
+                del rows  # must stay alive until here
 
 
 class Cases(Sequence[Case]):
@@ -146,17 +147,17 @@ class Cases(Sequence[Case]):
 
     @classmethod
     def of_simulation(cls, simulation: Simulation) -> Cases:
-        """None yet."""
+        """Starts empty."""
         return cls(Handle("free_cases", "cases_of_simulation", simulation._handle))
 
     @classmethod
     def of_pack(cls, folder: str | os.PathLike[str], passes: Sequence[str] = ()) -> Cases:
-        """Those of a pack, with all their values."""
+        """Reads the cases of a pack with all their values."""
         many, count = texts(passes)
         return cls(Handle("free_cases", "cases_of_pack", encoded(folder), many, count))
 
     def add_next_frame(self, simulation: Simulation, passes: Sequence[str] = ()) -> None:
-        """The simulation's next frame; each run of these passes becomes a case, of every pass where none is named."""
+        """Runs the simulation's next frame. Each run of the named passes becomes a case; if none is named, of every pass."""
         many, count = texts(passes)
         simulation.changes += 1
         call("next_frame_cases", simulation._handle, many, count, self.handle)

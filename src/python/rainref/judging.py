@@ -1,4 +1,4 @@
-"""Judging ports: functions that compute a pass in another way."""
+"""Judging ports, which are functions that compute a pass in another way."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .simulation import Simulation
 
 @dataclass(frozen=True)
 class Port:
-    """A function that computes a pass; `port` makes one. Calling it calls the function."""
+    """A function that computes a pass; `port` makes one. A call is passed on to the function."""
 
     effect: str
     name: str
@@ -33,7 +33,7 @@ class Port:
         return self.function(*arguments)
 
     def run(self, case: Case) -> None:
-        """Runs it on a case, which keeps the outputs."""
+        """Runs the port on a case, which keeps the outputs."""
         takes_case = len(inspect.signature(self.function).parameters) > 2
         try:
             case.give(self.function(case.inputs, case.uniforms, *((case,) if takes_case else ())))
@@ -43,8 +43,8 @@ class Port:
 
 
 def port(what: str) -> Callable[[Callable[..., Any]], Port]:
-    """Says that a function is a port of a pass, "effect.pass". It takes the inputs and the uniform block, by name, and the Case if it has a
-    third parameter; it returns the output, or a dict of outputs by name.
+    """Marks a function as a port of a pass, "effect.pass". The function takes the inputs and the uniform block, both by name, and the
+    Case if it has a third parameter. It returns the output, or a dict of outputs by name.
 
     >>> @port("edge_splash.display")
     ... def black(inputs, uniforms):
@@ -61,20 +61,20 @@ def port(what: str) -> Callable[[Callable[..., Any]], Port]:
 
 @dataclass(frozen=True)
 class Cause:
-    """What would explain the failures of a pass."""
+    """A possible cause of the failures of a pass."""
 
     name: str
     sentence: str
-    explained: int  #: failing texels, or records, whose bits it gives
-    of: int  #: failing ones that were looked at
-    inside: int  #: that it comes near
+    explained: int  #: failing texels or records whose bits it reproduces
+    of: int  #: failing texels or records that were examined
+    inside: int  #: failing ones that it comes near
     is_likely: bool  #: it explains nearly all of them
     lines: tuple[str, ...]  #: of the port's shaders where it is, the best first: "shade.comp:57: vec3 bent = ..."
 
 
 @dataclass(frozen=True)
 class Failure:
-    """An element outside what is allowed: low to high is accepted. x of a record is its number or id."""
+    """An element outside its envelope; values from low to high are accepted. For a record x is its number or id."""
 
     case: str
     output: str
@@ -91,25 +91,25 @@ class Failure:
 
 @dataclass(frozen=True)
 class PassVerdict:
-    """What is said of a pass; counts are of channels of texels, or of fields of records."""
+    """Verdict on a pass. Counts are of channels of texels, or of fields of records."""
 
     name: str
     formula: str
     status: str
     reason: str
-    where: str  #: what the failures share: "only channel y of wave"
+    where: str  #: common property of the failures: "only channel y of wave"
     cases: int
     elements: int
     outside: int
     differing: int
-    vacuous: int  #: of the sampled
-    causes: tuple[Cause, ...]  #: the best first
-    worst: tuple[Failure, ...]  #: the worst first
-    sampled: int  #: whose bounds were asked: all, or a sample of a large picture
+    vacuous: int  #: sampled elements with a useless, very wide envelope
+    causes: tuple[Cause, ...]  #: best first
+    worst: tuple[Failure, ...]  #: worst first
+    sampled: int  #: elements whose envelope was computed: all, or a sample of a large picture
 
 
 class Verdict:
-    """What is said of ports: `status`, `passes`, `verdict["wave_step"].causes`; printed it is the report of `rainref validate`."""
+    """Verdict on ports: `status`, `passes`, `verdict["wave_step"].causes`. print() shows the report of `rainref validate`."""
 
     def __init__(self, handle: Handle) -> None:
         self._handle = handle
@@ -135,7 +135,7 @@ class Verdict:
 
     @property
     def ok(self) -> bool:
-        """Whether it is PASS or WARN."""
+        """True for PASS and WARN."""
         return self.status in ("PASS", "WARN")
 
     def __getitem__(self, name: str) -> PassVerdict:
@@ -151,15 +151,15 @@ class Verdict:
         return f"<verdict {self.status}{' in ' + self.first_bad_pass if self.first_bad_pass else ''}>"
 
     def json(self) -> dict[str, object]:
-        """The whole judgement: docs/reports.md lists the keys."""
+        """The whole report; docs/reports.md lists the keys."""
         return json.loads(text_of("report_json", self._handle))
 
     def html(self, path: str | os.PathLike[str]) -> None:
-        """Writes it as one page with pictures of what fails."""
+        """Writes the report as one HTML page with pictures of the failures."""
         Path(path).write_text(text_of("report_html", self._handle), "utf-8", "surrogateescape")
 
     def junit(self, path: str | os.PathLike[str]) -> None:
-        """Writes it as JUnit XML, for continuous integration."""
+        """Writes the report as JUnit XML, for continuous integration."""
         Path(path).write_text(text_of("report_junit", self._handle), "utf-8", "surrogateescape")
 
 
@@ -172,12 +172,13 @@ def _run(ports: Iterable[Port], cases: Cases) -> None:
 def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port], frames: Iterable[int] = (0, 1), profile: str = "vulkan", *,
           half: str | None = None, threads: int = 0, strict: bool = False, exhaustive: bool = False,
           spirv: str | os.PathLike[str] | None = None) -> Verdict:
-    """Runs ports on the cases of a simulation or of a pack's folder, and judges what they give.
+    """Runs ports on the cases of a simulation or of a pack's folder, and judges their outputs.
 
-    A simulation runs on to the last of `frames`; none of them may lie behind it. `half` says how the ports round stores to binary16 ("rne",
-    "rtz"); None: it is found out where the profile leaves it open. With `strict` each WARN is a FAIL, with `exhaustive` every envelope is computed,
-    where widths and shares are otherwise a sample's. `spirv` is a folder with bindings.json and the ports' SPIR-V: causes have lines of it, and
-    the report says who is wrong. Raises Error for what cannot be judged.
+    A simulation runs until the last of `frames`; none of them may already have been simulated. `half` says how the ports round stores to
+    binary16 ("rne", "rtz"); None: it is inferred from the outputs if the profile leaves it open. With `strict` each WARN is a FAIL. With
+    `exhaustive` every envelope is computed, also for statistics of widths that otherwise use a sample. `spirv` is a folder
+    with bindings.json and the ports' SPIR-V: causes get lines of it, and the report says who is wrong. Raises Error for outputs that cannot
+    be judged.
     """
     ports = [ports] if callable(ports) else list(ports)
     for p in ports:
@@ -213,11 +214,11 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
 def judge_folder(pack: str | os.PathLike[str], port: str | os.PathLike[str], profile: str = "vulkan", *, passes: Iterable[str] = (),
                  partial: bool = False, threads: int = 0, strict: bool = False, exhaustive: bool = False,
                  spirv: str | os.PathLike[str] | None = None) -> Verdict:
-    """Judges the files that a port wrote for the cases of a pack, as `rainref validate PACK --port PORT` does.
+    """Judges the files that a port wrote for the cases of a pack, like `rainref validate PACK --port PORT`.
 
-    `passes` are judged alone; none named: every one. With `partial` a pass without any file is NOT JUDGED, with `strict` each WARN is a FAIL,
-    with `exhaustive` every envelope is computed; `spirv` as in judge(). Files that are missing or cannot be used stand in the verdict's
-    `json()["files"]`. `html` reads both folders again. Raises Error for what cannot be judged.
+    Only `passes` are judged; if none is named, all are. With `partial` a pass without any file is NOT JUDGED. With `strict` each WARN is
+    a FAIL. With `exhaustive` every envelope is computed. `spirv` is as in judge(). The verdict's `json()["files"]` lists missing and unusable files. `html` reads
+    both folders again. Raises Error if nothing can be judged.
     """
     many, count = texts(passes)
     options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads, strict=strict,

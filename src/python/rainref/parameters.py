@@ -1,4 +1,4 @@
-"""What a scene may say, by key, with units and ranges."""
+"""The keys of a scene, with units and ranges."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class Parameter:
     """A key of a scene."""
 
     name: str
-    value: object  #: what the scene has; of `describe` the default
+    value: object  #: value in the scene; in `describe` the default
     type: str
-    unit: str  #: "m/s"; "1" of a pure number, "" where a unit has no meaning
-    minimum: float | None  #: included, of each component; None: no bound
+    unit: str  #: "m/s"; "1" for a pure number, "" if a unit has no meaning
+    minimum: float | None  #: inclusive, for each component; None: no bound
     maximum: float | None
     default: object
     sentence: str
@@ -43,7 +43,7 @@ def effects() -> tuple[str, ...]:
 
 
 def profiles() -> tuple[str, ...]:
-    """What a port may be judged under.
+    """The profiles that a port can be judged under.
 
     >>> "vulkan" in profiles()
     True
@@ -57,7 +57,7 @@ def _described(effect: str) -> str:
 
 
 def describe(effect: str) -> dict[str, Any]:
-    """What `rainref describe EFFECT --json` prints: parameters, passes, buffers, layouts.
+    """Returns the content of `rainref describe EFFECT --json`: parameters, passes, buffers, layouts.
 
     >>> [p["name"] for p in describe("edge_splash")["passes"]]
     ['splash', 'display']
@@ -66,7 +66,7 @@ def describe(effect: str) -> dict[str, Any]:
 
 
 class Parameters(Mapping[str, Parameter]):
-    """The keys of a scene; a wrong one names the nearest."""
+    """The keys of a scene. An error for an unknown key suggests the nearest."""
 
     def __init__(self, effect: str, values: Mapping[str, object]) -> None:
         self._all: dict[str, Parameter] = {}
@@ -94,13 +94,13 @@ class Parameters(Mapping[str, Parameter]):
 
 
 def toml(value: object) -> str:
-    """A value as a scene file has it.
+    """Writes a value as in a scene file.
 
     >>> [toml(v) for v in (True, 2, 0.5, (640, 480), "street")]
     ['true', '2', '0.5', '[640, 480]', '"street"']
     """
     if hasattr(value, "tolist"):
-        value = value.tolist()  # of NumPy
+        value = value.tolist()  # a NumPy array
     if isinstance(value, (tuple, list)):
         return "[" + ", ".join(toml(v) for v in value) + "]"
     if isinstance(value, bool):
@@ -109,7 +109,7 @@ def toml(value: object) -> str:
 
 
 def changes(values: Mapping[str, object] | None) -> list[str]:
-    """{"rain.rate": 20} or {"rain": {"rate": 20}} as `--set` takes them.
+    """Converts {"rain.rate": 20} or {"rain": {"rate": 20}} to the form of `--set`.
 
     >>> changes({"rain": {"rate": 20}, "run.size": (4, 3)})
     ['rain.rate=20', 'run.size=[4, 3]']

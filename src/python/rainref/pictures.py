@@ -1,4 +1,4 @@
-"""Looking at buffers."""
+"""Showing buffers as pictures."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import numpy as np
 
 
 def shown(array: np.ndarray) -> np.ndarray:
-    """An image as one may look at it: uint8 (height, width) or (height, width, 3), top row first.
+    """Converts an image for display: uint8 (height, width) or (height, width, 3), top row first.
 
-    Display code stays as it is; of anything else the values from the least to the largest become black to white.
+    Display code stays as it is. Other values are scaled: the smallest becomes black, the largest white.
 
     >>> shown(np.array([[0.0, 1.0], [2.0, 4.0]]))
     array([[127, 255],

@@ -22,11 +22,11 @@ from .views import View
 
 
 def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str, object] | None = None, *, threads: int = 0) -> Simulation:
-    """A scene that runs: a scene file's path, the name of a scene of `rainref list` ("puddle/default.toml") or of an effect (all defaults),
-    keys with values, or a scene's text (of several lines).
+    """Opens a scene. `scene` is the path of a scene file, the name of a scene of `rainref list` ("puddle/default.toml") or of an effect
+    (all defaults), a dict of keys with values, or the text of a scene (several lines).
 
-    `set` wins over it: {"run.size": (320, 180), "rain.rate": 20}. `threads` 0 is one for each processor; no bit hangs on it. Raises Error
-    for what no scene may say, FileError for files.
+    `set` overrides it: {"run.size": (320, 180), "rain.rate": 20}. `threads` 0 is one for each processor; it does not affect results.
+    Raises Error for an invalid scene, FileError for files.
 
     >>> open("puddel")
     Traceback (most recent call last):
@@ -53,9 +53,10 @@ def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str,
 
 
 class Simulation:
-    """A scene that runs; `open` makes one. Every buffer has the same bits whatever the threads and the machine.
+    """A running scene; `open` makes one. The bits of every buffer do not depend on the number of threads or the machine.
 
-    It is used by one thread at a time, and different ones by any number at once; a frame is computed without Python's lock.
+    One thread at a time may use it; different threads may use different simulations at once. A frame is computed without holding
+    Python's lock.
     """
 
     def __init__(self, scene: str | Path, set: list[str], threads: int = 0) -> None:
@@ -65,20 +66,20 @@ class Simulation:
             self._handle = Handle("close", "open_file", encoded(scene), c.byref(options))
         else:
             self._handle = Handle("close", "open", encoded(scene), c.byref(options))
-        # To open it again: for copies, here and in other processes.
+        # Arguments to open it again, for copies in this and other processes.
         self._scene, self._set, self._threads = scene.absolute() if isinstance(scene, Path) and scene.exists() else scene, set, threads
-        self.changes = 0  #: counts what ends the validity of views
+        self.changes = 0  #: counts the changes that invalidate views
         self._look_up()
 
     def _look_up(self) -> None:
         about = self._about()
         self.effect: str = decoded(about.effect)
         self.variant: str = decoded(about.variant)
-        #: Names of what is held between frames, in the order of the passes.
+        #: Names of the buffers kept between frames, in the order of the passes.
         self.buffers: tuple[str, ...] = tuple(decoded(call("buffer_name", self._handle, i)) for i in range(about.buffers))
         #: Every key of the scene with value, unit and range.
         self.parameters = Parameters(self.effect, json.loads(decoded(about.scene_json)))
-        #: What is doubtful about the scene's files.
+        #: Sentences about doubtful properties of the scene's files.
         self.warnings: tuple[str, ...] = tuple(decoded(call("warning", self._handle, i)) for i in range(about.warnings))
 
     def _about(self) -> s.SimulationInfo:
@@ -93,27 +94,27 @@ class Simulation:
         return int(self._about().frame)
 
     def __len__(self) -> int:
-        """The frames that the scene asks for; more may be simulated."""
+        """Number of frames that the scene asks for; more may be simulated."""
         return int(self._about().frames)
 
     def simulate(self) -> None:
-        """To the next frame; nothing is rendered."""
+        """Simulates the next frame without rendering it."""
         self.changes += 1
         call("simulate", self._handle)
 
     def render(self) -> None:
-        """The frame that was simulated last."""
+        """Renders the last simulated frame."""
         self.changes += 1
         call("render", self._handle)
 
     def step(self) -> Frame:
-        """The next frame, simulated and rendered."""
+        """Simulates, renders and returns the next frame."""
         self.changes += 1
         call("next_frame", self._handle)
         return Frame(self)
 
     def step_hashes(self) -> dict[tuple[str, str], str]:
-        """The next frame, and what `rainref hash` prints of it: (pass, buffer) and hash.
+        """Runs the next frame and returns the hashes that `rainref hash` prints, by (pass, buffer).
 
         >>> sim = open("edge_splash", {"run.size": (16, 9)})
         >>> len(sim.step_hashes()["display", "picture"])
@@ -124,7 +125,7 @@ class Simulation:
         return {(name, buffer): value for _, name, buffer, value in (line.split() for line in lines)}
 
     def frames(self, count: int | None = None) -> Iterator[Frame]:
-        """The next frames, each computed when it is asked for; None: those that the scene asks for and that are still to come."""
+        """Yields the next `count` frames, each computed on demand. None: the remaining frames of the scene."""
         for _ in range(max(0, len(self) - self.frame) if count is None else count):
             yield self.step()
 
@@ -132,7 +133,7 @@ class Simulation:
         return self.frames()
 
     def save(self, to: str | os.PathLike[str] | BinaryIO | None = None) -> bytes:
-        """What is held between frames, as bytes; written to a path, or to a file that is open for bytes, where `to` is one. It changes nothing.
+        """Returns the state kept between frames as bytes, or writes it to `to`, a path or a binary file. The simulation does not change.
 
         >>> sim = open("edge_splash", {"run.size": (16, 9)})
         >>> for frame in sim.frames(2):
@@ -147,8 +148,9 @@ class Simulation:
         return state
 
     def load(self, state: bytes | bytearray | memoryview | str | os.PathLike[str] | BinaryIO) -> Simulation:
-        """Goes on from what `save` gave, or from a path or file that has it, with the same bits, and returns itself. Pictures come with the
-        next frame. Error for bytes that are no state, damaged, or of another scene (run.frames may differ); it then is as it was.
+        """Loads a state from the bytes of `save`, a path or a binary file, and returns itself. It then continues with the same bits.
+        Pictures come with the next frame. Raises Error for bytes that are no state, damaged, or of another scene (run.frames may
+        differ); the simulation is then unchanged.
 
         >>> open("edge_splash", {"run.size": (16, 9)}).load(b"no state")
         Traceback (most recent call last):
@@ -160,8 +162,8 @@ class Simulation:
         return self
 
     def set(self, key: str, value: object) -> Simulation:
-        """Gives a key of the scene another value, from the next frame on, and returns itself. Error, naming the key, for what the scene may
-        not say and for what the state does not fit: effect, variant, sizes, storage; it then is as it was.
+        """Sets a key of the scene to another value from the next frame on, and returns itself. Raises Error with the key if the scene
+        does not allow the value or the state does not fit it (effect, variant, sizes, storage); the simulation is then unchanged.
 
         >>> sim = open("edge_splash", {"run.size": (16, 9)})
         >>> sim.set("display.exposure", -1).parameters["display.exposure"].value
@@ -172,7 +174,7 @@ class Simulation:
         rainref.errors.Error: --set display.exposur: unknown key; did you mean 'display.exposure'?
         """
         text = toml(value)
-        # The library builds anew and frees the old. Where an array still looks into that, it stays, and a copy goes on.
+        # The library rebuilds the simulation and frees the old one. If an array still views the old one, keep it and continue with a copy.
         handle = copy.copy(self)._handle if self._handle.looked_into else self._handle
         call("set", handle, encoded(key), encoded(text))
         self._handle = handle
@@ -182,11 +184,11 @@ class Simulation:
         return self
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Copies and pickles open the scene anew, files with it, and load the state."""
+        """Copies and pickles open the scene again, including its files, and load the state."""
         return _opened_again, (self._scene, self._set, self._threads, self.save())
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A copy of a buffer; a structured array of a list of records. Error with the nearest name.
+        """Returns a copy of a buffer; a structured array for a list of records. Raises Error with the nearest name.
 
         >>> sim = open("edge_splash", {"run.size": (16, 9)})
         >>> sim["edgs"]
@@ -197,20 +199,21 @@ class Simulation:
         return copy_of(buffer_of(self._handle, name), self._handle)
 
     def view(self, name: str, channel: int | None = None) -> View:
-        """A look at an image, or at one channel of it, without a copy: valid until the simulation goes on, then it raises StaleViewError."""
+        """Returns a view of an image, or of one channel, without a copy. It is valid until the simulation continues, and then raises
+        StaleViewError."""
         return view_of(buffer_of(self._handle, name), channel, self._handle, self)
 
     @property
     def picture(self) -> np.ndarray:
-        """The picture that was rendered last: uint8 display code (height, width, 4), row 0 the bottom one."""
+        """The last rendered picture: uint8 display code (height, width, 4), row 0 at the bottom."""
         return copy_of(filled("get_picture", s.Array, self._handle), self._handle)
 
     def write_png(self, path: str | os.PathLike[str]) -> None:
-        """The picture, 8 bits RGB."""
+        """Writes the picture as 8-bit RGB."""
         call("write_png", self._handle, encoded(path))
 
     def write_exr(self, path: str | os.PathLike[str]) -> None:
-        """Radiance and what belongs to it, as named channels."""
+        """Writes radiance and its auxiliary images as named channels."""
         call("write_exr", self._handle, encoded(path))
 
 
@@ -219,7 +222,7 @@ def _opened_again(scene: str | Path, set: list[str], threads: int, state: bytes)
 
 
 class Frame:
-    """A frame of a simulation, as long as that has not gone on: what is asked of it later raises StaleViewError."""
+    """A frame of a simulation. Valid until the simulation continues; any later use raises StaleViewError."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
@@ -239,7 +242,7 @@ class Frame:
         return self._now()[name]
 
     def view(self, name: str, channel: int | None = None) -> View:
-        """A look at a buffer without a copy: Simulation.view."""
+        """Returns a view of a buffer without a copy, like Simulation.view."""
         return self._now().view(name, channel)
 
     @property

@@ -1,5 +1,5 @@
-"""What a simulation holds between frames, as bytes: docs/notes/state.md. The callbacks of the C library work on memory only: an exception
-would not pass through them."""
+"""The state of a simulation as bytes (docs/notes/state.md). The callbacks of the C library only access memory, because an exception
+cannot pass through them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .errors import Error, FileError, error_of
 
 
 def saved(simulation: Handle) -> bytes:
-    """The state of a simulation."""
+    """Returns the state of a simulation."""
     pieces: list[bytes] = []
 
     def write(_: object, data: int, count: int) -> int:
@@ -26,7 +26,7 @@ def saved(simulation: Handle) -> bytes:
 
 
 def load(simulation: Handle, state: bytes, file: str = "") -> None:
-    """Gives a simulation a state; errors name the file that it comes from."""
+    """Loads a state into a simulation. Errors name the file that it comes from."""
     at = 0
 
     def read(_: object, to: int, count: int) -> int:
@@ -46,7 +46,7 @@ def load(simulation: Handle, state: bytes, file: str = "") -> None:
 
 
 def read_from(source: bytes | bytearray | memoryview | str | os.PathLike[str] | BinaryIO) -> bytes:
-    """The bytes of a state; of a file all that it still has."""
+    """Returns the bytes of a state; from a file, all bytes that remain."""
     if isinstance(source, (str, os.PathLike)):
         try:
             return Path(source).read_bytes()
@@ -57,8 +57,8 @@ def read_from(source: bytes | bytearray | memoryview | str | os.PathLike[str] | 
 
 
 def write_to(place: str | os.PathLike[str] | BinaryIO, state: bytes) -> None:
-    """To a file that is open for bytes, or to a path, where nothing half-written ever lies. A file that was there keeps its mode; a link gives
-    way to the file, and what it leads to stays; a device or a pipe is written straight away."""
+    """Writes to a binary file, or to a path, which never holds a partial file. An existing file keeps its mode. A link is replaced by
+    the file; its target stays. A device or pipe is written directly."""
     if not isinstance(place, (str, os.PathLike)):
         place.write(state)
         return
@@ -73,7 +73,7 @@ def write_to(place: str | os.PathLike[str] | BinaryIO, state: bytes) -> None:
 
 
 def _replace(path: Path, state: bytes) -> None:
-    """By a file of this call alone, under a name that was free."""
+    """Writes a temporary file of this call under an unused name, then renames it."""
     descriptor, hidden = -1, path
     while descriptor < 0:
         hidden = path.parent / f".rainref-{secrets.token_hex(8)}.part"

@@ -1,4 +1,4 @@
-"""Looks at buffers without a copy, each of which ends with its frame."""
+"""Views of buffers without a copy, each valid until its frame ends."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ if TYPE_CHECKING:
     from .buffers import Place
     from .simulation import Simulation
 
-#: Attributes of an array that go on looking into it.
+#: Attributes of an array whose value views its memory.
 _LOOKS = ("base", "data", "flat")
 
 
 class View(NDArrayOperatorsMixin):
-    """A look at a buffer without a copy, which is used like a read-only array. Once its simulation has gone on, whatever is done with it
-    raises StaleViewError; so does what was sliced from it.
+    """A view of a buffer without a copy, used like a read-only array. After its simulation continues, any use of it or of its slices
+    raises StaleViewError.
 
-    It is no `numpy.ndarray`, which hands its memory to whoever asks and cannot say that it is over. Operators and NumPy's functions compute on
-    the buffer itself. What takes the memory gets a copy: `numpy.array`, `numpy.asarray`, `bytes`, `copy.copy`, `memoryview` (from Python 3.12
-    on; a TypeError before), and functions that would give another look, such as `numpy.flip`. C code may ask for `view.ctypes.data`: an address,
-    which nothing checks any more.
+    It is not a `numpy.ndarray`, because that gives out its memory and cannot be invalidated. Operators and NumPy's functions compute on
+    the buffer itself. Functions that take the memory get a copy: `numpy.array`, `numpy.asarray`, `bytes`, `copy.copy`, `memoryview` (from
+    Python 3.12 on; a TypeError before), and functions that would return another view, such as `numpy.flip`. C code may use
+    `view.ctypes.data`, an address whose validity is not checked.
     """
 
     def __init__(self, now: Simulation, then: int, place: Place) -> None:
         self._now, self._then, self._place = now, then, place
 
     def _plain(self) -> np.ndarray:
-        """An array that looks into the buffer, for as long as one operation takes."""
+        """Returns an array that views the buffer, for the duration of one operation."""
         if self._now.changes != self._then:
             raise StaleViewError("a view of a buffer is valid until its simulation goes on: take a copy to keep it")
         return self._place.array()
@@ -55,7 +55,7 @@ class View(NDArrayOperatorsMixin):
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
-            raise AttributeError(name)  # above all __array_interface__ and its like, which are addresses
+            raise AttributeError(name)  # such as __array_interface__, which holds addresses
         plain = self._plain()
         found = getattr(plain.copy() if name in _LOOKS else plain, name)
         if not callable(found):
@@ -113,7 +113,7 @@ class View(NDArrayOperatorsMixin):
 
 
 def _computed(function: Callable[..., Any], arguments: Any, keywords: dict[str, Any]) -> Any:
-    """function(...) with plain arrays in place of views, which are checked; of a result that looks into their memory a copy."""
+    """Calls function(...) with plain arrays in place of views, which are checked first. A result that views their memory is copied."""
     looked: list[np.ndarray] = []
 
     def plain(value: Any) -> Any:

@@ -1,6 +1,6 @@
-// The C library's module as JavaScript calls it: texts, structs that begin with their size, and errors that are thrown. Addresses have 32 bits.
+// The C library's module for JavaScript: texts, structs that begin with their size, and errors as exceptions. Addresses have 32 bits.
 
-/// What a call failed with: `code` is an rr_result (2 arguments, 3 files of a pack or port, 4 unreadable, 5 a defect).
+/// Error of a call: `code` is an rr_result (2 arguments, 3 files of a pack or port, 4 unreadable, 5 a defect).
 export class RainrefError extends Error {
   constructor(message, code) {
     super(message);
@@ -9,7 +9,7 @@ export class RainrefError extends Error {
   }
 }
 
-// Sizes and alignments of what structs of rainref.h have as members.
+// Sizes and alignments of the member types in structs of rainref.h.
 const kinds = {
   size: [4, (m, p) => m.getValue(p, "i32") >>> 0, (m, p, v) => m.setValue(p, v, "i32")],
   pointer: [4, (m, p) => m.getValue(p, "i32") >>> 0, (m, p, v) => m.setValue(p, v, "i32")],
@@ -21,7 +21,7 @@ const kinds = {
 };
 const textAt = (m, pointer) => pointer === 0 ? null : m.UTF8ToString(pointer >>> 0);
 
-/// Structs of rainref.h, without struct_bytes: [name, kind] in their order; "kind*4": an array. Add those that you need.
+/// Structs of rainref.h, without struct_bytes: [name, kind] in order; "kind*4": an array. Add others when you need them.
 export const structs = {
   rr_array: [["name", "text"], ["format", "text"], ["type", "i32"], ["channels", "i32"], ["width", "i32"], ["height", "i32"], ["levels", "i32"],
              ["planes", "i32"], ["texel_bytes", "size"], ["row_bytes", "size"], ["plane", "pointer*4"], ["layout", "pointer"]],
@@ -31,7 +31,7 @@ export const structs = {
   rr_verdict: [["status", "text"], ["reason", "text"], ["first_bad_pass", "text"], ["profile", "text"], ["passes", "size"]],
 };
 
-/// Offsets as a compiler of C gives them: [[name, kind, count, offset], ...] and the size of all.
+/// Offsets of a C compiler: [[name, kind, count, offset], ...] and the total size.
 function laidOut(members) {
   let end = 4, alignment = 4;
   const places = members.map(([name, spelled]) => {
@@ -44,7 +44,7 @@ function laidOut(members) {
 }
 
 export class CLibrary {
-  /// `module`: what createRainref() gave.
+  /// `module`: the result of createRainref().
   constructor(module) {
     this.module = module;
   }
@@ -54,14 +54,14 @@ export class CLibrary {
     return textAt(this.module, pointer);
   }
 
-  /// Calls rr_NAME. A text becomes its address for the length of the call; null is NULL; a function that gives rr_result throws
-  /// RainrefError. Use `value` for functions that give something else.
+  /// Calls rr_NAME. A text is passed as an address that is valid during the call; null is NULL. If a function that returns rr_result fails,
+  /// throws RainrefError. Use `value` for functions that return something else.
   call(name, ...args) {
     const result = this.value(name, ...args);
     if (result !== 0) throw new RainrefError(this.text(this.module._rr_error()), result);
   }
 
-  /// The same, giving what the function returns: a number or an address.
+  /// The same, but returns the function's result: a number or an address.
   value(name, ...args) {
     const m = this.module, made = [];
     try {
@@ -75,7 +75,7 @@ export class CLibrary {
     }
   }
 
-  /// What a function writes to its last argument, an address: a handle, or the address of a text.
+  /// Returns what a function writes through its last argument: a handle, or the address of a text.
   out(name, ...args) {
     const m = this.module, to = m._malloc(4);
     try {
@@ -87,7 +87,7 @@ export class CLibrary {
     }
   }
 
-  /// Runs body(address) with a struct of that name; members not in `values` are 0. What it owns is freed after it.
+  /// Runs body(address) with a struct of that name; members not in `values` are 0. Frees its memory afterwards.
   withStruct(name, values, body) {
     const m = this.module, {places, size} = laidOut(structs[name]), at = m._malloc(size), owned = [];
     m.HEAPU8.fill(0, at, at + size);
@@ -104,7 +104,7 @@ export class CLibrary {
     }
   }
 
-  /// The struct of that name which a function fills in, as an object; the struct is the function's last argument.
+  /// Returns the struct of that name that a function fills through its last argument, as an object.
   filled(name, functionName, ...args) {
     return this.withStruct(name, {}, at => {
       this.call(functionName, ...args, at);
@@ -117,7 +117,7 @@ export class CLibrary {
     });
   }
 
-  /// Runs body(address, count) with an array of texts, as `const char* const*` takes it.
+  /// Runs body(address, count) with an array of texts, as a `const char* const*`.
   withTexts(texts, body) {
     const m = this.module, at = m._malloc(4 * Math.max(1, texts.length)), made = texts.map(text => m.stringToNewUTF8(text));
     made.forEach((pointer, k) => m.setValue(at + 4 * k, pointer, "i32"));

@@ -1,5 +1,5 @@
 // The census page: runs the probes and every port on this device, has them judged, and shows the card.
-// census.html?packs=NAME,...: these packs alone.
+// census.html?packs=NAME,...: only these packs.
 import {Engine} from "./engine.js";
 import {bytesOf} from "./files.js";
 import {packFolder, packList} from "./packs.js";
@@ -16,7 +16,7 @@ async function portFile(path) {
   if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
   return new Uint8Array(await answer.arrayBuffer());
 }
-/// The packs to run, each loaded when it is asked for.
+/// The packs to run, each loaded on demand.
 async function packsToRun() {
   const packs = await packList(), wanted = new URLSearchParams(location.search).get("packs")?.split(",");
   const unknown = wanted?.find(name => !packs.some(pack => pack.name === name));

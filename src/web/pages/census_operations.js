@@ -1,4 +1,4 @@
-// What the census page asks of the library in its worker (engine.js).
+// Operations of the census page on the library, run in its worker (engine.js).
 import {judgePack} from "./ports/census/judge.js";
 
 export const versions = library => ({version: library.text(library.value("rr_version")), golden_generation: library.value("rr_golden_generation")});

@@ -1,4 +1,4 @@
-// The text of a shader with line numbers, and what is wrong with it beside them.
+// The text of a shader with line numbers, and its errors beside them.
 import {element} from "./report_words.js";
 import {errorsOf, filesOf} from "./shader_text.js";
 
@@ -27,7 +27,7 @@ export class Editor {
     this.clearErrors();
   }
 
-  /// Shows the lines of an error's message that are of this text as a list; another message as it is.
+  /// Shows the lines of an error message that refer to this text as a list; shows any other message unchanged.
   showError(message) {
     const errors = errorsOf(message, filesOf(this.value));
     this.#bad = new Set(errors.map(e => e.at));

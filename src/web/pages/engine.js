@@ -1,4 +1,4 @@
-// The C library in a worker of its own, so that the page answers while it works. A page gives the script with its operations:
+// The C library in its own worker, so that the page stays responsive. A page gives the script with its operations:
 //   const engine = new Engine("judge_operations.js");
 //   const verdict = await engine.run("judgeFolder", {profile: "webgpu"}, {onProgress: (done, of) => ..., transfer: [...]});
 // That script exports functions: run("judgeFolder", args) calls judgeFolder(library, args, progress), where library is a CLibrary
@@ -6,14 +6,14 @@
 // Several engines share one compiled module.
 
 const compiled = new Map();
-/// The WebAssembly module of that name, downloaded and compiled once for the page: rainref_module is the library, rainref_simulator what of it
-/// simulates, which is smaller.
+/// The WebAssembly module of that name, downloaded and compiled once for the page. rainref_module is the library; rainref_simulator is its
+/// simulating part, which is smaller.
 export function loadLibrary(name = "rainref_module") {
   if (compiled.has(name)) return compiled.get(name);
   const loaded = (async () => {
     const url = new URL(`${name}.wasm`, import.meta.url), answer = await fetch(url);
     if (!answer.ok) throw new Error(`${url.pathname}: ${answer.status} ${answer.statusText}`);
-    // A server that does not know the type still gives the bytes.
+    // Works also if the server does not know the MIME type.
     if (answer.headers.get("content-type") === "application/wasm") return WebAssembly.compileStreaming(answer);
     return WebAssembly.compile(await answer.arrayBuffer());
   })();
@@ -22,7 +22,7 @@ export function loadLibrary(name = "rainref_module") {
   return loaded;
 }
 
-/// What calls fail with that were under way when cancel() was called.
+/// Error of calls that were in progress when cancel() was called.
 export class Cancelled extends Error {
   constructor() {
     super("cancelled");
@@ -38,7 +38,7 @@ export class Engine {
   #next = 0;
   #ended = 0;  // how often the worker was
 
-  /// `operations`: a script beside this one; `library`: as loadLibrary takes it.
+  /// `operations`: a script in this folder; `library`: as for loadLibrary.
   constructor(operations, library = "rainref_module") {
     this.#operations = operations;
     this.#library = library;
@@ -62,7 +62,8 @@ export class Engine {
     worker.postMessage({module, glue: `${this.#library}.js`, operations: new URL(this.#operations, import.meta.url).href});
   }
 
-  /// Calls an operation, one after the other. Rejects with what it threw (with `code` where the library said so), or Cancelled.
+  /// Calls an operation; calls run one after the other. Rejects with the operation's error (with `code` if the library gave one), or
+  /// Cancelled.
   async run(operation, args = {}, {onProgress, transfer = []} = {}) {
     const ended = this.#ended;
     await this.start();
@@ -74,7 +75,7 @@ export class Engine {
     });
   }
 
-  /// Ends the worker with all that it holds; the next run starts a new one.
+  /// Ends the worker and frees its memory; the next run starts a new one.
   cancel() {
     this.#end(new Cancelled());
   }

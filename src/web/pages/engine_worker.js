@@ -1,5 +1,5 @@
-// The worker of engine.js: instantiates the library, imports the page's operations, and answers one call after the other. A classic worker,
-// because what Emscripten writes beside the library is a classic script.
+// The worker of engine.js: instantiates the library, imports the page's operations, and answers one call after the other. It is a classic
+// worker, because Emscripten writes a classic script for the library.
 let ready = null;
 async function start({module, glue, operations}) {
   importScripts(glue);
@@ -27,7 +27,7 @@ onmessage = ({data}) => {
     return;
   }
   last = last.then(() => answer(data)).then(
-    // An operation may give {result, transfer}: buffers that are handed over instead of copied.
+    // An operation may return {result, transfer}: buffers that are transferred instead of copied.
     result => postMessage({call: data.call, result: result?.transfer ? result.result : result}, result?.transfer ?? []),
     error => postMessage({call: data.call, error: {name: error.name, message: error.message, code: error.code}}));
 };

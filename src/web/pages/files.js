@@ -1,7 +1,7 @@
-// Folders as pages hold them: {name, files}, files a Map from a path to a Blob. What a Blob holds is read when it is needed, so that a folder
-// may be larger than memory.
+// Folders in pages: {name, files}, with files a Map from a path to a Blob. A Blob is read when it is needed, so a folder may be larger than
+// memory.
 
-/// The folders that were dropped; archives (.tar, .tar.gz, .tgz) count as folders. Call it before the event handler ends its turn.
+/// The dropped folders; archives (.tar, .tar.gz, .tgz) count as folders. Call it before the event handler returns.
 export async function droppedFolders(transfer) {
   const entries = [...transfer.items].map(item => item.webkitGetAsEntry?.() ?? item.getAsFile());
   const folders = [];
@@ -13,7 +13,7 @@ export async function droppedFolders(transfer) {
   return folders;
 }
 
-/// What an <input type="file"> was given: files of one folder (webkitdirectory), or archives.
+/// The content of an <input type="file">: files of one folder (webkitdirectory), or archives.
 export async function chosenFolders(list) {
   const files = [...list];
   if (files.length === 0) return [];
@@ -50,14 +50,14 @@ export async function folderOfArchive(file) {
   return {name, files};
 }
 
-/// The bytes of a file, which gzip may have compressed: some servers undo that on the way.
+/// The bytes of a file that may be gzipped; some servers decompress it in transfer.
 export async function unpacked(blob) {
   const magic = new Uint8Array(await blob.slice(0, 2).arrayBuffer());
   if (magic[0] !== 0x1f || magic[1] !== 0x8b) return new Uint8Array(await blob.arrayBuffer());
   return new Uint8Array(await new Response(blob.stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer());
 }
 
-/// The files of a tar archive: ustar, with the long names of GNU and of pax.
+/// The files of a tar archive: ustar, with the long names of GNU and pax.
 export function untarred(bytes, name) {
   const files = new Map(), text = (at, length) => new TextDecoder().decode(bytes.subarray(at, at + length)).replace(/\0.*$/s, "");
   let longName = null;
@@ -74,7 +74,7 @@ export function untarred(bytes, name) {
   return files;
 }
 
-/// The JSON in a file of a folder; an Error that names it where there is none such.
+/// The JSON in a file of a folder; throws an Error with its name if there is no such file.
 export async function jsonOf(folder, path) {
   const blob = folder.files.get(path);
   if (!blob) throw new Error(`${folder.name}: it has no ${path}`);

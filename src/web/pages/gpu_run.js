@@ -1,9 +1,9 @@
-// Runs passes of a pack on this browser's GPU by the ports' own runner, and keeps what a port's folder would hold.
+// Runs passes of a pack on this browser's GPU by the ports' own runner, and keeps the files of a port's folder.
 import {bytesOf, jsonOf} from "./files.js";
 import {filesOf, requestDevice, runCase} from "./ports/port.js";
 
 let held = null;
-/// {device, name}, asked for once; again when the device was lost.
+/// {device, name}, requested once, and again after the device was lost.
 async function deviceOf(gpu) {
   held ??= requestDevice(gpu).then(made => {
     made.device.lost.then(() => { held = null; });
@@ -13,8 +13,8 @@ async function deviceOf(gpu) {
   return held;
 }
 
-/// shaders: Map from a pass's name to [{name, text}]. progress(done, of) after each case; signal: an AbortSignal. Gives {name, files, device}.
-/// What a shader's text is wrong in is the error's message, as runCase gives it, with `pass` beside it.
+/// shaders: Map from a pass's name to [{name, text}]. progress(done, of) after each case; signal: an AbortSignal. Returns {name, files,
+/// device}. For an invalid shader, throws runCase's error with `pass` added.
 export async function runPasses(gpu, pack, shaders, {progress, signal}) {
   const manifest = await jsonOf(pack, "manifest.json"), {device, name} = await deviceOf(gpu), files = new Map();
   const cases = manifest.cases.filter(c => shaders.has(c.pass));

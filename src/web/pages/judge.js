@@ -1,4 +1,4 @@
-// The judge page: what is chosen, what runs, and what came of it.
+// The judge page: the choice, the run, and its result.
 import {boundBuffers, isRecords} from "./ports/pack.js";
 import {Cancelled, Engine, loadLibrary} from "./engine.js";
 import {chosenFolders, droppedFolders, jsonOf} from "./files.js";
@@ -27,14 +27,14 @@ const editor = new Editor($("shader"), $("gutter"), $("shader-errors"), () => {
   showLink();
 });
 
-// ---- what is chosen ----
+// ---- the choice ----
 
 const pack = () => packs.find(p => p.name === $("pack").value);
 const pass = () => pack()?.passes.find(p => p.name === $("pass").value);
 const formula = () => pass()?.formula;
 const distinct = values => [...new Set(values)];
 
-/// Fills a <select> with [value, text]s and keeps what was chosen where it is still there.
+/// Fills a <select> with [value, text]s and keeps the current choice if it still exists.
 function fill(select, options, wanted = select.value) {
   select.replaceChildren(...options.map(([value, text, isDisabled = false]) => Object.assign(new Option(text, value), {disabled: isDisabled})));
   if (options.some(([value]) => value === wanted)) select.value = wanted;
@@ -42,7 +42,7 @@ function fill(select, options, wanted = select.value) {
   select.disabled = options.length < 2;
 }
 
-/// Fills the selects from the left to the right, after one of them changed or with a wanted view, and shows what belongs to the choice.
+/// Fills the selects from left to right, after one of them changed or for a given view, and shows the elements for that choice.
 async function choose(wanted = {}) {
   const values = key => distinct(packs.filter(p => key === "effect" || p.effect === $("effect").value).map(p => p[key]));
   const named = wanted.pack && packs.find(p => p.name === wanted.pack);
@@ -72,7 +72,7 @@ async function show() {
   showLink();
 }
 
-/// The bindings of the chosen pass, from the pack's manifest, which is loaded for it.
+/// The bindings of the chosen pass, from the pack's manifest, which is loaded for this.
 async function showBindings() {
   if (!pass()) return;
   const chosen = pass(), manifest = await jsonOf(await folder(), "manifest.json"), oneCase = manifest.cases.find(c => c.pass === chosen.name);
@@ -116,7 +116,7 @@ async function followLink() {
 
 // ---- judging ----
 
-/// Says how far it is.
+/// Shows the progress.
 function working(doing, done = null, of = null) {
   $("working").hidden = doing === null;
   $("doing").textContent = doing === null ? "" : of === null ? `${doing} …` : `${doing}: ${done} of ${of}`;
@@ -124,7 +124,7 @@ function working(doing, done = null, of = null) {
   else [$("progress").max, $("progress").value] = [of, done];
 }
 
-/// Runs `work(signal)` with progress and Cancel; what it throws is shown.
+/// Runs `work(signal)` with progress and Cancel; shows its error.
 async function guarded(work) {
   if (running) return;
   running = new AbortController();
@@ -185,7 +185,7 @@ const runShaders = () => guarded(async signal => {
 const judgeFolder = () => guarded(() => judged(port, {
   partial: $("partial").checked, spirv: portShaders && {path: `spirv/${portShaders.name}`, files: [...portShaders.files]}}));
 
-/// Takes folders that were dropped or chosen: packs, one of a port, and one of its shaders.
+/// Takes dropped or chosen folders: packs, one of a port, and one of its shaders.
 async function take(promise) {
   try {
     for (const one of await promise) {
@@ -261,7 +261,7 @@ $("cancel").addEventListener("click", () => {
   running?.abort();
   engine.cancel();
 });
-// The whole page takes folders, so that none that misses the box replaces the page.
+// The whole page accepts folders, because a folder dropped beside the box would otherwise replace the page.
 addEventListener("dragover", event => {
   event.preventDefault();
   $("drop").classList.add("over");

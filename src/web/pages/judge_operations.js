@@ -1,4 +1,4 @@
-// What the judge page asks of the library (engine.js): folders of Blobs, judged without copies in memory.
+// Operations of the judge page on the library (engine.js): folders of Blobs, judged without copies in memory.
 import {structs} from "./c_library.js";
 
 structs.rr_folder_options = [["profile", "text"], ["passes", "pointer"], ["pass_count", "size"], ["partial", "i32"], ["threads", "i32"],
@@ -13,7 +13,8 @@ export function profiles(library) {
 }
 export const version = library => library.text(library.value("rr_version"));
 
-/// Makes a folder, {path, files: [[path, Blob]]}, one of the library's; gives a function that takes it away. Blobs are read by FileReaderSync.
+/// Makes a folder, {path, files: [[path, Blob]]}, visible to the library; returns a function that removes it. Blobs are read by
+/// FileReaderSync.
 function mounted({FS, WORKERFS}, {path, files}) {
   const at = `/${path}`;
   FS.mkdirTree(at);

@@ -1,5 +1,5 @@
-// The live page: a scene that the reference simulates, what changes it, and the lines that the native program prints for the same frame.
-// live.html?scene=puddle/default.toml&size=640x360 opens that.
+// The live page: a scene that the reference simulates, its controls, and the lines that the native program prints for the same frame.
+// live.html?scene=puddle/default.toml&size=640x360 opens that scene.
 import {Comparison} from "./live_compare.js";
 import {LiveRun} from "./live_run.js";
 import {Parameters} from "./parameters.js";
@@ -22,7 +22,7 @@ function setBusy(text) {
   part("busy").textContent = text;
   part("busy").hidden = text === "";
 }
-/// What takes long enough to be noticed says so; a frame that comes at once does not flicker.
+/// Shows a message only for noticeable delays, so that a fast frame does not flicker.
 async function whileBusy(text, work, delay = 250) {
   const timer = setTimeout(() => setBusy(text), delay);
   try {
@@ -58,13 +58,13 @@ function showCommand() {
   part("command").textContent = run.command();
   part("changed").hidden = !run.changedLate;
 }
-/// Of the last frames shown.
+/// For the last frames shown.
 function framesPerSecond() {
   const span = shownTimes[shownTimes.length - 1] - shownTimes[0];
   return span > 0 ? 1000 * (shownTimes.length - 1) / span : Infinity;
 }
 
-/// The next frame; null where it failed, which is said.
+/// The next frame; null if it failed, after showing the error.
 async function computed() {
   try {
     return await whileBusy("Computing a frame…", () => run.step());
@@ -83,7 +83,7 @@ async function step() {
   if (shown) showNext(shown);
   return shown !== null;
 }
-/// The worker makes the next frame while this one is drawn, unless that would be faster than the scene is meant.
+/// The worker makes the next frame while this one is drawn, unless that would exceed the scene's frame rate.
 async function play() {
   showError("run-error", null);
   shownTimes = [];
@@ -110,7 +110,7 @@ function setPlaying(now) {
 
 // ---- scenes ----
 
-/// Opens a scene and shows frame 0, in place of what runs; false where it is refused, which is said.
+/// Opens a scene and shows frame 0, replacing the running one; false if it is refused, after showing the error.
 async function open(scene, options) {
   setPlaying(false);
   showError("scene-error", null);
@@ -154,7 +154,7 @@ async function fetched(path, kind) {
   if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
   return answer[kind]();
 }
-/// Opens a scene that came with rainref, by its path in scenes/.
+/// Opens a bundled scene, by its path in scenes/.
 async function openShipped(path, options) {
   const entry = shipped.find(s => s.path === path);
   try {
@@ -166,7 +166,7 @@ async function openShipped(path, options) {
     return false;
   }
 }
-/// A scene and the files that it names, as they were chosen or dropped.
+/// A chosen or dropped scene, with the files that it names.
 async function openFiles(list) {
   const all = [...list], scene = all.find(file => /\.toml$/i.test(file.name));
   if (!scene) return showError("scene-error", new Error(`${all.map(f => f.name).join(", ")}: expected a scene (.toml), and files that it names beside it`));
@@ -176,7 +176,7 @@ async function openFiles(list) {
 async function changeVariant(variant) {
   const {scene} = run, {effect} = run.info, sets = new Map([...run.sets, ["variant", JSON.stringify(variant)]]);
   if (await open(scene, {sets})) return;
-  // Most scenes say keys that one variant alone has.
+  // Most scenes have keys that only one variant has.
   const path = `${effect}/${variant === "corrected" ? "default" : "as_published"}.toml`;
   if (await openShipped(path)) part("about").textContent = `${scene.file} says keys that ${variant} does not have, so this is ${path}: ${part("about").textContent}`;
   else part("variant").value = run.info.variant;
@@ -272,7 +272,7 @@ addEventListener("drop", event => {
   if (event.dataTransfer.files.length > 0) openFiles(event.dataTransfer.files);
 });
 
-/// By effect; what cannot run here is named as such.
+/// By effect; scenes that cannot run here are marked.
 function showSceneList() {
   const groups = new Map();
   for (const {path, effect, error} of shipped) {
@@ -298,7 +298,7 @@ async function start() {
   if (![...part("size").options].some(o => o.value === size)) part("size").append(option(size));
   for (const id of ["scene"]) part(id).disabled = false;
   await openShipped(wanted.get("scene") ?? "puddle/default.toml", {size});
-  // Its pictures come after the frame that the visitor waits for.
+  // Its pictures load after the frame that the visitor waits for.
   shownGallery(part("gallery"), shipped, path => {
     openShipped(path);
     part("scene-title").scrollIntoView();

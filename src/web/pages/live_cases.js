@@ -1,5 +1,5 @@
-// Cases of a pass, as the example ports take them (ports/port.js): an entry of a manifest, and files of NumPy's. And what the judge says of
-// what a port gave.
+// Cases of a pass in the form of the example ports (ports/port.js): an entry of a manifest, and NumPy files. Also the verdict on a port's
+// results.
 import {npyData, npyFile, recordType} from "./ports/npy.js";
 
 const types = {3: "float", 4: "float", 5: "uint", 6: "int"};  // rr_type of members
@@ -8,8 +8,8 @@ const recordsType = 7;
 
 let held = null;  // {handle, entries}: rr_cases and what the page knows of each
 
-/// Simulates and renders the next frame with the cases of `pass`: [{oneCase, records, files, expected}]. oneCase: as a manifest has it; files: from
-/// a path to its bytes; expected: [{name, type, channels, elementBytes, bytes}], the elements of the reference's outputs.
+/// Simulates and renders the next frame with the cases of `pass`: [{oneCase, records, files, expected}]. oneCase: an entry of a manifest;
+/// files: from a path to its bytes; expected: [{name, type, channels, elementBytes, bytes}], the elements of the reference's outputs.
 export function addCases(library, simulation, pass) {
   library.value("rr_free_cases", held?.handle ?? 0);
   held = null;
@@ -73,8 +73,8 @@ function fileOf(library, array, records) {
   return npyFile(`'${npyTypes[type]}'`, channels > 1 ? [height, width, channels] : [height, width], data);
 }
 
-/// `given`: for each case of addCases [{file, bytes}], what runCase gave. {status, reason, outputs: [[bytes, ...], ...]}; the outputs are the
-/// elements alone, in the order of `expected`.
+/// `given`: for each case of addCases [{file, bytes}], the result of runCase. Returns {status, reason, outputs: [[bytes, ...], ...]}; the
+/// outputs are elements only, in the order of `expected`.
 export function judgeCases(library, profile, given) {
   if (!held) throw new Error("no cases to judge");
   const {handle, entries} = held, m = library.module;

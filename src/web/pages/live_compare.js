@@ -1,4 +1,4 @@
-// A port of a pass beside the reference: the example program on this device's GPU with the inputs of the frame that the reference computes next.
+// A port of a pass beside the reference: the example program on this device's GPU, with the inputs of the reference's next frame.
 import {requestDevice, runCase} from "./ports/port.js";
 import {shaderOf} from "./ports/run_pack.js";
 import {element} from "./report_words.js";
@@ -110,7 +110,7 @@ export class Comparison {
       Object.assign(canvas, {width, height});
       canvas.getContext("2d").putImageData(new ImageData(pixels, width, height), 0, 0);
     };
-    // Display code is shown as it is; other buffers from their least to their greatest value.
+    // Display code is shown unchanged; other buffers are scaled from their smallest to their largest value.
     const range = type <= 2 ? [0, 1] : rangeOf(expected);
     show("expected", pixelsOf(expected, channels, width, height, range));
     show("given", pixelsOf(given, channels, width, height, range));

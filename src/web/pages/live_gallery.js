@@ -1,7 +1,7 @@
 // Pictures of scenes, each a button that opens its scene.
 import {element} from "./report_words.js";
 
-/// `scenes`: of scenes/index.json; those with a picture are shown, with the keys that make them what they are.
+/// `scenes`: of scenes/index.json; those with a picture are shown, with their distinguishing keys.
 export function shownGallery(root, scenes, open) {
   root.replaceChildren(...scenes.filter(scene => scene.picture && !scene.error).map(({path, picture, sentence, keys}) => {
     const [effect, scene] = path.replace(/\.toml$/, "").split("/"), image = element("img", {width: 480, height: 270, alt: "", loading: "lazy", src: picture});

@@ -1,5 +1,5 @@
-// What the live page asks of the library: a scene that runs, its picture, its lines of hashes, and cases of a pass for a port. engine.js says
-// how these are called. Names and bytes only: the page draws, and runs ports.
+// Operations of the live page on the library: a running scene, its picture, its lines of hashes, and cases of a pass for a port. engine.js
+// says how they are called. Names and bytes only: the page draws, and runs ports.
 import {structs} from "./c_library.js";
 import {addCases, judgeCases} from "./live_cases.js";
 
@@ -23,7 +23,7 @@ const opened = library => {
   return simulation;
 };
 
-/// {effects: [what rr_describe says of each], version, generation}.
+/// {effects: [the result of rr_describe for each], version, generation}.
 export function describe(library) {
   const effects = [];
   for (let k = 0, name; (name = library.text(library.value("rr_effect_name", k))) !== null; ++k)
@@ -31,8 +31,8 @@ export function describe(library) {
   return {effects, version: library.text(library.value("rr_version")), generation: library.value("rr_golden_generation")};
 }
 
-/// Opens `text`, a scene, in place of the one that runs, which stays where the new one is refused. `sets`: ["key=value", ...]. `file`: what
-/// errors call it. `files`: [{path, bytes}] that it may name, relative to the folder of `file`.
+/// Opens the scene `text` in place of the running one, which stays if the new one is refused. `sets`: ["key=value", ...]. `file`: its name
+/// in errors. `files`: [{path, bytes}] that it may name, relative to the folder of `file`.
 export function open(library, {text, file, sets = [], files = []}) {
   const {FS} = library.module, folder = "/scenes";
   for (const {path, bytes} of files) {
@@ -62,13 +62,13 @@ export function info(library) {
   return {effect, variant, frame, frames, sceneJson: scene_json, warnings};
 }
 
-/// Gives a key another value, as TOML writes it, from the next frame on.
+/// Sets a key to another value, written as in TOML, from the next frame on.
 export function set(library, {key, value}) {
   library.call("rr_set", opened(library), key, value);
   return info(library);
 }
 
-/// What the simulation holds between frames: bytes, which `load` takes for the same scene.
+/// The state between frames: bytes, which `load` takes for the same scene.
 export function save(library) {
   const {module} = library, parts = [];
   const write = module.addFunction((user, at, count) => { parts.push(library.bytes(at, count)); return 0; }, "iiii");
@@ -105,15 +105,15 @@ export function step(library) {
   return {result: {lines, milliseconds, ...shown}, transfer: [shown.picture.buffer]};
 }
 
-/// The next frame, and what the named pass took and gave in it: {milliseconds, width, height, picture, cases} (live_cases.js).
+/// The next frame, with the inputs and outputs of the named pass: {milliseconds, width, height, picture, cases} (live_cases.js).
 export function stepWithCases(library, {pass}) {
   const begin = performance.now(), cases = addCases(library, opened(library), pass);
   const milliseconds = performance.now() - begin, shown = picture(library);
   return {result: {milliseconds, ...shown, cases}, transfer: [shown.picture.buffer]};
 }
 
-/// Judges what a port gave for the cases of the last stepWithCases: {status, reason, elements, outside, differing,
-/// outputs} (live_cases.js).
+/// Judges a port's results for the cases of the last stepWithCases: {status, reason, elements, outside, differing, outputs}
+/// (live_cases.js).
 export const judge = (library, {profile, given}) => judgeCases(library, profile, given);
 
 function picture(library) {

@@ -1,15 +1,15 @@
-// The scene that the live page runs, without the page: what was opened, which keys were set since, and one thing done after the other.
+// The scene that the live page runs, without the page: the opened scene, the keys set since, and a queue of operations.
 import {Engine} from "./engine.js";
 import {shellWord, valuesOf} from "./scene_values.js";
 
-/// A frame that takes longer than this is not waited for when another scene is wanted [ms].
+/// A slower frame is aborted if another scene is wanted [ms].
 const patience = 700;
-/// Pictures that "automatic" chooses among, and the longest that a frame should take [ms].
+/// Picture sizes for "automatic", and the longest time for a frame [ms].
 const sizes = [[960, 540], [640, 360], [320, 180]], longest = 125;
 
-/// "automatic" looks for what the machine affords: it does not antialias, which takes four times as long, unless the key was set.
+/// "automatic" picks what the machine can handle; it turns antialiasing off, which takes four times as long, unless the key was set.
 const antialiases = (sets, size) => size !== "automatic" || sets.has("run.supersample");
-/// As live_operations.js takes a scene.
+/// A scene in the form of live_operations.js.
 const asOpened = (scene, sets, size, pixels) => (
   {...scene, sets: [...[...sets].map(([name, toml]) => `${name}=${toml}`), ...(pixels ? [`run.size=[${pixels.join(", ")}]`] : []),
     ...(antialiases(sets, size) ? [] : ["run.supersample=1"])]});
@@ -23,33 +23,33 @@ export class LiveRun {
   #scene = null;
   #size = "automatic";
 
-  /// Of the library: what rr_describe says of each effect, its version, its golden generation.
+  /// From the library: the result of rr_describe for each effect, its version, its golden generation.
   effects = [];
   version = "";
   generation = 0;
-  /// Keys that were set, with their text in TOML.
+  /// The keys set, with their text in TOML.
   sets = new Map();
-  /// Of the open scene: {effect, variant, frames, sceneJson, warnings}, and every key with its text.
+  /// For the open scene: {effect, variant, frames, sceneJson, warnings}, and every key with its text.
   info = null;
   values = new Map();
-  /// The last frame that was simulated; -1: none.
+  /// The last simulated frame; -1: none.
   frame = -1;
-  /// Keys were set after the first frame: the native program, which sets them before it, gives other lines.
+  /// Keys were set after the first frame: the native program sets them before it, so its lines differ.
   changedLate = false;
 
   get scene() { return this.#scene; }
   get size() { return this.#size; }
   get pictureSize() { return JSON.parse(this.values.get("run.size") ?? "[640, 360]"); }
 
-  /// What rr_describe says of the open scene's effect.
+  /// The result of rr_describe for the open scene's effect.
   get description() { return this.effects.find(({effect}) => effect === this.info.effect); }
 
-  /// Loads the library and what it says of its effects; first of all.
+  /// Loads the library and its effects' descriptions; call it first.
   start() {
     return this.#inTurn(async () => { Object.assign(this, await this.#engine.run("describe")); });
   }
 
-  /// scene: {text, file, files}; size: "automatic", "scene" (its own) or "640x360". The scene that runs stays where the new one is refused.
+  /// scene: {text, file, files}; size: "automatic", "scene" (its own) or "640x360". The running scene stays if the new one is refused.
   async open(scene, {sets = new Map(), size = this.#size} = {}) {
     const former = {scene: this.#scene, sets: this.sets, size: this.#size}, lost = this.#giveUp();
     return this.#inTurn(async () => {
@@ -61,12 +61,12 @@ export class LiveRun {
       }
     });
   }
-  /// Frame 0 again, with the keys as they are now.
+  /// Frame 0 again, with the current keys.
   reset() { return this.open(this.#scene, {sets: new Map(this.sets)}); }
-  /// The same with another value, which a running scene does not take.
+  /// The same with another value that a running scene does not accept.
   restartWith(key, toml) { return this.open(this.#scene, {sets: new Map([...this.sets, [key, toml]])}); }
 
-  /// Gives a key another value from the next frame on.
+  /// Sets a key to another value from the next frame on.
   set(key, toml) {
     return this.#inTurn(async () => {
       const info = await this.#engine.run("set", {key, value: toml});
@@ -76,7 +76,7 @@ export class LiveRun {
     });
   }
 
-  /// The next frame: as live_operations.js's step; `pass`: as its stepWithCases.
+  /// The next frame: like step of live_operations.js; with `pass` like its stepWithCases.
   step(pass = null) {
     return this.#inTurn(async () => {
       this.#stepBegan = performance.now();
@@ -92,7 +92,7 @@ export class LiveRun {
   }
   judge(profile, given) { return this.#inTurn(() => this.#engine.run("judge", {profile, given})); }
 
-  /// What prints this frame's lines natively.
+  /// The command that prints this frame's lines natively.
   command() {
     const [width, height] = this.pictureSize, words = ["rainref", "hash", this.#scene.file, "--frames", String(this.frame + 1)];
     if (this.#size !== "scene") words.push("--size", `${width}x${height}`);
@@ -106,7 +106,7 @@ export class LiveRun {
     this.#last = done.catch(() => {});
     return done;
   }
-  /// Ends the worker where a frame holds it up; true where it did.
+  /// Ends the worker if a frame blocks it; returns true if it did.
   #giveUp() {
     if (this.#stepBegan === null || performance.now() - this.#stepBegan < patience) return false;
     this.#engine.cancel();
@@ -130,7 +130,7 @@ export class LiveRun {
     this.#pixels = chosen;
     this.#took(info);
   }
-  /// The library with its judge goes on where the smaller one stands.
+  /// The library with the judge continues from the state of the smaller one.
   async #takeJudge() {
     if (this.#engine.library === "rainref_module") return;
     const judging = new Engine("live_operations.js"), state = await this.#engine.run("save");
@@ -139,7 +139,7 @@ export class LiveRun {
     this.#engine.cancel();
     this.#engine = judging;
   }
-  /// The size for this machine: frames 1 and 2 of the open scene are timed; frame 0 makes things that later ones keep.
+  /// The size for this machine: times frames 1 and 2 of the open scene, because frame 0 makes things that later frames reuse.
   async #sizeFor([width, height]) {
     let shortest = Infinity;
     this.#stepBegan = performance.now();
@@ -149,7 +149,7 @@ export class LiveRun {
       if (milliseconds > 20 * longest) break;  // a traced picture
     }
     this.#stepBegan = null;
-    // A part of a frame's work does not depend on the picture; taking all of it to do so errs to the small side.
+    // A part of a frame's work does not depend on the picture's size; assuming that all of it does selects a smaller size.
     const fits = sizes.find(([w, h]) => shortest * w * h / (width * height) <= longest);
     return fits ?? sizes[sizes.length - 1];
   }

@@ -1,4 +1,4 @@
-// What came of judging: the verdict in a line, the report as the library writes it, and files of it.
+// The result of judging: the verdict in a line, the report as the library writes it, and its files.
 import {element, pill, summary} from "./report_words.js";
 
 export class Outcome {
@@ -12,7 +12,7 @@ export class Outcome {
     [this.#verdict, this.#box, this.#frame] = [verdict, box, frame];
   }
 
-  /// result: {text, json, html, junit}. `name` begins the names of files.
+  /// result: {text, json, html, junit}. `name` is the beginning of file names.
   show(result, name) {
     this.clear();
     const report = JSON.parse(result.json), words = element("span", {}, summary(report)).textContent;  // its links lead into the report
@@ -22,16 +22,16 @@ export class Outcome {
       this.#urls.push(url);
       [link.href, link.download] = [url, `${name}.${ending}`];
     }
-    // With this base links within the report stay in it; a frame apart from the page may not go to places of a blob's address.
+    // With this base, links within the report stay in it; a separate frame may not navigate within a blob's address.
     this.#frame.srcdoc = result.html.replace("<head>", '<head>\n<base href="about:srcdoc">');
     this.#box.hidden = false;
   }
-  /// A sentence that is no verdict.
+  /// Shows a sentence that is not a verdict.
   note(text) {
     this.clear();
     this.#verdict.replaceChildren(element("p", {class: "dim"}, text));
   }
-  /// What could not be judged, and why.
+  /// Shows what could not be judged, and why.
   fail(message) {
     this.clear();
     this.#verdict.replaceChildren(element("pre", {class: "error"}, message));

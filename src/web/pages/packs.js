@@ -1,4 +1,4 @@
-// The packs that came with the site, and the example programs of their passes.
+// The site's packs, and the example programs of their passes.
 import {shaderOf} from "./ports/run_pack.js";
 import {folderOfArchive} from "./files.js";
 
@@ -8,7 +8,7 @@ async function fetched(path) {
   if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
   return answer;
 }
-/// One promise for each key; one that failed is made again.
+/// One promise for each key; a failed one is made again.
 function kept(make) {
   const made = new Map();
   return key => {
@@ -28,9 +28,9 @@ const programsOf = kept(async effect => {
   return (await (await fetched(`ports/${effect}/programs.json`)).json()).programs;
 });
 const portText = kept(async path => new Uint8Array(await (await fetched(`ports/${path}`)).arrayBuffer()));
-/// Whether the examples have a program of a formula: not of what the host makes.
+/// Whether the examples have a program for a formula; not for passes of the host.
 export const hasProgram = async (effect, formula) => formula in await programsOf(effect);
-/// The example program of a formula: [{name, text}].
+/// The example program for a formula: [{name, text}].
 export async function exampleOf(effect, formula) {
   const names = (await programsOf(effect))[formula];
   if (!names) throw new Error(`${formula}: the examples have no program of it`);

@@ -1,4 +1,4 @@
-// How far a polygon reaches across some rows.
+// Extent of a polygon across some rows.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace rainref::windshield {
 
 using Corner = std::array<double, 2>;  ///< along and across the rows
 
-/// From where to where the convex hull of the corners reaches between two ordinates; nowhere: the first is above the second. The lines
-/// between all corners span the hull, in whatever order they come.
+/// Range of the convex hull of the corners between two ordinates; if empty, the first value is above the second. The lines between all
+/// pairs of corners span the hull, in any order of the corners.
 inline std::array<double, 2> extent_between(const std::array<Corner, 4>& corners, double low, double high) {
   std::array<double, 2> found{1e30, -1e30};
   const auto take = [&](double x) { found = {std::min(found[0], x), std::max(found[1], x)}; };

@@ -24,13 +24,13 @@ Glass make_glass(const Corners& corners, std::string_view keys) {
   g.e_u = minus(corners[1], corners[0]);
   g.e_v = minus(corners[2], corners[0]);
   const Real3 across = cross(g.e_u, g.e_v);
-  const double determinant = dot(across, across);  // of the metric, without its cancellation
+  const double determinant = dot(across, across);  // determinant of the metric, without cancellation
   g.area = __builtin_sqrt(determinant);
   if (!(g.area > 1e-6 * length(g.e_u) * length(g.e_v))) {
     throw Error(ExitCode::usage, fmt::format("{}: expected three corners of a plane, found {}, {}, {}, which lie on one line", keys,
                                              place_text(corners[0]), place_text(corners[1]), place_text(corners[2])));
   }
-  // Seen from inside u runs to the right and v up: their product looks into the car.
+  // Seen from inside, u runs to the right and v up, so their cross product points into the car.
   g.normal = {0 - across[0] / g.area, 0 - across[1] / g.area, 0 - across[2] / g.area};
   g.metric = {dot(g.e_u, g.e_u), dot(g.e_u, g.e_v), dot(g.e_v, g.e_v)};
   g.inverse_metric = {g.metric[2] / determinant, (0 - g.metric[1]) / determinant, g.metric[0] / determinant};

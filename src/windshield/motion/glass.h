@@ -1,4 +1,4 @@
-// The plane of a pane: three corners in the axes of the car, and what its passes need of them.
+// The plane of a pane: three corners in the axes of the car, and the derived values for its passes.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace rainref::windshield {
 
-/// Of the eye behind it, which looks at the street: what is near has edges as wide [m].
+/// Diameter of the pupil of an eye that looks at the street; the edges of near objects are this wide [m].
 inline constexpr double pupil = 0.005;
 
 using scene::Real2;
@@ -19,7 +19,7 @@ using scene::Real3;
 double dot(const Real3& a, const Real3& b);
 Real3 cross(const Real3& a, const Real3& b);
 
-/// Plane coordinates [m] of glass coordinates, and back:
+/// Plane coordinates [m] from glass coordinates, and back:
 ///   x = f0 u + f1 v,  y = f2 v;   u = i0 x + i1 y,  v = i2 y.
 struct PlaneFrame {
   Real3 frame, inverse;
@@ -33,27 +33,27 @@ using Corners = std::array<std::array<double, 3>, 3>;
 /// The point at (u, v) is origin + u e_u + v e_v. Car axes: x forward, y left, z up [m].
 struct Glass {
   Real3 origin, e_u, e_v;
-  Real3 normal;                          ///< unit, out of the car: e_v x e_u over its length
+  Real3 normal;                          ///< unit, out of the car: e_v x e_u divided by its length
   std::array<double, 3> metric;          ///< e_u.e_u, e_u.e_v, e_v.e_v [m^2]
   std::array<double, 3> inverse_metric;  ///< of the symmetric matrix, in the same order [1/m^2]
   double area;                           ///< [m^2]
 
-  /// Exact on a sheared glass: an orthonormal frame whose x runs along e_u.
+  /// An orthonormal frame whose x runs along e_u; exact on a sheared glass.
   PlaneFrame plane() const;
-  /// As published: each axis by its own length, as if they were perpendicular.
+  /// As published: each axis divided by its own length, as if they were perpendicular.
   PlaneFrame axes() const;
 };
 
-/// The glass with corners at (0, 0), (1, 0) and (0, 1), which whoever sits in the car sees at the lower left, the lower right and the
-/// upper left, or turned: so their order says which side is outside, of a rear or a side window too. Throws Error(usage) naming `keys` when
-/// they span no plane: two of them coincide or all three lie on a line, to 1e-6 of their distances.
+/// The glass with corners at (0, 0), (1, 0) and (0, 1). Seen from inside the car these are the lower left, the lower right and the upper
+/// left, possibly rotated. So their order determines the outside, also for a rear or side window. Throws Error(usage) with `keys` if they
+/// span no plane: two coincide or all three lie on a line, to 1e-6 of their distances.
 Glass make_glass(const Corners& corners, std::string_view keys = "windshield.corner_0, windshield.corner_1, windshield.corner_2");
 
-/// "x y z, x y z, x y z; ...": the corners of each pane at (u, v) = (0, 0), (1, 0) and (0, 1) [m]. Throws Error(usage) naming
+/// "x y z, x y z, x y z; ...": the corners of each pane at (u, v) = (0, 0), (1, 0) and (0, 1) [m]. Throws Error(usage) with
 /// windshield.panes and the pane.
 std::vector<Corners> parse_panes(std::string_view text);
 
-/// "windshield.panes, pane 2", of pane number k from 1 on; "the glass" of the windshield, number 0.
+/// "windshield.panes, pane 2" for pane number k from 1 on; "the glass" for the windshield, number 0.
 std::string pane_name(int number);
 
 }  // namespace rainref::windshield

@@ -1,4 +1,4 @@
-// What the host computes for windshield_frame and wipe_drops: uniforms, in double, each rounded once.
+// Uniforms of windshield_frame and wipe_drops, computed on the host in double, each rounded once.
 #pragma once
 
 #include "windshield/motion/uniforms.h"
@@ -11,13 +11,13 @@ namespace rainref::windshield {
 WindshieldFrameUniforms windshield_frame_uniforms(const Glass& glass, const VehicleState& vehicle, const Real3& wind, double gravity,
                                                   bool corrected);
 
-/// How a blade of the published variant takes drops along, in one frame.
+/// How a blade of the published variant moves drops in one frame.
 struct Capture {
   double follow = 0.6, inherit = 0.5, gain = 0.02;
 };
-constexpr int film_bins = 64;  ///< about 1 cm of a blade each
+constexpr int film_bins = 64;  ///< for a blade, about 1 cm each
 
-/// radius_scale [m]: base radius of a drop of one mass unit, corrected. columns and rows: of the film; 0 without one.
+/// radius_scale [m]: base radius of a drop of one mass unit, corrected. columns and rows: of the film; 0 without a film.
 WipeDropsUniforms wipe_drops_uniforms(const Glass& glass, bool corrected, int wiper_count, const Capture& capture, double radius_scale,
                                       int columns, int rows);
 

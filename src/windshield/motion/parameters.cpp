@@ -117,16 +117,16 @@ namespace {
 
 using namespace rainref::scene;
 
-/// As the keys have it, before blades are arranged.
+/// The values of the keys, before blades are arranged.
 struct WiperKeys {
   PaneWipers pane;
-  double fast_cycles_per_minute = 65;                     ///< where key frames say fast
-  std::array<Blade, most_wipers> custom = tandem_blades;  ///< what the keys ending in _0 and _1 say
+  double fast_cycles_per_minute = 65;                     ///< for "fast" in key frames
+  std::array<Blade, most_wipers> custom = tandem_blades;  ///< values of the keys ending in _0 and _1
 };
 
 std::string of_pane(int number) { return number == 0 ? "" : fmt::format("Pane {} of windshield.panes: ", number); }
 
-/// Of the custom arrangement.
+/// For the custom arrangement.
 std::vector<MemberParameter<WiperKeys>> blade_members(int number, std::size_t i) {
   const std::string table = wiper_table(number), begin = fmt::format("{}Custom arrangement, blade {}: ", of_pane(number), i);
   const auto member = [&](const char* key, const char* unit, double least, double most, double Blade::*of, const char* sentence,
@@ -164,7 +164,7 @@ std::vector<MemberParameter<WiperKeys>> members(int number) {
                    "cycles_per_minute says; empty: slow."),
       real<&K::fast_cycles_per_minute>(key("fast_cycles_per_minute"), "1/min", 0, 600,
                                        begin + "Strokes in a minute where key frames say fast."),
-      // As published a texture is wiped by the blade's present outline alone: 25 mm leave no gap at 60 frames and 45 cycles.
+      // As published a texture is wiped only by the blade's current outline; 25 mm leave no gap at 60 frames and 45 cycles.
       real<&K::pane, &PaneWipers::wipers, &WiperSettings::half_width>(key("half_width"), "m", 1e-4, 0.2,
                                                                       begin + "Half the width that a blade wipes.")
           .published(0.025),

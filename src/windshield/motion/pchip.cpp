@@ -51,7 +51,7 @@ double Pchip::value(double x) const {
   if (x >= x_.back()) return y_.back();
   const auto [i, h, s] = place(x);
   const double t = s / h, r = 1 - t;
-  // Monotone in real arithmetic; the clamp keeps rounding from passing the ends, 0 above all.
+  // Monotone in real arithmetic; the clamp keeps rounding from exceeding the ends, especially 0.
   const double hermite =
       y_[i] * (r * r * (1 + 2 * t)) + y_[i + 1] * (t * t * (3 - 2 * t)) + h * t * r * (slope_[i] * r - slope_[i + 1] * t);
   return std::clamp(hermite, std::min(y_[i], y_[i + 1]), std::max(y_[i], y_[i + 1]));

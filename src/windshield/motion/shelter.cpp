@@ -17,7 +17,7 @@ constexpr std::size_t most_stretches = 64;
 constexpr double farthest = 1e7;  // [m]
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// The first time, from 0 on, when the car has driven so far [s]; infinite where it does not in thirty years.
+/// The first time, from 0 on, when the car has driven this distance [s]; infinite if it does not within thirty years.
 double time_at(const Vehicle& vehicle, double distance) {
   const auto is_there = [&](double t) { return vehicle.at(t).distance >= distance; };
   double before = 0, there = 1;
@@ -27,7 +27,7 @@ double time_at(const Vehicle& vehicle, double distance) {
     there *= 2;
     if (there > 1e9) return endless;
   }
-  for (;;) {  // the speed is never negative: to the last bit
+  for (;;) {  // the speed is never negative, so bisect to the last bit
     const double middle = before + 0.5 * (there - before);
     if (!(before < middle && middle < there)) return there;
     (is_there(middle) ? there : before) = middle;
@@ -81,7 +81,7 @@ double Shelter::open_share(double from, double to) const {
 }
 
 double Shelter::rained(const Weather& weather, double t) const {
-  // A sum over the times in the open, so that it stands exactly still under a roof.
+  // A sum over the times in the open, so that it is exactly constant under a roof.
   double sum = 0, open_from = 0;
   for (const Interval& in : covered_) {
     if (!(open_from < t)) return sum;

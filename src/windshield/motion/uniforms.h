@@ -1,11 +1,11 @@
-// Uniform blocks of windshield_frame and wipe_drops; the record Wiper lies in windshield/uniforms.h.
+// Uniform blocks of windshield_frame and wipe_drops; the record Wiper is in windshield/uniforms.h.
 #pragma once
 
 #include <cstdint>
 
 namespace rainref::windshield {
 
-/// World axes are level and z up; car axes: x forward, y left, z up.
+/// In world axes x and y are level and z is up; car axes: x forward, y left, z up.
 struct WindshieldFrameUniforms {
   float heading[2], yaw_rate, yaw_acceleration;
   float world_wind[3], gravity;

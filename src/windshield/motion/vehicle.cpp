@@ -52,7 +52,7 @@ namespace {
 const std::vector<std::string> column_names{"time_s", "speed_mps", "yaw_rad_s"};
 using Fail = std::function<void(const std::string&)>;
 
-// The rows of a table, checked one by one; `fail` throws with the place of the present row.
+// The rows of a table, checked one by one; `fail` throws with the place of the current row.
 class Rows {
  public:
   explicit Rows(bool has_yaw) : has_yaw_(has_yaw) {}
@@ -85,7 +85,7 @@ class Rows {
   std::vector<double> time_, speed_, yaw_;
 };
 
-// For each of column_names its place in the header, or -1.
+// For each of column_names its index in the header, or -1.
 std::vector<int> columns_of(const std::vector<std::string_view>& header, const Fail& fail) {
   std::vector<int> column(column_names.size(), -1);
   for (std::size_t k = 0; k < header.size(); ++k) {

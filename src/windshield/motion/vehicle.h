@@ -1,4 +1,4 @@
-// How the car moves: speed and yaw over time, and what follows from them.
+// The motion of the car: speed and yaw over time, and derived values.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace rainref::windshield {
 
-constexpr double largest_speed = 100;    ///< [m/s]: tables in km/h are caught here
+constexpr double largest_speed = 100;    ///< [m/s]; catches tables in km/h
 constexpr double largest_yaw_rate = 10;  ///< [rad/s]
 
 /// Speed and yaw rate over time [s]; constant before the first and after the last row.
@@ -25,15 +25,15 @@ struct DriveCycle {
 /// with file and line: a missing, repeated or unknown column, a field that is not a finite number, times that do not
 /// ascend, a speed outside [0, largest_speed], a yaw rate beyond +-largest_yaw_rate, fewer than two rows.
 DriveCycle parse_drive_cycle(std::string_view csv, const std::string& file);
-/// The same of a file. Throws Error(io) when it cannot be read.
+/// The same for a file. Throws Error(io) if it cannot be read.
 DriveCycle read_drive_cycle(const std::filesystem::path& file);
 
-/// "0 0; 10 13.9; 20 0": rows of time [s], speed [m/s] and, optionally in all of them, yaw rate [rad/s]. Throws
-/// Error(usage) as parse_drive_cycle does, naming `key` and the row.
+/// "0 0; 10 13.9; 20 0": rows of time [s], speed [m/s] and, optionally in all rows, yaw rate [rad/s]. Throws Error(usage) as
+/// parse_drive_cycle does, with `key` and the row.
 DriveCycle parse_key_frames(std::string_view text, const std::string& key);
 
-/// The car at one time. World axes are the car's, turned about z by the heading. All of it holds at the origin of the
-/// car's axes, which does not slip sideways (the middle of the rear axle).
+/// The car at one time. World axes are the car's axes rotated about z by the heading. All values hold at the origin of the car's axes,
+/// which does not slip sideways (the middle of the rear axle).
 struct VehicleState {
   double speed;             ///< forward [m/s]
   double acceleration;      ///< derivative of speed [m/s^2]
@@ -57,12 +57,11 @@ struct VehicleSettings {
 
 class Vehicle {
  public:
-  /// Reads and checks the table, if there is one. Throws as parse_key_frames and read_drive_cycle do, and Error(usage)
-  /// when there are two.
+  /// Reads and checks the table, if there is one. Throws as parse_key_frames and read_drive_cycle do, and Error(usage) if there are two.
   explicit Vehicle(const VehicleSettings& settings);
 
-  /// The state at time t [s]. Speed and yaw rate are C1 in the table's range, their derivatives and integrals exact;
-  /// beyond it both are held.
+  /// The state at time t [s]. In the table's range speed and yaw rate are C1, and their derivatives and integrals are exact; outside it
+  /// both are constant.
   VehicleState at(double t) const;
 
  private:

@@ -1,4 +1,4 @@
-// Pass windshield_frame: what moves drops on the glass, in glass coordinates.
+// Pass windshield_frame: the forces on drops on the glass, in glass coordinates.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_WINDSHIELD_FRAME_PASS_H_
 #define RAINREF_WINDSHIELD_WINDSHIELD_FRAME_PASS_H_
@@ -9,7 +9,7 @@
 
 namespace rainref::windshield {
 
-/// One record, from uniforms alone.
+/// One record, computed from uniforms alone.
 struct WindshieldFramePass : pass::Takes<WindshieldFrameUniforms> {
   static constexpr pass::About about{"windshield_frame",
                                      "Gravity, apparent wind and inertia in glass coordinates.",
@@ -46,7 +46,7 @@ struct WindshieldFramePass : pass::Takes<WindshieldFrameUniforms> {
 template <class N>
 struct GlassForces {
   N gravity[2], wind[2], acceleration[2], spin[4], coriolis[4];
-  RAINREF_FN GlassForces() {}  // an implicit one would not be compiled for the SIMD target
+  RAINREF_FN GlassForces() {}  // not implicit, because that would not be compiled for the SIMD target
   template <class Forces, class F>
   static RAINREF_FN void each(Forces& all, const F& f) {
     for (auto& x : all.gravity) f(x);
@@ -56,7 +56,7 @@ struct GlassForces {
     for (auto& x : all.coriolis) f(x);
   }
 };
-/// The wind as the car meets it, in its axes: world wind - velocity of the car, turned by the heading.
+/// The wind relative to the car, in its axes: world wind - velocity of the car, rotated by the heading.
 template <class N>
 RAINREF_FN Vec3<N> apparent_wind(const WindshieldFrameUniforms& u) {
   const Vec3<N> w = Vec3<N>(u.world_wind) - Vec3<N>(u.vehicle_velocity);
@@ -65,8 +65,8 @@ RAINREF_FN Vec3<N> apparent_wind(const WindshieldFrameUniforms& u) {
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
-// Each axis by itself, f . e / |e|^2: exact only where the axes are perpendicular. Rotation acts through the
-// acceleration of the car's origin alone. (physics: W1, W2, E0 3 and 4)
+// Each axis separately, f . e / |e|^2: exact only if the axes are perpendicular. Rotation acts only through the acceleration of the car's
+// origin. (physics: W1, W2, E0 3 and 4)
 template <class N>
 RAINREF_FN void project_as_published(const WindshieldFrameUniforms& u, const Vec3<N>& f, N (&out)[2]) {
   out[0] = dot(f, Vec3<N>(u.e_u)) * N(u.inverse_metric[0]);
@@ -85,8 +85,8 @@ RAINREF_FN GlassForces<N> windshield_frame_as_published(const WindshieldFrameUni
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
 // G^-1 J^T f, exact on any flat glass. With w = (0, 0, yaw rate) and alpha its derivative the specific force at p is
-//   g - a - alpha x p - w x (w x p),   and -2 w x v of a drop that moves with v.
-// p = p0 + u e_u + v e_v, so it is affine in u and v: its value at p0 goes to gravity, the rest to spin.
+//   g - a - alpha x p - w x (w x p),   and -2 w x v for a drop that moves with v.
+// p = p0 + u e_u + v e_v, so the force is affine in u and v: its value at p0 is added to gravity, the rest to spin.
 // (physics: W1-W3)
 template <class N>
 RAINREF_FN void project_corrected(const WindshieldFrameUniforms& u, const Vec3<N>& f, N& out_u, N& out_v) {

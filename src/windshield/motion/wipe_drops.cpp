@@ -13,16 +13,16 @@ constexpr std::int64_t drops_to_a_chunk = 1024;
 constexpr int rows_to_a_tile = 4;
 constexpr auto largest_mass = static_cast<std::uint64_t>(drops::most_mass);
 
-/// Of a chunk of drops: those that ride on a blade, and the mass units that left the glass.
+/// Result of a chunk of drops: those captured by a blade, and the mass units that left the glass.
 struct Met {
   struct Riding {
-    std::size_t slot, bin;  ///< bin: of all records' bins in turn
+    std::size_t slot, bin;  ///< bin: index among all records' bins
   };
   std::vector<Riding> riding;
   std::uint64_t removed = 0;
 };
 
-// The ends of the blade before and after, widened by half_width and by how far the arc bulges over its chord; in texels of the film.
+// The ends of the previous and the current blade, widened by half_width and by the sagitta of the arc; in texels of the film.
 struct SweptArea {
   std::array<Corner, 4> corners;
   std::array<double, 2> margin;
@@ -48,18 +48,18 @@ struct Range {
   int begin, end;
 };
 Range range_of(double low, double high, int size) {
-  // What is not a number lies before the first texel.
+  // NaN maps to before the first texel.
   const auto whole = [&](double x) { return x > -1 ? static_cast<int>(std::min(x, size + 1.0)) : -1; };
   return {std::clamp(whole(low) - 1, 0, size), std::clamp(whole(high) + 1, 0, size)};
 }
 
-/// Columns outside of which nothing of the row is swept.
+/// Columns outside which nothing of the row is swept.
 Range columns_of(const SweptArea& area, int row, int width) {
   const auto [first, last] = extent_between(area.corners, row - area.margin[1], row + 1 + area.margin[1]);
   return first > last ? Range{0, 0} : range_of(first - area.margin[0], last + area.margin[0], width);
 }
 
-// Mass units by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
+// Mass units removed from the film, by record and bin. Integers, so their sum does not depend on the tiles' order.
 std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
                                       const parallel::Executor& executor) {
   std::vector<SweptArea> areas;
@@ -129,7 +129,7 @@ std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<c
   if (!corrected) return 0;
 
   std::vector<std::uint64_t> mass_units = sweep_film(u, wipers, *film, executor);
-  // The drop of lowest id for each record and bin.
+  // The drop with the lowest id for each record and bin.
   std::vector<std::int64_t> taker(mass_units.size(), -1);
   std::uint64_t removed = 0;
   for (const Met& met : of_chunk) {

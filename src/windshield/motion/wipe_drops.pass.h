@@ -1,4 +1,4 @@
-// Pass wipe_drops: what the blades do to drops, and to the film that they sweep. Geometry is in plane coordinates [m]. Needs
+// Pass wipe_drops: the effect of the blades on drops, and on the film that they sweep. Geometry is in plane coordinates [m]. Needs
 // drops/drop-inl.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_WIPE_DROPS_PASS_H_
@@ -18,7 +18,7 @@
 
 namespace rainref::windshield {
 
-/// Each drop by itself, and corrected each texel of the film; which drop then gets the water of the texels is told by wipe_drops.h. The
+/// Treats each drop separately and, corrected, each texel of the film. wipe_drops.h describes which drop gets the water of the texels. The
 /// film's lanes are written by hand.
 struct WipeDropsPass : pass::Takes<WipeDropsUniforms> {
   static constexpr pass::About about{"wipe_drops",
@@ -40,7 +40,7 @@ struct WipeDropsPass : pass::Takes<WipeDropsUniforms> {
                   member<&U::columns>("texel", {0, 65536}, "corrected: columns of the film."),
                   member<&U::rows>("texel", {0, 65536}, "corrected: rows of the film.")});
   }
-  /// The records that count.
+  /// The records that are used.
   template <class Inputs>
   static std::span<const Wiper> wipers(const Inputs& m) {
     return std::span(m.captured.wipers.records).first(static_cast<std::size_t>(m.uniforms.wiper_count));
@@ -84,16 +84,16 @@ RAINREF_FN Plane<N> to_glass(const float* inverse, N x, N y) {
   return {N(inverse[0]) * x + N(inverse[1]) * y, N(inverse[2]) * y};
 }
 
-/// A drop as the pass gives it.
+/// A drop as the pass returns it.
 template <class N>
 struct WipedDrop : DropState<N> {
-  N wiper;  ///< index of the record that captured it last; -1: none, -2: it is thrown off
+  N wiper;  ///< index of the last record that captured it; -1: none, -2: it is thrown off
   N bin;    ///< its radial bin there
   RAINREF_FN WipedDrop() {}
   RAINREF_FN explicit WipedDrop(const DropState<N>& d) : DropState<N>(d), wiper(-1.0f), bin(-1.0f) {}
 };
 
-/// Whether p lies within the half width of the blade whose axis this is. (rx, ry) = p - pivot.
+/// Whether p lies within the half width of the blade with this axis. (rx, ry) = p - pivot.
 template <class N>
 RAINREF_FN typename N::Mask under_blade(const Wiper& w, const float* axis, N rx, N ry) {
   const N ax(axis[0]), ay(axis[1]);
@@ -102,10 +102,9 @@ RAINREF_FN typename N::Mask under_blade(const Wiper& w, const float* axis, N rx,
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
-// The swept area is the quad between the previous and the current segment, a chord of the sector (physics: W10), or
-// what lies within half_width of the current one. A captured drop moves by `follow` toward the leading edge and takes
-// over `inherit` of the blade's velocity there, so that it lags behind: the bow wave. A blade at rest captures nothing;
-// the source does not say.
+// The swept area is the quad between the previous and the current segment, a chord of the sector (physics: W10), or the points within
+// half_width of the current segment. A captured drop moves by `follow` toward the leading edge and takes `inherit` of the blade's velocity
+// there, so that it lags behind: the bow wave. A blade at rest captures nothing; the source does not define this.
 /// Whether (x, y) is left of the line from a to b, for a blade that turns counter-clockwise; else right of it.
 template <class N>
 RAINREF_FN typename N::Mask inward(const Wiper& w, const Plane<N>& a, const Plane<N>& b, N x, N y) {
@@ -128,7 +127,7 @@ RAINREF_FN DropState<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms
     const Plane<N> p = to_plane(uniforms.frame, d.u, d.v);
     const N rx = p.x - N(w.pivot[0]), ry = p.y - N(w.pivot[1]);
     const auto captured = live & (in_quad(uniforms, w, p.x, p.y) | under_blade(w, w.axis, rx, ry));
-    // From the pivot: the nearest point of the blade, and half_width ahead of it.
+    // Relative to the pivot: the nearest point of the blade, and half_width ahead of it.
     const N ax(w.axis[0]), ay(w.axis[1]), lead(w.half_width * w.direction);
     const N along = clamp(rx * ax + ry * ay, N(w.inner_radius), N(w.outer_radius));
     const N tx = along * ax - lead * ay, ty = along * ay + lead * ax;
@@ -144,15 +143,13 @@ RAINREF_FN DropState<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-// What a blade sweeps is all that its capsule touches between its two angles: the annular sector widened by half_width
-// at both radii, and the capsule at both ends. A captured drop keeps its radius from the pivot and goes ahead of the
-// leading edge, as far that it just touches it: its centre half_width + its own base radius from the blade's line; it
-// moves with the blade.
+// A blade sweeps everything that its capsule touches between its two angles: the annular sector widened by half_width at both radii, and
+// the capsule at both ends. A captured drop keeps its distance from the pivot and is put ahead of the leading edge so that it just touches
+// it: its centre is half_width + its own base radius from the blade's line. It moves with the blade.
 template <class N>
 RAINREF_FN typename N::Mask in_sweep(const Wiper& w, N x, N y) {
   const N rx = x - N(w.pivot[0]), ry = y - N(w.pivot[1]), zero(0.0f), turning(w.direction), half_width(w.half_width);
-  // Counter-clockwise of the first axis, clockwise of the last, and on their side of the pivot: the sector is below a
-  // half turn.
+  // Counter-clockwise of the first axis, clockwise of the last, and on their side of the pivot: the sector is less than a half turn.
   const N past_first = turning * (N(w.previous_axis[0]) * ry - N(w.previous_axis[1]) * rx);
   const N past_last = turning * (N(w.axis[0]) * ry - N(w.axis[1]) * rx);
   const N side = (N(w.previous_axis[0]) + N(w.axis[0])) * rx + (N(w.previous_axis[1]) + N(w.axis[1])) * ry;
@@ -170,8 +167,8 @@ RAINREF_FN N radial_bin(const WipeDropsUniforms& uniforms, const Wiper& w, N x, 
   const N bin = floor((radius - (N(w.inner_radius) - half_width)) * (bins / width));
   return guard<N>(clamp(bin, N(0.0f), bins - N(1.0f)), "what is swept lies between the ends of the bins, but for rounding");
 }
-/// Two rounds over the records, because a drop that one blade pushes may land in the sweep of another. One that is
-/// still in a sweep then lies between two blades that meet; it is thrown off: its life ends.
+/// Two rounds over the records, because a drop pushed by one blade may land in the sweep of another. A drop that is still in a sweep then
+/// lies between two blades that meet; it is thrown off, and its life ends.
 template <class N>
 RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, const Wiper* wipers, const DropState<N>& in) {
   WipedDrop<N> d(in);
@@ -211,13 +208,13 @@ RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, c
   return d;
 }
 
-/// Of the film's texel.
+/// For the film's texel.
 template <class N>
 RAINREF_FN Plane<N> texel_centre(const WipeDropsUniforms& uniforms, int column, int row) {
   const N u = (N::index(column) + N(0.5f)) * N(uniforms.texel[0]), v = N(static_cast<float>(row) + 0.5f) * N(uniforms.texel[1]);
   return to_plane(uniforms.frame, u, v);
 }
-/// Which record sweeps the film's texel (column, row) first, -1: none; and its bin there.
+/// The record that first sweeps the film's texel (column, row), -1: none; and its bin there.
 template <class N>
 struct SweptTexel {
   N wiper, bin;
@@ -251,7 +248,7 @@ struct WipeDropsPassText {
     else
       return wipe_drop_as_published<N>(u, io.wipers.data(), d);
   }
-  /// The film after the sweep: nothing where a record sweeps, else as it was.
+  /// The film after the sweep: 0 where a record sweeps, otherwise unchanged.
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const WipeDropsUniforms& u, const Io& io, int x, int y) {
     if constexpr (corrected) {

@@ -13,7 +13,7 @@
 namespace rainref::windshield {
 namespace {
 
-constexpr double largest_sweep = 170;   // [deg] below a half turn, so that the sector is what two half planes share
+constexpr double largest_sweep = 170;   // [deg] below a half turn, so that the sector is the intersection of two half planes
 constexpr double largest_drop = 0.010;  // [m] base radius of the heaviest drop, 2^24 mass units: 8 mm
 
 // Angle by cycles since time 0.
@@ -102,12 +102,12 @@ std::vector<Wiper> wipers_between(const WiperSettings& s, const PlaneFrame& plan
     for (std::size_t part = 1; part < times.size(); ++part) {
       const double begin = times[part - 1], end = times[part];
       const double first = cycles_at(begin) + b.phase, last = cycles_at(end) + b.phase;
-      // Of a step in which they move at times, only where they do; of one in which they do not, one record at rest.
+      // In a step in which they move part of the time, only the moving parts; in a step at rest, one record.
       if (rests ? part > 1 : s.keyed && corrected && last == first) continue;
       const double rate = s.keyed ? (last - first) / (end - begin) : steady;
       std::vector<double> cycles{first};
       if (corrected) {
-        // A blade turns at every whole and half cycle.
+        // A blade reverses at every whole and half cycle.
         for (double k = std::floor(2 * first) + 1; k < 2 * last; ++k) cycles.push_back(0.5 * k);
       }
       cycles.push_back(last);
@@ -181,7 +181,7 @@ WiperMotion::WiperMotion(std::string_view key_frames, double slow, double fast, 
       from(begin, at, rate, 0);
       continue;
     }
-    // The stroke that they are in goes on at its rate.
+    // The current stroke continues at its speed.
     const Part& before = parts_[part_at(begin)];
     const double whole = std::ceil(at);
     double rests = begin;

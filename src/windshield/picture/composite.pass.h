@@ -1,4 +1,4 @@
-// Pass composite: what the eye sees through the wet glass.
+// Pass composite: the view of the eye through the wet glass.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_COMPOSITE_PASS_H_
 #define RAINREF_WINDSHIELD_COMPOSITE_PASS_H_
@@ -53,7 +53,7 @@ struct CompositePass : pass::Takes<CompositeUniforms> {
 #endif
 #else
 
-/// The pixel's view ray and where it meets the glass. The ray is (x, y, 1) in camera axes: right, up, forward.
+/// The pixel's view ray and its intersection with the glass. The ray is (x, y, 1) in camera axes: right, up, forward.
 template <class N>
 struct GlassPoint {
   N x, y;      ///< on the image plane at distance 1
@@ -69,7 +69,7 @@ template <class N, class Uniforms>
 RAINREF_FN GlassPoint<N> glass_point(const Uniforms& c, int column, int row) {
   const N px = N::index(column) + N(0.5f), py = N(static_cast<float>(row) + 0.5f), zero(0.0f), one(1.0f);
   const N toward = row_times(c.w_row, px, py);
-  // Beside and behind the eye there is no glass; the quotient stays finite all the same.
+  // There is no glass beside and behind the eye, but the quotient must stay finite.
   const N inverse = one / max(toward, N(1e-6f));
   const N u = row_times(c.u_row, px, py) * inverse, v = row_times(c.v_row, px, py) * inverse;
   const auto on = (toward > N(1e-6f)) & (u >= zero) & (u <= one) & (v >= zero) & (v <= one);
@@ -81,7 +81,7 @@ RAINREF_FN GlassPoint<N> glass_point(const Uniforms& c, int column, int row) {
           select(on, one, zero)};
 }
 
-/// What the textures say there.
+/// Values of the textures at that point.
 template <class N>
 struct Water {
   Vec3<N> normal;  ///< in glass axes: plane x, plane y, outward; unit
@@ -99,7 +99,7 @@ template <class N>
 RAINREF_FN Vec3<N> to_camera(const CompositeUniforms& c, const Vec3<N>& glass) {
   return glass.x * Vec3<N>(c.plane_x) + glass.y * Vec3<N>(c.plane_y) + glass.z * Vec3<N>(c.outward);
 }
-/// Texture coordinates in the picture of the scene: what a pixel of a drop shows.
+/// Texture coordinates of the scene point that a pixel of a drop shows, in the picture of the scene.
 template <class N>
 struct ScenePoint {
   N u, v;
@@ -134,8 +134,8 @@ RAINREF_FN N highlight(const Vec3<N>& normal, const Vec3<N>& to_light, const Vec
 
 // ---- as published --------------------------------------------------------------------------------------------------
 //   bgBlur = pyramid(screen, blurLOD),  bgSharp = scene(screen + offset),  offset = refraction n.xy visibility
-// then film over the scene by wetness, drops over the film by their visibility, both cut by the wiper mask; glints from the
-// perturbed normal. The article leaves the sign of the offset open; here the picture moves along n.xy (E0 10).
+// then film over the scene by wetness, and drops over the film by their visibility, both cut by the wiper mask; glints from the perturbed
+// normal. The article does not give the sign of the offset; here the picture moves along n.xy (E0 10).
 template <class N>
 RAINREF_FN ScenePoint<N> shown_as_published(const CompositeUniforms& c, const GlassPoint<N>& g, const Water<N>& w, N visibility) {
   const N strength = N(c.refraction) * visibility;
@@ -155,7 +155,7 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colo
   Vec3<N> colour = mix(mix(behind, blur, N(c.wetness) * wet), sharp, visibility);
   const N eye_inverse = N(1.0f) / length(Vec3<N>{g.x, g.y, N(1.0f)});
   const Vec3<N> to_eye = (-eye_inverse) * Vec3<N>{g.x, g.y, N(1.0f)};
-  // Seen from inside, the glass and its water turn their normal to the eye.
+  // Seen from inside, the normal of the glass and its water points to the eye.
   const Vec3<N> facing = N(-1.0f) * to_camera(c, w.normal);
   const auto shows = visibility > N(0.0f);
   for (int k = 0; k < c.glint_count && any(shows); ++k) {
@@ -166,10 +166,10 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colo
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-// The view ray is bent into the water at the plane of the glass and out of it at the water's surface, by Snell's law at both
-// (a pane with parallel faces turns no ray), and what it meets is looked up at the depth that lies there:
+// The view ray is refracted at the plane of the glass and at the water's surface, by Snell's law (a pane with parallel faces deflects no
+// ray). The scene is looked up at the depth found there:
 //   P = G + D2 max(depth - G.z, 0) / D2.z,  scene at P.xy / P.z = mix(D2.xy / D2.z, G.xy / G.z, G.z / P.z)
-// Fresnel's reflectance of the water's surface, 1 beyond the critical angle, mirrors the blurred scene, dimmed: the dark rim.
+// By Fresnel's reflectance of the water's surface, 1 beyond the critical angle, it mirrors the dimmed blurred scene: the dark rim.
 template <class N>
 RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, const Vec3<N>& surface, float ior) {
   const Vec3<N> inside = guard<N>(refract(ray, N(-1.0f) * outward, 1.0f / ior), "the ray enters the denser medium");

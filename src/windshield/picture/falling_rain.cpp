@@ -22,7 +22,7 @@ constexpr double asymmetry = 0.75;
 
 Vector3 vector_of(const Real3& a) { return {a[0], a[1], a[2]}; }
 
-/// [1/sr], of the cosine of the angle by which light is turned.
+/// [1/sr], by the cosine of the scattering angle.
 double phase(double cosine) {
   const double g = asymmetry, x = 1 + g * g - 2 * g * cosine;
   return (1 - g * g) / (4 * pi * x * __builtin_sqrt(x));
@@ -38,7 +38,7 @@ class Projection {
         height_(v.height),
         texels_(0.5 * v.height / v.camera.half_height()) {}
   double depth(const Vector3& p) const { return glm::dot(p - eye_, basis_.forward); }
-  /// Texels; depth above 0.
+  /// Position in texels; depth must be positive.
   void place(const Vector3& p, float (&out)[2]) const {
     const Vector3 d = p - eye_;
     const double scale = texels_ / depth(p);
@@ -51,9 +51,9 @@ class Projection {
     const auto [low, high] = std::minmax(s.opened[1], s.closed[1]);
     return right + reach > 0 && left - reach < static_cast<float>(width_) && high + reach > 0 && low - reach < static_cast<float>(height_);
   }
-  /// Texels of a metre at depth 1.
+  /// Texels per metre at depth 1.
   double texels() const { return texels_; }
-  /// A box around all that is seen up to a depth.
+  /// A box around everything visible up to a depth.
   void box(double far, Vector3& low, Vector3& high) const {
     low = high = eye_;
     for (const double x : {0.0, 1.0 * width_})
@@ -143,7 +143,7 @@ std::vector<FallingDrop> falling_drops(const FallingRainSettings& s, std::uint64
                          y = d.streak.closed[1] - d.streak.opened[1];
             d.streak.radius = static_cast<float>(std::max(radius, 0.5));
             if (!picture.sees(d.streak)) continue;
-            // A sphere is over a point of its way for its own width of the way.
+            // A sphere covers a point of its path while it moves by its own width.
             d.time_share = 2 * radius / (2 * radius + __builtin_sqrt(x * x + y * y));
             const double share = d.time_share * std::min(2 * radius, 1.0);
             if (share < least_share) continue;

@@ -1,4 +1,4 @@
-// Pass falling_rain: drops that fall behind the glass, as the camera's exposure draws them out. Needs wipe_texture.pass.h.
+// Pass falling_rain: drops that fall behind the glass, drawn as streaks of the camera's exposure. Needs wipe_texture.pass.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_FALLING_RAIN_PASS_H_
 #define RAINREF_WINDSHIELD_FALLING_RAIN_PASS_H_
@@ -19,7 +19,7 @@ struct FallingRainUniforms {
 };
 static_assert(sizeof(FallingRainUniforms) == 16);
 
-/// In place, on level 0 of the pyramid: behind it all lies the fog, before it the film. It runs where the scene asks for it.
+/// In place, on level 0 of the pyramid: all fog is behind it, and the film before it. It runs only if the scene asks for it.
 struct FallingRainPass : pass::Takes<FallingRainUniforms> {
   static constexpr pass::About about{
       "falling_rain", "Streaks of the rain behind the glass over the fogged scene, far ones first.", {1}, {1}, {"length"}};
@@ -27,12 +27,12 @@ struct FallingRainPass : pass::Takes<FallingRainUniforms> {
     return block({member<&U::streak_count>("1", {0, 1 << 24}, "Streaks in the list."),
                   member<&U::sharpness>("1/m", {0, 1000}, "1 over the depth in which what stands in the street hides a streak.")});
   }
-  /// As many as the uniform says, or all: of a port that lost some there may be fewer.
+  /// The number given by the uniform, or all: a port that lost some may have fewer.
   static std::span<const Streak> counted(const Uniforms& u, std::span<const Streak> all) {
     const auto said = static_cast<std::size_t>(u.streak_count);
     return u.streak_count < 0 || said > all.size() ? all : all.first(said);
   }
-  /// Those that may cover a texel of the tile, in their order: the others cover nothing there, which changes no bit.
+  /// The streaks that may cover a texel of the tile, in order. The others cover nothing there, so leaving them out changes no bit.
   static std::vector<Streak> near(const Uniforms& u, std::span<const Streak> all, bool, int, const parallel::Tile& t) {
     std::vector<Streak> some;
     for (const Streak& s : counted(u, all)) {

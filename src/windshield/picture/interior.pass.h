@@ -1,4 +1,4 @@
-// Pass interior: the car's dark inside before the glass, over what is seen through it.
+// Pass interior: the dark interior of the car, over the view through the glass.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_INTERIOR_PASS_H_
 #define RAINREF_WINDSHIELD_INTERIOR_PASS_H_
@@ -12,7 +12,7 @@ struct InteriorUniforms {
 };
 static_assert(sizeof(InteriorUniforms) == 16);
 
-/// It follows the passes of all panes where the scene asks for it. In place.
+/// It runs after the passes of all panes if the scene asks for it. In place.
 struct InteriorPass : pass::Takes<InteriorUniforms> {
   static constexpr pass::About about{"interior", "Pillar and dashboard before the glass, over what is seen through it.", {}, {1}};
   static scene::UniformBlock uniforms() {
@@ -30,7 +30,7 @@ struct InteriorPass : pass::Takes<InteriorUniforms> {
 #endif
 #else
 
-// Colours come premultiplied, so that what the glass mirrors, which hides nothing, is light without coverage.
+// Colours are premultiplied, so a reflection in the glass, which hides nothing, is light without coverage.
 struct InteriorPassText {
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const InteriorUniforms& u, const Io& io, int, int) {

@@ -1,4 +1,4 @@
-// Pass join_panes: the picture through one more pane of the car, where the eye looks through it. Needs composite.pass.h.
+// Pass join_panes: adds the view through one more pane of the car, where the eye looks through it. Needs composite.pass.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_JOIN_PANES_PASS_H_
 #define RAINREF_WINDSHIELD_JOIN_PANES_PASS_H_
@@ -6,7 +6,7 @@
 
 namespace rainref::windshield {
 
-/// It runs for each pane behind the first. Its uniforms are those of that pane's composite.
+/// It runs for each pane after the first. Its uniforms are those of that pane's composite.
 struct JoinPanesPass {
   static constexpr pass::About about{
       "join_panes", "The picture so far, and on a further pane what composite made of it.", {1}, {1}, {"dot"}};

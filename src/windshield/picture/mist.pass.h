@@ -1,4 +1,4 @@
-// Pass mist: what the condensed water on the glass makes of the light that comes through. Needs composite.pass.h.
+// Pass mist: the effect of condensed water on the glass on the light through it. Needs composite.pass.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_MIST_PASS_H_
 #define RAINREF_WINDSHIELD_MIST_PASS_H_
@@ -16,13 +16,13 @@ struct MistUniforms {
   float scene_scale[2], weight;
   std::int32_t tap_count;
 };
-/// A place that the blurred picture behind the mist is the mean of, from the pixel's own.
+/// A position, relative to the pixel, that the blurred picture behind the mist averages.
 struct Tap {
   float x, y, padding0, padding1;
 };
 static_assert(sizeof(MistUniforms) == 80 && sizeof(Tap) == 16);
 
-/// It follows composite of a pane where the scene asks for condensation.
+/// It runs after composite of a pane if the scene has condensation.
 struct MistPass : pass::Takes<MistUniforms> {
   static constexpr pass::About about{
       "mist", "What composite made of the scene, and through the mist on the glass a blurred and veiled one.", {}, {2}, {"dot"}};
@@ -53,9 +53,9 @@ struct MistPass : pass::Takes<MistUniforms> {
 #endif
 #else
 
-// Droplets scatter most light by a few degrees, which blurs what is seen straight through them: the mean over a disc, so that lamps are
-// discs, where a level of the pyramid alone makes bells of them. The rest they scatter by large angles, which
-// brings light of all the scene: its coarsest level, which every level from the last one on is.
+// Droplets scatter most light by a few degrees, which blurs the view straight through them. The blur is the mean over a disc, so that lamps
+// become discs; a level of the pyramid alone would make them bells. The rest is scattered by large angles, which adds light of the whole
+// scene: its coarsest level, which every level from the last one on returns.
 constexpr float coarsest_level = 15;
 template <class Colours, class Values>
 struct MistTextures {

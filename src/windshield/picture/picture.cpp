@@ -36,8 +36,7 @@ double widened_fov(const PictureSettings& s) {
 }
 
 // A ray d = right x + up y + forward from the eye E meets the plane of P0, e_u, e_v with normal n at E + t d,
-// t = ((P0 - E) . n) / (d . n), where u = (E + t d - P0) . U, U the dual vector of e_u; all are quotients of what is linear
-// in the pixel.
+// t = ((P0 - E) . n) / (d . n), where u = (E + t d - P0) . U, U the dual vector of e_u; all are quotients of linear functions of the pixel.
 CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& corners, std::string_view name) {
   const scene::Camera eye = camera(s);
   const scene::Camera::Basis basis = eye.basis();
@@ -117,9 +116,9 @@ using scene::Vector3;
 
 constexpr double hood_half = 0.24, hood_flat = 0.25;       // its half width at distance 1, and the share of it that is level
 constexpr double mirrored_fades = 0.05, rim_fades = 0.02;  // on the image plane at distance 1
-constexpr std::array<double, 3> tone{0.92, 0.95, 1.0};     // of what the night lights
+constexpr std::array<double, 3> tone{0.92, 0.95, 1.0};     // colour of surfaces lit by the night
 
-/// exp(-x) within some percent: a shade that nobody measures.
+/// exp(-x) to a few percent, which suffices for shading.
 double fading(double x) {
   const double y = 1 + std::max(x, 0.0) / 4;
   return 1 / (y * y * y * y);
@@ -130,7 +129,7 @@ struct Seen {
   double x, y, depth;
 };
 
-/// An edge through two points: how far a point lies on its dark side, on the image plane.
+/// An edge through two points; measures how far a point lies on its dark side, on the image plane.
 struct Edge {
   double x, y, nx, ny;  // a point, and the unit normal toward the dark side
   double depth;         // of the glass there [m]
@@ -158,7 +157,7 @@ class Inside {
     };
     if (s.pillar[0] > 0 || s.pillar[1] > 0) pillar_ = edge_of(seen(s.pillar[0], 0), seen(s.pillar[1], 1));
     if (s.dashboard > 0) dashboard_ = edge_of(seen(1, s.dashboard), seen(0, s.dashboard));
-    const double ahead = basis.forward.x;  // the car's x axis, seen by the camera
+    const double ahead = basis.forward.x;  // the car's x axis in the camera's view
     hood_at_ = ahead > 0.05 ? basis.right.x / ahead : std::numeric_limits<double>::infinity();
   }
 
@@ -166,7 +165,7 @@ class Inside {
   void at(double x, double y, double texel, float* out) const {
     double light = 0, hidden = 0;
     if (dashboard_.is_there) {
-      // The hood goes over into the level edge with slope 0 at both ends.
+      // The hood joins the level edge with slope 0 at both ends.
       const double across = std::abs(x - hood_at_) / hood_half;
       const double raised = settings_.binnacle * (1 - smooth_step((across - hood_flat) / (1 - hood_flat)));
       const double into = dashboard_.into(x, y - raised);

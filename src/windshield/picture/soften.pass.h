@@ -1,4 +1,4 @@
-// Pass soften: what the film that blades leave makes of the light that comes through. Needs composite.pass.h.
+// Pass soften: the effect of the film that blades leave on the light through it. Needs composite.pass.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_SOFTEN_PASS_H_
 #define RAINREF_WINDSHIELD_SOFTEN_PASS_H_
@@ -18,13 +18,13 @@ struct SoftenUniforms {
   float pixel[2], half_size[2];
   float scene_scale[2], padding1, padding2;
 };
-/// By how much a share of the scattered light is turned.
+/// Deflection of a share of the scattered light.
 struct Deflection {
   float tangent, weight, padding0, padding1;
 };
 static_assert(sizeof(SoftenUniforms) == 112 && sizeof(Deflection) == 16);
 
-/// It follows composite of a pane with blades where the scene asks for smear.
+/// It runs after composite of a pane with blades if the scene has smear.
 struct SoftenPass : pass::Takes<SoftenUniforms> {
   static constexpr pass::About about{
       "soften", "What composite made of the scene, drawn out across the streaks of the film that blades left.", {}, {1}, {"dot"}};
@@ -58,9 +58,9 @@ struct SoftenPass : pass::Takes<SoftenUniforms> {
 #endif
 #else
 
-// Streaks are ridges that run along the blade's way: each is a narrow lens that turns light along the blade, across the streaks, which
-// is what draws lamps out. Of an angle with tangent k the ray (x, y, 1) becomes (x, y, 1) + k A, A the unit vector along the blade, and
-// meets the image plane at (x, y) + k (A.xy - (x, y) A.z), in first order.
+// Streaks are ridges along the blade's motion. Each is a narrow lens that deflects light along the blade, across the streaks, which
+// elongates lamps. A deflection with tangent k turns the ray (x, y, 1) into (x, y, 1) + k A, with A the unit vector along the blade. To
+// first order it meets the image plane at (x, y) + k (A.xy - (x, y) A.z).
 template <class Colours>
 struct SoftenTextures {
   Colours blurred, smear;

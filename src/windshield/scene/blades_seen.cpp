@@ -10,18 +10,18 @@ namespace {
 
 using scene::Vector3;
 
-constexpr double blade_height = 0.012, arm_height = 0.025;  ///< of their middles before the glass [m]
+constexpr double blade_height = 0.012, arm_height = 0.025;  ///< distance of their centres before the glass [m]
 constexpr double arm_at_pivot = 0.014, arm_at_blade = 0.006;
 constexpr std::array<double, 3> rubber{0.004, 0.004, 0.0045};  ///< radiance
 
 Vector3 three(const Real3& a) { return {a[0], a[1], a[2]}; }
 
-/// Share of a disc `soft` wide that lies in [low, high], roughly: its edges are straight.
+/// Approximate share of a disc `soft` wide that lies in [low, high], as if its edges were straight.
 double covered(double at, double low, double high, double soft) {
   return std::clamp((at - low) / soft + 0.5, 0.0, 1.0) * std::clamp((high - at) / soft + 0.5, 0.0, 1.0);
 }
 
-/// A blade or its arm in the plane of its middle, `height` before the glass: along from `first` to `last`, across at most `half`.
+/// A blade or its arm in the plane of its centre, `height` before the glass: along from `first` to `last`, across at most `half`.
 struct Part {
   double height, first, last, half;
 };
@@ -33,7 +33,7 @@ double soft_at(double depth, double texel) { return std::max(pupil, 1.5 * depth 
 struct Cover {
   double share = 0, depth = 0;
 };
-/// What a blade, or its arm, hides of the ray (x, y, 1), a texel `texel` wide at distance 1.
+/// The part of the ray (x, y, 1) that a blade, or its arm, hides; the texel is `texel` wide at distance 1.
 Cover cover_of(const SeenBlade& b, bool is_arm, double x, double y, double texel) {
   const Vector3 ray(x, y, 1);
   const double towards = glm::dot(b.out, ray);
@@ -47,7 +47,7 @@ Cover cover_of(const SeenBlade& b, bool is_arm, double x, double y, double texel
   return {covered(along, part.first, part.last, soft) * covered(across, -half, half, soft), depth};
 }
 
-/// What may be hidden of the plane at distance 1: four corners in their order, or everything where one of them is not before the eye.
+/// Bounds of the hidden area on the plane at distance 1: four corners in order, or everything if one of them is not before the eye.
 struct Outline {
   std::array<Corner, 4> corners{};
   bool is_everything = false;
@@ -57,7 +57,7 @@ Outline outline_of(const SeenBlade& b, bool is_arm, double texel) {
   Outline all;
   all.is_everything = true;
   double soft = pupil;
-  for (int go = 0; go < 2; ++go) {  // the softness hangs on the depth; a metre beyond it changes little
+  for (int go = 0; go < 2; ++go) {  // the softness depends on the depth; a metre beyond it changes little
     Outline outline;
     double deepest = 0;
     const double low = part.first - soft, high = part.last + soft, half = part.half + soft;
@@ -73,7 +73,7 @@ Outline outline_of(const SeenBlade& b, bool is_arm, double texel) {
   }
   return all;
 }
-/// Of the rows from `low` to `high`, from where to where; nothing: the first is above the second.
+/// Range covered in the rows from `low` to `high`; if empty, the first value is above the second.
 std::array<double, 2> extent(const Outline& o, double low, double high) {
   if (o.is_everything) return {-1e30, 1e30};
   return extent_between(o.corners, low, high);
@@ -91,7 +91,9 @@ void add_seen(std::vector<SeenBlade>& seen, std::span<const Wiper> wipers, const
   for (std::size_t i = 0; i < wipers.size(); ++i) {
     const Wiper& w = wipers[i];
     const auto same_pivot = [&](const Wiper& other) { return other.pivot[0] == w.pivot[0] && other.pivot[1] == w.pivot[1]; };
-    if (std::any_of(wipers.begin() + static_cast<std::ptrdiff_t>(i) + 1, wipers.end(), same_pivot)) continue;  // a later one has it
+    if (std::any_of(wipers.begin() + static_cast<std::ptrdiff_t>(i) + 1, wipers.end(), same_pivot))
+      continue;  // a later record has this
+                 // blade
     const double c = w.axis[0], s = w.axis[1];
     const Vector3 pivot = origin + static_cast<double>(w.pivot[0]) * x + static_cast<double>(w.pivot[1]) * y;
     seen.push_back({in_camera(pivot), in_camera(c * x + s * y), in_camera(c * y - s * x), in_camera(three(glass.normal)), w.inner_radius,

@@ -1,15 +1,15 @@
-// A view from a place between two pictures, one taken behind it and one ahead. The point seen along (x, y, 1) at depth d lies in
-// a picture's camera at P = d (x, y, 1) + way, where the picture holds its depth D, which should be d + way.z. One step of
+// A view from a position between two pictures, one taken behind it and one ahead. The point seen along (x, y, 1) at depth d is at P = d (x,
+// y, 1) + way in a picture's camera, where the picture holds a depth D, which should be d + way.z. One step of
 //   d + (D - way.z - d) d / max(d, d + way.z)
-// finds d exactly on level ground, where a plain fixed-point step diverges; others follow in a few. Where D does not come out
-// as it should, something hid the point from that picture, and the other one counts.
-// A search waits for each lookup before the next; so several go side by side, vector by vector.
+// finds d exactly on level ground, where a plain fixed-point step diverges; other surfaces need a few steps. If D is not as it should be,
+// something hid the point in that picture, and the other one is used.
+// A search must wait for each lookup, so several run side by side, vector by vector.
 
 template <class N, int Count>
 struct Searches {
   N x[Count];
   N y;
-  N d[Count], u[Count], v[Count], there[Count];  ///< depth; where it lies in the picture, and what the picture holds there
+  N d[Count], u[Count], v[Count], there[Count];  ///< depth; its position in the picture, and the picture's depth there
   RAINREF_FN Searches() {}
 };
 template <class N, int Count, class Depths>
@@ -24,7 +24,8 @@ RAINREF_FN void search(const ReprojectUniforms& r, const Depths& depth, float wa
       s.u[k] = half + ((d * s.x[k] + wx) * deep) * su;
       s.v[k] = half + ((d * s.y + wy) * deep) * sv;
       N there = sample_nearest<0, 1, N>(depth, s.u[k], s.v[k])[0];
-      // The last two read between texels, where these lie on one surface: depths of whole rows would shift the road's texture row by row.
+      // The last two rounds interpolate between texels that lie on one surface: depths of whole rows would shift the road's texture row by
+      // row.
       if (round + 2 >= rounds) {
         const N smooth = sample_bilinear<0, 1, N>(depth, s.u[k], s.v[k])[0];
         there = select(abs(smooth - there) < N(0.05f) * there, smooth, there);
@@ -51,7 +52,7 @@ struct Between {
   Vec3<N> colour;
   N depth;
 };
-/// Count vectors of a row, from `column` on: use(k, Between) takes the k-th.
+/// Count vectors of a row, from `column` on; use(k, Between) is called with the k-th.
 template <class N, int Count, class Colours, class Depths, class Use>
 RAINREF_FN void reprojected(const ReprojectUniforms& r, const Colours& behind, const Depths& behind_depth, const Colours& ahead,
                             const Depths& ahead_depth, int column, int row, const Use& use) {
@@ -67,7 +68,7 @@ RAINREF_FN void reprojected(const ReprojectUniforms& r, const Colours& behind, c
     for (int k = 0; k < Count; ++k) use(k, Between<N>{seen(r, behind, r.behind_by, a, k).colour, a.d[k]});
     return;
   }
-  // What the picture behind finds is where the search in the one ahead begins.
+  // The result of the picture behind is the start of the search in the one ahead.
   for (int k = 0; k < Count; ++k) b.d[k] = a.d[k];
   search(r, ahead_depth, r.ahead_by, 3, b);
   for (int k = 0; k < Count; ++k) {

@@ -30,9 +30,9 @@ Keyframe view_of(const Work& by, const std::string&, const scene::Camera& camera
 
 }  // namespace
 
-// x forward, y left, z up becomes the street's x right, y up, z backward.
+// x forward, y left, z up become the street's x right, y up, z backward.
 Vector3 in_street(const Vector3& car) { return {-car.y, car.z, -car.x}; }
-// The street begins again between two keyframes, so that no view lies between its end and its beginning.
+// The street restarts between two keyframes, so that no view lies between its end and its beginning.
 Vector3 place_in_street(double start, double distance) {
   constexpr double length = StreetDrive::street_length, spacing = StreetDrive::spacing;
   const double taken = spacing * std::floor(distance / spacing), way = start + taken;
@@ -57,7 +57,7 @@ struct StreetDrive::State {
   std::shared_ptr<const scene::Scenery> street;
   const parallel::Executor& executor;
   std::map<int, Keyframe> keyframes;  ///< by number
-  bool stands = false;                // the view of look() is rendered and stays
+  bool stands = false;                // the view of look() is rendered and does not change
 
   State(std::shared_ptr<const scene::Scenery> seen, const scene::Camera& c, int w, int h, const StreetOptions& o,
         const parallel::Executor& e)
@@ -71,7 +71,7 @@ struct StreetDrive::State {
         executor(e) {}
 
   double apart() const { return spacing / keyframes_in_spacing; }
-  /// The way to keyframe k. The street begins again at whole spacings: these are exact.
+  /// The distance of keyframe k. The street restarts at whole spacings, which are exact.
   double way(int k) const { return spacing * (k / keyframes_in_spacing) + apart() * (k % keyframes_in_spacing); }
   /// The last keyframe that is not ahead.
   int last(double distance) const {
@@ -96,7 +96,7 @@ struct StreetDrive::State {
   const Keyframe& keyframe(int k) {
     const auto found = keyframes.find(k);
     if (found != keyframes.end()) return found->second;
-    // A car at rest may look at its first view for long; those of one that moves pass, two blended.
+    // A car at rest may show its first view for long; views of a moving car are transient blends of two.
     return keyframes.emplace(k, render(k, at_rest && k == 0 ? Parts::nine : Parts::three)).first->second;
   }
 };
@@ -125,7 +125,7 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   const int k = s.last(distance);
   const double gone = std::max(distance - s.way(k), 0.0);
   const bool stands = gone == 0, starts_anew = s.place(k + 1).z > s.place(k).z;
-  // At a keyframe, and where the street ends, there is no need to look ahead.
+  // At a keyframe, and at the end of the street, the next one is not needed.
   const Keyframe &behind = s.keyframe(k), &ahead = stands || starts_anew ? behind : s.keyframe(k + 1);
   s.keyframes.erase(s.keyframes.begin(), s.keyframes.lower_bound(k));
   const scene::Camera::Basis basis = s.camera.basis();

@@ -1,4 +1,4 @@
-// Pass condense: the mist of condensed water on the glass, as it has grown since water or a blade last cleared it.
+// Pass condense: the mist of condensed water on the glass, which grows after water or a blade has cleared it.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_CONDENSE_PASS_H_
 #define RAINREF_WINDSHIELD_CONDENSE_PASS_H_
@@ -13,7 +13,7 @@ struct CondenseUniforms {
 };
 static_assert(sizeof(CondenseUniforms) == 32);
 
-/// Where the scene asks for it. In place.
+/// Runs if the scene asks for it. In place.
 struct CondensePass : pass::Takes<CondenseUniforms> {
   static constexpr pass::About about{
       "condense", "The mist of condensed water on the glass, as it has grown since water or a blade last cleared it.", {}, {1}};
@@ -47,8 +47,8 @@ struct CondensePass : pass::Takes<CondenseUniforms> {
 #else
 
 // clear_time = min(min(clear_time + dt, limit) (1 - taken), time since a wipe),   condensation = most (1 - exp(-clear_time / tau))
-// Water takes the mist up where it stands, in share of its height: drops, their trails and the film. The time is kept, not the mist: a
-// half that grows by less than half its last place in a frame would stand still.
+// Water (drops, their trails and the film) takes up the mist under it, by a share that grows with its height. The stored value is the time,
+// not the mist, because a half that grows by less than half its last place per frame would not change.
 struct CondensePassText {
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const CondenseUniforms& u, const Io& io, int, int) {

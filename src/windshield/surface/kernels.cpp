@@ -26,7 +26,7 @@ RAINREF_TARGET_BEGIN(windshield)
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-// What a wiper may cover, in the plane [m]; outside, its coverage is exactly 0.
+// Area that a wiper may cover, in the plane [m]; outside, its coverage is exactly 0.
 Reach reach_of(const WipeTextureUniforms& u, bool corrected, const Wiper& w) {
   if (corrected) return sector_reach(w, u.edge_width);
   Reach r;

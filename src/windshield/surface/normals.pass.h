@@ -2,8 +2,7 @@
 //
 //   normal = normalize(-slope_x, -slope_y, 1) in axes of the glass: x along u, y in the glass across it, z outward
 //
-// as-published reduces each tap by the wiper mask there, which makes a slope of the mask's own edge (-height grad mask);
-// corrected reduces the slope.
+// as-published multiplies each tap by the wiper mask, so the edge of the mask adds a slope (-height grad mask); corrected scales the slope.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_NORMALS_PASS_H_
 #define RAINREF_WINDSHIELD_NORMALS_PASS_H_

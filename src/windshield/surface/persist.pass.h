@@ -12,7 +12,7 @@ struct PersistUniforms {
 };
 static_assert(sizeof(PersistUniforms) == 16);
 
-/// As published alone, and only where the scene asks for it: corrected has a film.
+/// As published only, and only if the scene asks for it; corrected has a film instead.
 struct PersistPass : pass::Takes<PersistUniforms> {
   static constexpr pass::About about{
       "persist", "The height texture of the frame before, decayed, wherever this frame's drops are not higher.", {1}, {}};

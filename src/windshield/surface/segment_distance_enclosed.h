@@ -1,5 +1,5 @@
-// The distance to a segment as an enclosure, tighter than as it is written: an error of the nearest point's place along the
-// segment moves the distance in second order only, which intervals of its two components cannot see.
+// The distance to a segment as an enclosure, tighter than by the formula as written. An error in the position of the nearest point along
+// the segment changes the distance only in second order, which intervals of the two components cannot know.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace rainref::windshield::scalar {
 
-/// Bounds of |from x along| / |along|, in double: each factor is one number, so nothing counts twice but the length.
+/// Bounds of |from x along| / |along|, in double: each factor is one number, so only the length is used twice.
 struct Perpendicular {
   double low, high, length;
 };
@@ -24,11 +24,11 @@ inline Perpendicular perpendicular(enclosed::Enclosure fx, enclosed::Enclosure f
   const double low = pl - qh, high = ph - ql, most = larger(low, high), least = low > 0 ? low : high < 0 ? -high : 0;
   const double shortest = __builtin_sqrt(smaller(ax) * smaller(ax) + smaller(ay) * smaller(ay));
   const double longest = __builtin_sqrt(larger(ax.lo, ax.hi) * larger(ax.lo, ax.hi) + larger(ay.lo, ay.hi) * larger(ay.lo, ay.hi));
-  constexpr double slack = 1e-14;  // of these doubles
+  constexpr double slack = 1e-14;  // rounding error of these doubles
   return {longest > 0 ? least / longest * (1 - slack) : 0, shortest > 0 ? most / shortest * (1 + slack) : 1e30, longest};
 }
 
-/// segment_distance of wipe_texture.pass.h. Between the ends, for a place t off by d from the nearest one:
+/// segment_distance of wipe_texture.pass.h. Between the ends, for a position t that is off by d from the nearest one:
 ///   distance^2 = perpendicular^2 + (d length)^2.
 inline enclosed::Enclosure segment_distance(enclosed::Enclosure px, enclosed::Enclosure py, enclosed::Enclosure ax, enclosed::Enclosure ay,
                                             enclosed::Enclosure bx, enclosed::Enclosure by) {
@@ -41,7 +41,7 @@ inline enclosed::Enclosure segment_distance(enclosed::Enclosure px, enclosed::En
   if (p.reference || written.is_vacuous() || !(t.lo > 0 && t.hi < 1 && length_sq.lo > 1e-6f)) return written;
 
   const Perpendicular d = perpendicular(from_x.unrounded(), from_y.unrounded(), along_x.unrounded(), along_y.unrounded());
-  // Two roundings of each component, and then those of two squares and their sum.
+  // Two roundings of each component, then those of two squares and their sum.
   const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23,
                flushed = p.flush == enclosed::Flush::never ? 0 : 0x1p-124;
   const double x = unit * (t.hi * along_x.magnitude() + written.magnitude()), y = unit * (t.hi * along_y.magnitude() + written.magnitude());

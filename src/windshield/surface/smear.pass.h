@@ -1,4 +1,4 @@
-// Pass smear: the thin film that blades leave in streaks, and how it dries. Needs wipe_texture.pass.h.
+// Pass smear: the thin film that blades leave in streaks, and its drying. Needs wipe_texture.pass.h.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_SMEAR_PASS_H_
 #define RAINREF_WINDSHIELD_SMEAR_PASS_H_
@@ -20,7 +20,7 @@ struct SmearUniforms {
 };
 static_assert(sizeof(SmearUniforms) == 32);
 
-/// Where the scene asks for it. In place.
+/// Runs if the scene asks for it. In place.
 struct SmearPass : pass::Takes<SmearUniforms> {
   static constexpr pass::About about{
       "smear", "The thin film that blades leave in streaks along their way, and what of it is not dry yet.", {}, {1}, {"dot", "length"}};
@@ -31,12 +31,12 @@ struct SmearPass : pass::Takes<SmearUniforms> {
                   member<&U::drying>("1/s", {0, 1000}, "What of the thickness dries in a second."),
                   member<&U::wiper_count>("1", {0, 65536}, "Wipers in the list.")});
   }
-  /// As many as the uniform says, or all: of a port that lost some there may be fewer.
+  /// The number given by the uniform, or all: a port that lost some may have fewer.
   static std::span<const Wiper> counted(const Uniforms& u, std::span<const Wiper> all) {
     const auto said = static_cast<std::size_t>(u.wiper_count);
     return u.wiper_count < 0 || said > all.size() ? all : all.first(said);
   }
-  /// Those that may cover a texel of the tile, in their order.
+  /// The records that may cover a texel of the tile, in order.
   static std::vector<Wiper> near(const Uniforms& u, std::span<const Wiper> all, bool, int, const parallel::Tile& t) {
     Reach tile;
     for (const int x : {t.x0, t.x1}) {
@@ -79,9 +79,9 @@ struct SmearPass : pass::Takes<SmearUniforms> {
 #endif
 #else
 
-// Each blade in turn lays its profile over what was there, by its coverage. Drops and trails take the film up. What is left dries at an
-// even rate, so that the thin film goes first and streaks last; the time since the wipe is wipe_texture's, so that no sum of small steps
-// is kept.
+// Each blade in turn lays its profile over the existing film, by its coverage. Drops and trails take up the film. The rest dries at a
+// constant rate, so that the thin film goes first and streaks last. The time since the wipe comes from wipe_texture, so that no sum of
+// small steps is kept.
 template <class Values>
 struct SmearTextures {
   Values profile;

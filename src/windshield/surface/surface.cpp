@@ -22,7 +22,7 @@ double nearest_multiple(double time, double grid) {
 }  // namespace
 
 double wiped_grid(double tau) {
-  // The power of two not above tau, over 2^19.
+  // The largest power of two not above tau, divided by 2^19.
   constexpr std::uint64_t exponent = 0x7ff0000000000000u;
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(tau) & exponent) * 0x1p-19;
 }
@@ -37,7 +37,7 @@ WipeTextureUniforms wipe_texture_uniforms(const SurfaceSettings& s, int frame) {
   u.frame[0] = static_cast<float>(column);
   u.frame[1] = static_cast<float>(shear);
   u.frame[2] = static_cast<float>(row);
-  // A texel, but no wider than a blade: what two sweeps in turn cover by halves would stay as a seam.
+  // A texel, but at most the width of a blade, because halves covered by two successive sweeps would leave a seam.
   u.edge_width = static_cast<float>(std::max(1e-6, std::min(std::max(column, row), s.half_width)));
   u.axis_length[0] = static_cast<float>(s.frame[0]);
   u.axis_length[1] = static_cast<float>(s.frame[2]);
@@ -59,7 +59,7 @@ PersistUniforms persist_uniforms(const SurfaceSettings& s) {
 }
 
 NormalsUniforms normals_uniforms(const SurfaceSettings& s) {
-  // Twice a texel is the span of a difference; heights are in mm. Plane axes: dh/dx = h_u / f0, dh/dy = (h_v - h_u f1 / f0) / f2.
+  // A central difference spans two texels; heights are in mm. Plane axes: dh/dx = h_u / f0, dh/dy = (h_v - h_u f1 / f0) / f2.
   const double metres = 1e-3 / 2;
   NormalsUniforms u{};
   u.slope_x = static_cast<float>(metres * s.width / s.frame[0]);
@@ -91,11 +91,11 @@ pass::HostIo<WipeTexturePass> wipe_texture_io(bool corrected, std::span<const Wi
 
 namespace {
 
-constexpr int columns = 256;                     // of the profile: 2 mm of an ordinary blade
+constexpr int columns = 256;                     // of the profile: 2 mm each for a usual blade
 constexpr int each_side = 16;                    // deflections
 constexpr double water = 0.02;                   // height that takes all of the film up [mm]
 constexpr double end_share = 0.08;               // of the blade's length, from either end
-constexpr double least_streaks = 5, more = 40;   // of a new blade, and of a ragged one besides
+constexpr double least_streaks = 5, more = 40;   // of a new blade, and the addition for a ragged one
 constexpr double narrowest = 0.8, widest = 2.4;  // half their width [columns]
 
 }  // namespace
@@ -197,7 +197,7 @@ MistUniforms mist_uniforms(const CondensationSettings& s, const CompositeUniform
   std::copy_n(seen.half_size, 2, u.half_size);
   std::copy_n(seen.scene_scale, 2, u.scene_scale);
   u.glass_distance = seen.glass_distance;
-  // A whole level, looked up without the next: four texels of it are the disc's radius, and its spread reaches from tap to tap.
+  // A whole level, so one lookup suffices: four texels of it are the disc's radius, and its blur reaches from tap to tap.
   u.lod = static_cast<float>(std::max(std::floor(s.blur_lod - 2 + 0.5), 0.0));
   u.weight = static_cast<float>(1.0 / mist_tap_count);
   u.tap_count = mist_tap_count;

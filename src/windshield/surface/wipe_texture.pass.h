@@ -1,7 +1,6 @@
-// Pass wipe_texture: what the blades take off the height texture, and the mask of freshly wiped glass.
+// Pass wipe_texture: removes water under the blades from the height texture, and updates the mask of freshly wiped glass.
 //
-// Nothing here is decided: coverage falls from 1 to 0 over edge_width at the blade's edge, and the distances that it comes
-// from are continuous.
+// It has no decisions: coverage falls from 1 to 0 over edge_width at the blade's edge, and the distances that determine it are continuous.
 #ifndef RAINREF_FN
 #ifndef RAINREF_WINDSHIELD_WIPE_TEXTURE_PASS_H_
 #define RAINREF_WINDSHIELD_WIPE_TEXTURE_PASS_H_
@@ -19,7 +18,7 @@ struct WipeTextureUniforms {
 };
 static_assert(sizeof(WipeTextureUniforms) == 48);
 
-/// In place. Its lanes leave wipers out that cannot reach them: see kernels.cpp.
+/// In place. Its lanes skip wipers that cannot reach them: see kernels.cpp.
 struct WipeTexturePass : pass::Takes<WipeTextureUniforms> {
   static constexpr pass::About about{
       "wipe_texture", "What the blades take off the height, and the mask of freshly wiped glass.", {1}, {1}, {"dot", "length"}};
@@ -84,7 +83,7 @@ RAINREF_FN PlanePoint<N> texel_in_plane(const Uniforms& u, int x, int y) {
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
-//   coverage: capsule around the blade where it is now
+//   coverage: capsule around the blade at its current position
 //   height = max(0, height - strength coverage),   mask = max(mask keep, coverage), in the mask's own format
 template <class N>
 RAINREF_FN N wipe_coverage_as_published(const WipeTextureUniforms& u, const Wiper* wipers, int x, int y) {
@@ -108,13 +107,13 @@ RAINREF_FN N wiped_mask_as_published(const WipeTextureUniforms& u, N mask, N cov
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-//   coverage: annular sector from the blade's previous place to the present one, half_width wider all around
+//   coverage: annular sector from the blade's previous position to the current one, half_width wider all around
 //   height = height (1 - coverage),   wiped = min(wiped + dt, limit) (1 - coverage),   mask = exp(-wiped / tau)
 //
-// The distance to the sector, of less than half a turn, is the least of three: to the blade before, to the blade now, and
-// within the sector's angle |r - radii|. Outside that angle the third is made larger than the others. A point s beside the
-// nearer blade's ray is never further from the sector than |r - radii| + 2 s; one behind the pivot never further than
-// |r - radii| + 2 r, and there s and how far it is behind, along the sum of the axes, are more than r together.
+// The distance to the sector, which is less than half a turn, is the smallest of three: to the previous blade, to the current blade, and
+// within the sector's angle |r - radii|. Outside that angle the third is made larger than the others. A point at distance s beside the ray
+// of the nearer blade is at most |r - radii| + 2 s from the sector. A point behind the pivot is at most |r - radii| + 2 r from it; there s
+// plus its distance behind, along the sum of the axes, is more than r.
 template <class N>
 RAINREF_FN N sector_distance(const Wiper& w, N px, N py, N before, N now) {
   const N cx0(w.previous_axis[0]), cy0(w.previous_axis[1]), cx1(w.axis[0]), cy1(w.axis[1]), inner(w.inner_radius), outer(w.outer_radius);
