@@ -1,6 +1,8 @@
 // GLSL.std.450 with the functions of our models: equal mathematics gives equal bits.
 #pragma once
 
+#include <bit>
+
 #include "math/constants.h"
 #include "spirv/module.h"
 #include "spirv/numbers.h"
@@ -44,6 +46,35 @@ N other_side(const N& x) {
   return sqrt(max(N(1.0f) - square(x), N(0.0f)));
 }
 
+/// The determinant of the rows and columns of a matrix that the masks leave. The matrix is stored by columns. Expands along the first row.
+template <class N>
+N minor_of(const Slot<N>* a, std::uint32_t order, std::uint32_t rows_out = 0, std::uint32_t columns_out = 0) {
+  const auto row = static_cast<std::uint32_t>(std::countr_one(rows_out));
+  N sum(1.0f);  // the determinant of a matrix without rows
+  bool is_first = true, is_negative = false;
+  for (std::uint32_t column = 0; row < order && column < order; ++column) {
+    if ((columns_out >> column & 1u) != 0) continue;
+    const N& factor = a[column * order + row].number;
+    const std::uint32_t rows = rows_out | 1u << row, columns = columns_out | 1u << column;
+    const bool is_last = std::popcount(rows) == static_cast<int>(order);
+    const N term = is_last ? factor : factor * minor_of(a, order, rows, columns);
+    sum = is_first ? term : is_negative ? sum - term : sum + term;
+    is_first = false;
+    is_negative = !is_negative;
+  }
+  return sum;
+}
+template <class N>
+void invert(Slot<N>* to, const Slot<N>* a, std::uint32_t order) {
+  const N scale = N(1.0f) / minor_of(a, order);
+  for (std::uint32_t column = 0; column < order; ++column) {
+    for (std::uint32_t row = 0; row < order; ++row) {
+      const N cofactor = minor_of(a, order, 1u << column, 1u << row);
+      to[column * order + row].number = ((row + column) % 2 == 0 ? cofactor : -cofactor) * scale;
+    }
+  }
+}
+
 /// The length of a vector of n components.
 template <class N>
 N length_of(const N* x, std::uint32_t n) {
@@ -74,6 +105,15 @@ bool vector_function(Glsl function, Slot<N>* to, const Slot<N>* a, const Slot<N>
       }
       const N inverse = N(1.0f) / length_of(x, n);
       for (std::uint32_t k = 0; k < n; ++k) to[k].number = inverse * x[k];
+      return true;
+    }
+    case Glsl::Determinant:
+    case Glsl::MatrixInverse: {
+      const std::uint32_t order = n == 4 ? 2 : n == 9 ? 3 : 4;
+      if (function == Glsl::Determinant)
+        to[0].number = minor_of(a, order);
+      else
+        invert(to, a, order);
       return true;
     }
     case Glsl::Cross:

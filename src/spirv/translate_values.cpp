@@ -241,6 +241,13 @@ void Parser::translate_function(const Raw& raw) {
       case Glsl::Refract:
         in = {{real, n}, {real, n}, {real, 1}};
         break;
+      case Glsl::Determinant:
+        in = {{real, m}};
+        out = {real, 1};
+        break;
+      case Glsl::MatrixInverse:
+        in = {{real, n}};
+        break;
       case Glsl::PackHalf2x16:
       case Glsl::PackUnorm4x8:
         in = {{real, function == Glsl::PackHalf2x16 ? 2u : 4u}};
@@ -256,7 +263,9 @@ void Parser::translate_function(const Raw& raw) {
     }
   }
   components(raw, 1, out.kind, out.slots);
-  if (n > 4 || m > 4) refuse_shape(raw);
+  const bool is_of_matrix = function == Glsl::Determinant || function == Glsl::MatrixInverse;
+  const Type& operand = type_of(value(raw, 4));
+  if (is_of_matrix ? operand.kind != Kind::matrix || operand.slots != operand.count * operand.count : n > 4 || m > 4) refuse_shape(raw);
   Code& code = emit(raw, raw.op);
   code.sub = static_cast<std::uint16_t>(number);
   code.m = m;

@@ -54,6 +54,26 @@ TEST(Machine, IntegersAreThoseOfTheLanguage) {
                                         31, 3, static_cast<std::uint32_t>(std::uint64_t{4294967287u} * 4294967287u >> 32), 81, 0, 1,
                                         0u - 3u, 8u ^ (4294967287u << 3)}));
 }
+// Whole numbers, so that every product and sum is exact. The inverses are those that mathematics gives.
+TEST(Machine, DeterminantsAndInversesAreExactOfWholeNumbers) {
+  RAINREF_NEED_COMPILER();
+  const std::vector<float> found = run_floats(R"(
+    mat2 a = mat2(f(0), 2.0, 3.0, 8.0);
+    mat3 b = mat3(f(1), 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 3.0, 1.0);
+    mat4 c = mat4(f(1), 0.0, 0.0, 5.0, 0.0, 1.0, 0.0, 0.0, 0.0, 7.0, 4.0, 0.0, 1.0, 0.0, 0.0, 3.0);
+    mat2 p = inverse(a); mat3 q = inverse(b); mat4 r = inverse(c);
+    put(0, determinant(a)); put(1, determinant(b)); put(2, determinant(c));
+    put(3, p[0][0]); put(4, p[0][1]); put(5, p[1][0]); put(6, p[1][1]);
+    mat3 one = b * q; mat4 unit = r * c;
+    float off = 0.0;
+    for (int i = 0; i < 3; ++i) for (int k = 0; k < 3; ++k) off += abs(one[i][k] - float(i == k));
+    for (int i = 0; i < 4; ++i) for (int k = 0; k < 4; ++k) off += abs(unit[i][k] - float(i == k));
+    put(7, off);)",
+                                              {1, 2}, 8);
+  // det b = 2 (1 - 0) - 1 (0 - 3) = 5 by columns; 1/5 is rounded, so its products are off by a few units of 2^-24.
+  EXPECT_EQ(std::vector<float>(found.begin(), found.begin() + 7), (std::vector<float>{2, 5, 4, 4, -1, -1.5f, 0.5f}));
+  EXPECT_LE(found[7], 16 * 0x1p-22f);
+}
 // What SPIR-V leaves open has one result, and no trap.
 TEST(Machine, UndefinedIntegersHaveOneResult) {
   RAINREF_NEED_COMPILER();
