@@ -155,7 +155,13 @@ TEST_F(PackVerb, AnOlderPackIsReplacedAndNothingElse) {
 
 TEST_F(PackVerb, BadArguments) {
   expect_refusal({"pack", "corrected.toml"}, 2, HasSubstr("--output is required"));
-  expect_refusal({"pack", "-o", "p"}, 2, HasSubstr("SCENE is required"));
+  expect_refusal({"pack", "-o", "p"}, 2, "expected either SCENE or --spirv, found neither");
+  expect_refusal({"pack", "corrected.toml", "--spirv", "effect.json", "-o", "p"}, 2, "expected either SCENE or --spirv, found both");
+  expect_refusal({"pack", "corrected.toml", "--inputs", "run", "-o", "p"}, 2, "--inputs: only beside --spirv");
+  expect_refusal({"pack", "--spirv", "effect.json", "-o", "p"}, 2, "--inputs: expected the folder of a run, found ''");
+  expect_refusal({"pack", "--spirv", "effect.json", "--inputs", "run", "-o", "p", "--at", "1"}, 2,
+                 HasSubstr("--spirv: expected none of --at"));
+  expect_refusal({"pack", "--spirv", "none.json", "--inputs", "run", "-o", "p"}, 4, HasSubstr("none.json"));
   expect_refusal({"pack", "corrected.toml", "-o", ""}, 2, "--output: expected a folder, found ''");
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--frames", "3"}, 2, StartsWith("--frames: unknown option of 'pack'"));
   for (const auto& [at, found] : std::vector<std::pair<std::string, std::string>>{

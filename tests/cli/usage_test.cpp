@@ -95,7 +95,7 @@ TEST_F(Usage, AnOptionsValueIsNoOption) {
 
 TEST_F(Usage, MissingAndSpareArguments) {
   expect_refusal({"hash"}, 2, StartsWith("SCENE is required"));
-  expect_refusal({"describe"}, 2, StartsWith("EFFECT is required"));
+  expect_refusal({"describe"}, 2, "expected either EFFECT or --spirv, found neither");
   expect_refusal({"hash", "corrected.toml", "spare"}, 2, HasSubstr("spare"));
   expect_refusal({"hash", "corrected.toml", "--frames"}, 2, StartsWith("--frames: "));
   expect_refusal({"hash", "corrected.toml", "--set"}, 2, StartsWith("--set: "));
