@@ -34,6 +34,11 @@ class ReferenceBits {
   /// rounding where a mixture is asked for. False where the pass has no such reference: where it rounds inside, the reference's own
   /// rounding alone has one.
   bool has(std::size_t mode, int x, int y) const;
+  /// Whether `count` invocations of a row, from x on, have the bits of the expected outputs, zeros of one sign. All bytes are compared at
+  /// once, so where this is false has() may still be true of each.
+  bool have_expected(int x, int y, int count) const;
+  /// Whether the expected outputs are the reference by the mode of this place.
+  bool is_expected(std::size_t mode) const { return modes_[mode] == HalfMode::either || is_own_rounding(slots_, modes_[mode]); }
 
  private:
   template <class ArrayOf>

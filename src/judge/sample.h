@@ -53,6 +53,18 @@ class Sample {
     for (std::int64_t k = first; k < end; ++k)
       if (const std::int64_t at = drawn(k); at < count_) visit(static_cast<int>(at % width_), static_cast<int>(at / width_));
   }
+  /// Calls visit(begin, end) with each run of consecutive invocations that the sample leaves out, of those from `first` to `last` - 1,
+  /// by number, row by row.
+  template <class Visit>
+  void each_left_out(std::int64_t first, std::int64_t last, Visit visit) const {
+    if (is_whole()) return;
+    for (std::int64_t k = first / stride_; first < last; ++k) {
+      const std::int64_t at = drawn(k);
+      if (at < first) continue;
+      if (first < at) visit(first, std::min(at, last));
+      first = at + 1;
+    }
+  }
   /// stride() times what the sample counts, at most `values` of an invocation, lies on either side no farther from the count over all
   /// invocations than this, but once in 2^40 cases. 0 of a whole sample.
   double margin(double values) const;

@@ -40,6 +40,9 @@ class ShortCuts {
   /// Whether an invocation is known to lie inside, by the profile and by what known devices do: by the rounding that most have, or by each
   /// that is tried. work.is_held says by which. `stored` holds what the port stored for it, if false comes back.
   bool lies_inside(int x, int y, Stored& stored, Work& work) const;
+  /// Whether this is known at once of `count` invocations of a row, from x on, and work.is_held is the same for all: they have the bits of
+  /// the expected outputs.
+  bool lie_inside(int x, int y, int count, Work& work) const;
 
  private:
   bool is_enough(const std::vector<char>& is_held) const;

@@ -21,10 +21,10 @@ class Widths {
   void add(int quantity, const enclosed::CodeRange& range, double width, bool is_vacuous, bool is_loose);
   /// An element with too many alternatives to bound.
   void add_unbounded(int quantity);
-  /// One beside the sample, whose width does not count.
-  void add_unsampled(int quantity);
-  /// One that no bound is asked for.
-  void add_free(int quantity);
+  /// So many beside the sample, whose widths do not count.
+  void add_unsampled(int quantity, std::int64_t count = 1);
+  /// So many that no bound is asked for.
+  void add_free(int quantity, std::int64_t count = 1);
   /// One that was counted already is outside, by so much in its unit.
   void add_failing(int quantity, double distance);
   void append(const Widths& more);
