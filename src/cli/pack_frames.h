@@ -38,8 +38,8 @@ class Frames : public Recorder {
  public:
   explicit Frames(const std::vector<int>& asked) : asked_(asked) {}
   /// Runs the scene beforehand, until each pass has run in a frame asked for; to the last of these, and on to the end of the run while
-  /// some of the passes have not run. Then without pictures: what no picture ran so far none will (tests: PackVerb.
-  /// APicturesPassesRunInTheFirstPicture), and the pictures of a drive are most of its cost.
+  /// some of the passes have not run. Then it makes no pictures: a pass of pictures runs in the first one or in none (tests:
+  /// EveryState.APassOfPicturesRunsInTheFirstOne).
   void follow(simulation::Opened scene, const std::vector<std::string>& passes) {
     first_.clear();
     runs_when_asked_.clear();

@@ -21,8 +21,8 @@ bool Surroundings::meets(const Surroundings& other) const {
 
 std::vector<std::pair<std::size_t, std::size_t>> meeting_ones(const std::vector<Surroundings>& all) {
   double side = 0;
-  for (const Surroundings& s : all) side = std::max(side, 2 * s.radius);
-  if (side == 0) return {};  // points meet nothing
+  for (const Surroundings& s : all) side = std::max(side, 2.001 * s.radius);  // a little wider, for rounding
+  if (side == 0) return {};                                                   // points meet nothing
   // Circles that meet lie in one cell or in neighbouring ones. A radius grows with the place, so that there are few cells to count.
   using Cell = std::pair<int, int>;
   const auto cell_of = [&](const Surroundings& s) {
