@@ -136,7 +136,7 @@ class CaseJudge {
       });
     });
   }
-  /// Judges some invocations of a row. Where a port has the reference's bits, as most have almost everywhere, the count is all there is to do.
+  /// Judges some invocations of a row. Most ports have the reference's bits almost everywhere: there, counting is all there is to do.
   void beside_sample(int x, int y, int count, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
     if (!short_cuts_.lie_inside(x, y, count, s.short_cut)) {
       for (int k = 0; k < count; ++k) invocation(x + k, y, false, s, parts, whole);

@@ -6,6 +6,7 @@
 //                                                                stores what it gives;
 //                                                                with near(uniforms, list, corrected, columns, tile): those of a
 //                                                                list that may count in a tile; the others change no bit there
+//                                                                (asked of those near a larger tile it says the same)
 //   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y) of a texel;
 //                                                                with views(io), which is asked once a row: run(u, io, views, x, y);
 //                                                                with State<N>, a record of numbers, run_record<N, corrected>(u, io,
