@@ -184,10 +184,17 @@ class Merging {
 
   void make_groups() {
     const enclosed::ProfileScope scope(loosest_profile());
+    std::vector<std::pair<Surroundings, std::size_t>> from_left;
+    for (std::size_t i = 0; i < drops_.size(); ++i)
+      from_left.emplace_back(Surroundings(u_.frame, drops_[i], scalar::base_radius(u_, Number(drops_[i].mass)).v), i);
+    std::sort(from_left.begin(), from_left.end(), [](const auto& a, const auto& b) { return a.first.x < b.first.x; });
     std::vector<Surroundings> around;
-    for (const Drop& d : drops_) around.emplace_back(u_.frame, d, scalar::base_radius(u_, Number(d.mass)).v);
-    Pairs pairs = meeting_ones(around);
-    std::erase_if(pairs, [&](const auto& pair) { return !may_touch(drops_[pair.first], drops_[pair.second]); });
+    for (const auto& drop : from_left) around.push_back(drop.first);
+    Pairs pairs;
+    for (const auto& [k, m] : meeting_ones(around)) {
+      const std::size_t i = from_left[k].second, j = from_left[m].second;
+      if (may_touch(drops_[i], drops_[j])) pairs.emplace_back(i, j);
+    }
     std::vector<std::size_t> to(drops_.size());
     std::iota(to.begin(), to.end(), 0);
     const auto root = [&](std::size_t i) {
