@@ -38,7 +38,8 @@ class Frames : public Recorder {
  public:
   explicit Frames(const std::vector<int>& asked) : asked_(asked) {}
   /// Runs the scene in advance until each pass has run in a frame asked for: to the last of these frames, and on to the end of the run
-  /// while a pass has not run.
+  /// while a pass has not run. After these frames it makes no pictures: a pass of pictures runs in the first one or in none (test:
+  /// EveryState.APassOfPicturesRunsInTheFirstOne).
   void follow(simulation::Opened scene, const std::vector<std::string>& passes) {
     first_.clear();
     runs_when_asked_.clear();
@@ -50,6 +51,7 @@ class Frames : public Recorder {
       if (frame > asked_.back() && std::all_of(passes.begin(), passes.end(), [&](const std::string& pass) { return has(pass); })) break;
       is_rendering_ = false;
       scene.simulate(this);
+      if (frame > asked_.back()) continue;
       is_rendering_ = true;
       scene.render(this);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <type_traits>
 
@@ -28,18 +29,6 @@ const enclosed::Profile& loosest_profile() {
     return loose;
   }();
   return p;
-}
-
-Surroundings::Surroundings(const float (&frame)[3], const Drop& drop, double base) {
-  const double u = drop.position[0], v = drop.position[1], x_of_u = frame[0] * u, x_of_v = frame[1] * v;
-  x = x_of_u + x_of_v;
-  y = frame[2] * v;
-  // A radius is a power, accurate to 2^-14 at worst; a position is a sum of two products, each accurate to a few roundings of its size.
-  radius = 1.01 * base + 0x1p-18 * (std::abs(x_of_u) + std::abs(x_of_v) + std::abs(y));
-}
-bool Surroundings::meets(const Surroundings& other) const {
-  const double dx = x - other.x, dy = y - other.y, reach = radius + other.radius;
-  return dx * dx + dy * dy < reach * reach;
 }
 
 std::unique_ptr<capture::PassModel> bind_integrate(const capture::PassCase& c) {
@@ -149,11 +138,12 @@ class NecksOfDrops : public capture::KeyedModel {
   void find_near() {
     std::vector<Surroundings> around;
     for (const Drop& d : drops_) around.emplace_back(u_.frame, d, scalar::neck_radius(u_, Number(d.mass)).v);
+    all_.resize(drops_.size());
+    std::iota(all_.begin(), all_.end(), 0);
     near_.resize(drops_.size());
-    for (std::size_t a = 0; a < around.size(); ++a) {
-      all_.push_back(a);
-      for (std::size_t b = 0; b < around.size(); ++b)
-        if (a != b && around[a].meets(around[b])) near_[a].push_back(b);
+    for (const auto& [a, b] : meeting_ones(around)) {
+      near_[a].push_back(b);
+      near_[b].push_back(a);
     }
   }
 

@@ -50,8 +50,12 @@ class Merging {
   }
   const MergeUniforms& uniforms() const { return u_; }
   int groups() const { return static_cast<int>(groups_.size()); }
-  /// Groups that may leave water in a texel.
-  const std::vector<int>& groups_over(int texel) const { return over_[static_cast<std::size_t>(texel)]; }
+  /// Calls f(group) with the groups that may leave water in a texel, ascending.
+  template <class F>
+  void each_group_over(int x, int y, const F& f) const {
+    for (const int g : over_[block_of(x, y)])
+      if (groups_[static_cast<std::size_t>(g)].leaves.holds(x, y)) f(g);
+  }
   const float& film(int texel) const { return (*film_)[static_cast<std::size_t>(texel)]; }
 
   /// A drop after the merge: `state` without its trail.
@@ -118,12 +122,18 @@ class Merging {
   }
 
  private:
-  struct Group {
-    std::vector<std::size_t> drops;                          ///< ascending
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< pairs that may touch, as indices into `drops`
-  };
-
   using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+  /// A box of texels, the last ones included; empty at first.
+  struct Box {
+    int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+    bool holds(int x, int y) const { return x0 <= x && x <= x1 && y0 <= y && y <= y1; }
+  };
+  struct Group {
+    std::vector<std::size_t> drops;  ///< ascending
+    Pairs pairs;                     ///< pairs that may touch, as indices into `drops`
+    Box leaves;                      ///< texels where it may leave water
+  };
 
   template <class N>
   static void merge(std::vector<Member<N>>& all, const Pairs& touching_ones) {
@@ -173,20 +183,16 @@ class Merging {
 
   void make_groups() {
     const enclosed::ProfileScope scope(loosest_profile());
-    std::vector<std::pair<Surroundings, std::size_t>> around;
-    double largest = 0;
-    for (std::size_t i = 0; i < drops_.size(); ++i) {
-      around.emplace_back(Surroundings(u_.frame, drops_[i], scalar::base_radius(u_, Number(drops_[i].mass)).v), i);
-      largest = std::max(largest, around.back().first.radius);
-    }
-    std::sort(around.begin(), around.end(), [](const auto& a, const auto& b) { return a.first.x < b.first.x; });
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      const auto& [a, i] = around[k];
-      for (std::size_t m = k + 1; m < around.size() && around[m].first.x - a.x < a.radius + largest; ++m) {
-        const auto& [b, j] = around[m];
-        if (a.meets(b) && may_touch(drops_[i], drops_[j])) pairs.emplace_back(i, j);
-      }
+    std::vector<std::pair<Surroundings, std::size_t>> from_left;
+    for (std::size_t i = 0; i < drops_.size(); ++i)
+      from_left.emplace_back(Surroundings(u_.frame, drops_[i], scalar::base_radius(u_, Number(drops_[i].mass)).v), i);
+    std::sort(from_left.begin(), from_left.end(), [](const auto& a, const auto& b) { return a.first.x < b.first.x; });
+    std::vector<Surroundings> around;
+    for (const auto& drop : from_left) around.push_back(drop.first);
+    Pairs pairs;
+    for (const auto& [k, m] : meeting_ones(around)) {
+      const std::size_t i = from_left[k].second, j = from_left[m].second;
+      if (may_touch(drops_[i], drops_[j])) pairs.emplace_back(i, j);
     }
     std::vector<std::size_t> to(drops_.size());
     std::iota(to.begin(), to.end(), 0);
@@ -209,7 +215,7 @@ class Merging {
 
   // A merged drop lies between its parts, and its tail within the sum of their radii.
   void find_texels() {
-    over_.resize(film_->size());
+    over_.resize(block_of(u_.film[0] - 1, u_.film[1] - 1) + 1);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       double u0 = 2, u1 = -1, v0 = 2, v1 = -1, mass = 0;
       bool moves = false;
@@ -228,20 +234,25 @@ class Merging {
       const double reach_v = radius / u_.frame[2], reach_u = radius * (1 + (shear < 0 ? -shear : shear)) / u_.frame[0];
       const auto texel = [](double at, int size) { return whole_within(at * size, 0, size - 1); };
       // One more texel on each side, for rounding.
-      const int x0 = std::max(0, texel(u0 - reach_u, u_.film[0]) - 1), x1 = std::min(u_.film[0] - 1, texel(u1 + reach_u, u_.film[0]) + 1);
-      const int y0 = std::max(0, texel(v0 - reach_v, u_.film[1]) - 1), y1 = std::min(u_.film[1] - 1, texel(v1 + reach_v, u_.film[1]) + 1);
-      for (int y = y0; y <= y1; ++y)
-        for (int x = x0; x <= x1; ++x)
-          over_[static_cast<std::size_t>(y) * static_cast<std::size_t>(u_.film[0]) + static_cast<std::size_t>(x)].push_back(
-              static_cast<int>(g));
+      Box& b = groups_[g].leaves;
+      b = {std::max(0, texel(u0 - reach_u, u_.film[0]) - 1), std::max(0, texel(v0 - reach_v, u_.film[1]) - 1),
+           std::min(u_.film[0] - 1, texel(u1 + reach_u, u_.film[0]) + 1), std::min(u_.film[1] - 1, texel(v1 + reach_v, u_.film[1]) + 1)};
+      for (int y = b.y0 / block; y <= b.y1 / block; ++y)
+        for (int x = b.x0 / block; x <= b.x1 / block; ++x) over_[block_of(x * block, y * block)].push_back(static_cast<int>(g));
     }
   }
+  std::size_t block_of(int x, int y) const {
+    const int columns = (u_.film[0] + block - 1) / block;
+    return static_cast<std::size_t>(y / block) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / block);
+  }
+
+  static constexpr int block = 16;  // texels a side
 
   MergeUniforms u_;
   std::vector<Drop> drops_;  ///< live ones, in ascending id
   std::shared_ptr<const std::vector<float>> film_;
   std::vector<Group> groups_;
-  std::vector<std::vector<int>> over_;
+  std::vector<std::vector<int>> over_;  ///< of each block, the groups that may leave water in it
 };
 
 class MergedDrops : public capture::KeyedModel {
@@ -293,11 +304,11 @@ class MergeModel : public capture::PassModel {
   void enclose(int x, int y, const float*, Enclosure* out) const override {
     const int texel = y * width() + x;
     MassRange sum;
-    for (const int group : merging_.groups_over(texel)) {
+    merging_.each_group_over(x, y, [&](int group) {
       const MassRange more = left_by(group, x, y);
       sum.least += more.least;
       sum.most += more.most;
-    }
+    });
     const Enclosure dry = scalar::dried(merging_.uniforms(), Enclosure::load(&merging_.film(texel)));
     const auto with = [](float before, std::int64_t added) {
       return static_cast<float>(std::min(before + static_cast<double>(added), static_cast<double>(most_mass)));
@@ -334,13 +345,13 @@ class MergeModel : public capture::PassModel {
     const auto falls_here = [](N at, int size, int here) {
       return whole_within((at * N(static_cast<float>(size))).v, 0, size - 1) == here;
     };
-    for (const int group : merging_.groups_over(texel)) {
+    merging_.each_group_over(x, y, [&](int group) {
       for (const Merging::Member<N>& one : merging_.merged<N>(group)) {
         if (!one.lives) continue;
         const scalar::Trail<N> t = merging_.trail(one.state);
         if (t.mass_units.v > 0 && falls_here(t.u, u.film[0], x) && falls_here(t.v, u.film[1], y)) sum += t.mass_units.v;
       }
-    }
+    });
     const auto water = static_cast<float>(std::min(sum, static_cast<double>(most_mass)));
     out[0] = N::load(&water);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capture/pass_info.h"
@@ -51,6 +52,8 @@ struct Surroundings {
   /// Whether the drops may touch; drops that do not meet touch on no device.
   bool meets(const Surroundings& other) const;
 };
+/// The pairs that meet by their numbers, the lower one first, ascending. Drops of like sizes cost their neighbours, however many there are.
+std::vector<std::pair<std::size_t, std::size_t>> meeting_ones(const std::vector<Surroundings>& all);
 
 std::unique_ptr<capture::PassModel> bind_merge(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_necks(const capture::PassCase& c);

@@ -81,12 +81,10 @@ Exercise coverage_of(const capture::PassCase& c, const capture::PassModel* model
   };
   const Sample counted_ones(c, *model, sample);
   out.is_sampled = !counted_ones.is_whole();
-  executor.for_range(model->height(), 8, [&](std::int64_t begin, std::int64_t end) {
+  executor.for_range(counted_ones.size(), 256, [&](std::int64_t begin, std::int64_t end) {
     counted([&] {
       std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model->values()));
-      for (std::int64_t y = begin; y < end; ++y)
-        for (int x = 0; x < model->width(); ++x)
-          if (counted_ones.has(x, static_cast<int>(y))) model->evaluate(x, static_cast<int>(y), unused.data());
+      counted_ones.each_of(begin, end, [&](int x, int y) { model->evaluate(x, y, unused.data()); });
     });
   });
   for (const capture::CaseOutput& o : c.outputs)

@@ -112,6 +112,8 @@ class CaseJudge {
                         [&](int x, int y) { invocation(x, y, true, s, parts[static_cast<std::size_t>(k)], whole); });
     });
   }
+  /// The number of invocations of a row that are compared at once. More would find fewer pieces without a difference.
+  static constexpr int together = 64;
   /// Judges the invocations outside the sample; all, if the sample is complete.
   void judge_rest(std::vector<std::vector<Part>>& parts, std::vector<CaseJudgement>& whole) const {
     constexpr int rows = 4;
@@ -120,10 +122,34 @@ class CaseJudge {
     options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
       Scratch s(*this);
       std::vector<Part>& part = parts[before + static_cast<std::size_t>(tile.y0 / rows)];
-      for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x)
-          if (sample_.is_whole() || !sample_.has(x, y)) invocation(x, y, sample_.is_whole(), s, part, whole);
+      const std::int64_t width = model_.width();
+      for (int y = tile.y0; sample_.is_whole() && y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x) invocation(x, y, true, s, part, whole);
+      sample_.each_left_out(tile.y0 * width, tile.y1 * width, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t at = begin; at < end;) {
+          const auto x = static_cast<int>(at % width), y = static_cast<int>(at / width);
+          const auto count = static_cast<int>(std::min({end - at, width - x, std::int64_t{together}}));
+          beside_sample(x, y, count, s, part, whole);
+          at += count;
+        }
+      });
     });
+  }
+  /// Judges some invocations of a row. If all of them have the reference's bits, as in most ports, it only counts them.
+  void beside_sample(int x, int y, int count, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
+    if (!short_cuts_.lie_inside(x, y, count, s.short_cut)) {
+      for (int k = 0; k < count; ++k) invocation(x + k, y, false, s, parts, whole);
+      return;
+    }
+    for (std::size_t m = 0; m < modes_.size(); ++m) {
+      CaseJudgement& counts = parts[m].counts;
+      counts.invocations += count;
+      counts.undecided += s.short_cut.is_held[m] ? 0 : count;
+      for (std::size_t v = 0; v < slots_.size(); ++v) {
+        counts.outputs[static_cast<std::size_t>(slots_[v].output)].elements += count;
+        add_unasked(v, count, parts[m]);
+      }
+    }
   }
   /// True if the sample has so many failures under each rounding that the rest cannot change the verdict.
   bool fails_enough(const std::vector<std::vector<Part>>& sampled) const {
@@ -176,13 +202,19 @@ class CaseJudge {
         ++out.differing;
         mark(whole, slot.output, x, y, 1);
       }
-      if (free_[v]) {
-        ++out.free;
-        part.widths[o].add_free(slot.channel);
-      } else {
-        ++out.unsampled;
-        part.widths[o].add_unsampled(slot.channel);
-      }
+      add_unasked(v, 1, part);
+    }
+  }
+  /// Counts so many values that no bound is asked of.
+  void add_unasked(std::size_t v, std::int64_t count, Part& part) const {
+    const auto o = static_cast<std::size_t>(slots_[v].output);
+    OutputJudgement& out = part.counts.outputs[o];
+    if (free_[v]) {
+      out.free += count;
+      part.widths[o].add_free(slots_[v].channel, count);
+    } else {
+      out.unsampled += count;
+      part.widths[o].add_unsampled(slots_[v].channel, count);
     }
   }
 

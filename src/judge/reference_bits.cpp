@@ -1,6 +1,8 @@
 #include "judge/reference_bits.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 
 #include "judge/reference_outputs.h"
 #include "math/scalar.h"
@@ -8,6 +10,23 @@
 namespace rainref::judge {
 
 using capture::Array;
+
+namespace {
+
+/// Whether all floats are below the largest, as Slot::is_same asks of each. Word: as many bits as a float has.
+template <class Word>
+bool are_below_largest(const std::byte* at, std::size_t count, Word largest) {
+  constexpr auto magnitude = static_cast<Word>(static_cast<Word>(~Word{0}) >> 1);
+  bool are_below = true;
+  for (std::size_t k = 0; k < count; ++k) {
+    Word bits;
+    std::memcpy(&bits, at + k * sizeof bits, sizeof bits);
+    are_below &= static_cast<Word>(bits & magnitude) < largest;
+  }
+  return are_below;
+}
+
+}  // namespace
 
 ReferenceBits::ReferenceBits(const capture::PassCase& c, const capture::PassModel& model, const std::vector<Array>& port,
                              const std::vector<Slot>& slots, const std::vector<HalfMode>& modes)
@@ -48,6 +67,18 @@ bool ReferenceBits::has(std::size_t mode, int x, int y) const {
   };
   if (modes_[mode] == HalfMode::either) return is_own_stored() || is_other_stored(0) || is_other_stored(1);
   return is_own_rounding(slots_, modes_[mode]) ? is_own_stored() : is_other_stored(mode);
+}
+
+bool ReferenceBits::have_expected(int x, int y, int count) const {
+  return std::all_of(slots_.begin(), slots_.end(), [&](const Slot& s) {
+    if (s.channel != 0) return true;  // the first stands for all of its output
+    const auto o = static_cast<std::size_t>(s.output);
+    const std::byte* const given = s.at(port_[o], x, y);
+    const auto bytes = static_cast<std::size_t>(count) * static_cast<std::size_t>(s.texel_bytes);
+    if (std::memcmp(given, s.at(case_.outputs[o].array, x, y), bytes) != 0) return false;
+    if (s.kind == FormatInfo::float16) return are_below_largest<std::uint16_t>(given, bytes / 2, 0x7bff);
+    return s.kind != FormatInfo::float32 || are_below_largest<std::uint32_t>(given, bytes / 4, 0x7f7fffff);
+  });
 }
 
 }  // namespace rainref::judge

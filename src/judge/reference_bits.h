@@ -32,6 +32,11 @@ class ReferenceBits {
   /// True if all stored values of an invocation, free ones too, have the reference's bits under modes[mode], or under either rounding if
   /// that is a mixture. False if there is no such reference: if the pass rounds inside, only the reference's own rounding has one.
   bool has(std::size_t mode, int x, int y) const;
+  /// Whether `count` invocations of a row, from x on, have the bits of the expected outputs, zeros of one sign. All bytes are compared at
+  /// once, so where this is false has() may still be true of each.
+  bool have_expected(int x, int y, int count) const;
+  /// Whether the expected outputs are the reference by the mode of this place.
+  bool is_expected(std::size_t mode) const { return modes_[mode] == HalfMode::either || is_own_rounding(slots_, modes_[mode]); }
 
  private:
   template <class ArrayOf>

@@ -53,6 +53,18 @@ class Sample {
     for (std::int64_t k = first; k < end; ++k)
       if (const std::int64_t at = drawn(k); at < count_) visit(static_cast<int>(at % width_), static_cast<int>(at / width_));
   }
+  /// Calls visit(begin, end) for each run of consecutive invocations outside the sample, among those from `first` to `last` - 1.
+  /// Invocations are numbered row by row.
+  template <class Visit>
+  void each_left_out(std::int64_t first, std::int64_t last, Visit visit) const {
+    if (is_whole()) return;
+    for (std::int64_t k = first / stride_; first < last; ++k) {
+      const std::int64_t at = drawn(k);
+      if (at < first) continue;
+      if (first < at) visit(first, std::min(at, last));
+      first = at + 1;
+    }
+  }
   /// Margin of error: stride() times the sample's count, of at most `values` for each invocation, differs from the true count by at most
   /// this, except with probability 2^-40. 0 if the sample is complete.
   double margin(double values) const;

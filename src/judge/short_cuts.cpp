@@ -78,6 +78,13 @@ bool ShortCuts::lies_inside(int x, int y, Stored& stored, Work& work) const {
   return false;
 }
 
+bool ShortCuts::lie_inside(int x, int y, int count, Work& work) const {
+  work.is_held.resize(modes_.size());
+  for (std::size_t m = 0; m < modes_.size(); ++m) work.is_held[m] = bits_.is_expected(m);
+  // By another rounding, asked for too, the bits are those of another reference.
+  return is_enough(work.is_held) && bits_.have_expected(x, y, count);
+}
+
 bool ShortCuts::has_parts() const { return !options_.profile->reference && !model_.rounds_inside(); }
 void ShortCuts::find_in_part(int part, int x, int y, const Stored& stored, Work& work) const {
   work.is_held.assign(modes_.size(), 1);

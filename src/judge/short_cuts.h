@@ -40,6 +40,9 @@ class ShortCuts {
   /// True if an invocation is known to be inside the profile and the known devices: under the rounding that most have, or under each one
   /// that is tried. work.is_held says which. If false, `stored` holds the port's values.
   bool lies_inside(int x, int y, Stored& stored, Work& work) const;
+  /// Whether this is known at once of `count` invocations of a row, from x on, and work.is_held is the same for all: they have the bits of
+  /// the expected outputs.
+  bool lie_inside(int x, int y, int count, Work& work) const;
 
  private:
   bool is_enough(const std::vector<char>& is_held) const;

@@ -51,15 +51,15 @@ void Widths::add_unbounded(int quantity) {
   ++q.counts.vacuous;
   ++q.counts.loose;
 }
-void Widths::add_unsampled(int quantity) {
+void Widths::add_unsampled(int quantity, std::int64_t count) {
   Quantity& q = at(quantity);
-  ++q.counts.elements;
-  ++q.counts.unsampled;
+  q.counts.elements += count;
+  q.counts.unsampled += count;
 }
-void Widths::add_free(int quantity) {
+void Widths::add_free(int quantity, std::int64_t count) {
   Quantity& q = at(quantity);
-  ++q.counts.elements;
-  ++q.counts.free;
+  q.counts.elements += count;
+  q.counts.free += count;
 }
 void Widths::add_failing(int quantity, double distance) {
   Quantity& q = at(quantity);

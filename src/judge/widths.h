@@ -20,10 +20,10 @@ class Widths {
   void add(int quantity, const enclosed::CodeRange& range, double width, bool is_vacuous, bool is_loose);
   /// Adds an element with too many alternatives to bound.
   void add_unbounded(int quantity);
-  /// Adds an element outside the sample, whose width does not count.
-  void add_unsampled(int quantity);
-  /// Adds an element that needs no bound.
-  void add_free(int quantity);
+  /// Adds elements outside the sample, whose widths do not count.
+  void add_unsampled(int quantity, std::int64_t count = 1);
+  /// Adds elements that need no bound.
+  void add_free(int quantity, std::int64_t count = 1);
   /// Adds the distance of an outside element that was already counted, in its unit.
   void add_failing(int quantity, double distance);
   void append(const Widths& more);

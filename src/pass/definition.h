@@ -3,7 +3,8 @@
 // Outside every namespace: the declaration, a struct that Takes a block, with `about`, uniforms() and Io<B>, and optionally
 //   fault(bound)                                       why a case is invalid although its buffers fit, or ""
 //   rounds_inside(uniforms)                            whether it rounds intermediate values as it rounds its stores
-//   near(uniforms, list, corrected, columns, tile)     the records of a list that may count in a tile; the others change no bit there
+//   near(uniforms, list, corrected, columns, tile)     the records of a list that may count in a tile; the others change no bit there.
+//                                                      Among those near a larger tile it finds the same
 //
 // Inside the namespace of a number type (RAINREF_FN defined): the arithmetic, a struct with one of
 //   run<N, corrected>(u, io, x, y)                     a texel

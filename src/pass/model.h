@@ -89,12 +89,12 @@ struct Captured {
     int columns = 0;                        ///< number of blocks in a row
     Records(In in) : is(in) {}
     void read(const capture::CaseInput& input) { records = capture::records_of<Record>(input); }
+    /// of_tile(records, tile): those of them that may count in a tile.
     template <class Near>
     void choose(int width, int height, const Near& of_tile) {
       columns = (width + block - 1) / block;
-      for (int y = 0; y < height; y += block)
-        for (int x = 0; x < width; x += block)
-          near.push_back(of_tile(parallel::Tile{x, y, std::min(x + block, width), std::min(y + block, height)}));
+      near.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>((height + block - 1) / block));
+      if (!near.empty()) choose_in({0, 0, width, height}, records, of_tile);
     }
     /// reaches_all: also records that change nothing there unless a mistake makes them.
     std::span<const Record> at(int x, int y, bool reaches_all) const {
@@ -104,6 +104,27 @@ struct Captured {
 
    private:
     static constexpr int block = 8;  // texels a side
+
+    // What is near a block is near each tile around it: halves of a tile ask what is near the whole, so that a record costs the tiles that
+    // it reaches.
+    template <class Near>
+    void choose_in(const parallel::Tile& t, std::span<const Record> around, const Near& of_tile) {
+      std::vector<Record> here = of_tile(around, t);
+      const int width = t.x1 - t.x0, height = t.y1 - t.y0;
+      const auto middle = [](int from, int size) { return from + (size / 2 + block - 1) / block * block; };
+      if (width <= block && height <= block) {
+        near[static_cast<std::size_t>(t.y0 / block) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(t.x0 / block)] =
+            std::move(here);
+      } else if (width > height) {
+        const int x = middle(t.x0, width);
+        choose_in({t.x0, t.y0, x, t.y1}, here, of_tile);
+        choose_in({x, t.y0, t.x1, t.y1}, here, of_tile);
+      } else {
+        const int y = middle(t.y0, height);
+        choose_in({t.x0, t.y0, t.x1, y}, here, of_tile);
+        choose_in({t.x0, y, t.x1, t.y1}, here, of_tile);
+      }
+    }
   };
   template <class Record>
   struct List {
@@ -256,8 +277,9 @@ Inputs<P> inputs_of(const capture::PassCase& c) {
                       member.near;
                       P::near(m.uniforms, member.records, m.corrected, m.width, t);
                     })
-        member.choose(m.width, m.height,
-                      [&](const parallel::Tile& t) { return P::near(m.uniforms, member.records, m.corrected, m.width, t); });
+        member.choose(m.width, m.height, [&]<class Record>(std::span<const Record> some, const parallel::Tile& t) {
+          return P::near(m.uniforms, some, m.corrected, m.width, t);
+        });
     });
   }
   return m;

@@ -73,6 +73,18 @@ TEST(Sample, OneOfEachStratumIsDrawn) {
   for (const std::int64_t at : drawn) EXPECT_EQ(at / 30, stratum++);
   for (int y = 0; y < 150; ++y)
     for (int x = 0; x < 200; ++x) EXPECT_EQ(sample.has(x, y), drawn.contains(static_cast<std::int64_t>(y) * 200 + x));
+  // What lies between them is the rest, wherever one begins and ends.
+  for (const std::int64_t first : {0, 1, 29, 30, 31, 4567})
+    for (const std::int64_t last : {4567, 4600, 29999, 30000}) {
+      std::vector<std::int64_t> rest, expected;
+      sample.each_left_out(first, last, [&](std::int64_t begin, std::int64_t end) {
+        EXPECT_LT(begin, end);
+        for (std::int64_t at = begin; at < end; ++at) rest.push_back(at);
+      });
+      for (std::int64_t at = first; at < last; ++at)
+        if (!drawn.contains(at)) expected.push_back(at);
+      EXPECT_EQ(rest, expected) << first << ' ' << last;
+    }
 }
 TEST(Sample, SmallRunsAreAskedWhole) {
   const Made made(0);

@@ -70,6 +70,22 @@ TEST_P(EveryState, GoesOnWithTheSameBits) {
   }
 }
 
+// `pack` looks for the passes of pictures in the first ones alone.
+TEST_P(EveryState, APassOfPicturesRunsInTheFirstOne) {
+  struct Names : Recorder {
+    std::set<std::string> names;
+    bool reads(int, std::string_view) const override { return false; }
+    void pass(const PassCall& call) override { names.emplace(call.pass); }
+  } first, later;
+  const auto run = open(GetParam(), executor);
+  for (int frame = 0; frame < 12; ++frame) {
+    run->simulate(nullptr);
+    run->render(frame == 0 ? &first : &later);
+  }
+  EXPECT_FALSE(first.names.empty());
+  for (const std::string& name : later.names) EXPECT_TRUE(first.names.contains(name)) << name;
+}
+
 // Frames that are skipped leave what rendered ones leave.
 TEST_P(EveryState, SkippedFramesChangeNoPicture) {
   const StateScene& scene = GetParam();
