@@ -143,7 +143,8 @@ std::string block_fault(const scene::UniformBlock& block, const spirv::Module& s
       return fmt::format("its uniform block has '{}' at byte {}, the pack has it at byte {}: every value from there on may be another one",
                          m.name, m.offset, same->offset);
     if (same->scalar != m.scalar)
-      return fmt::format("its uniform block has '{}' as {}, the pack has it as {}", m.name, scene::name(m.scalar), scene::name(same->scalar));
+      return fmt::format("its uniform block has '{}' as {}, the pack has it as {}", m.name, scene::name(m.scalar),
+                         scene::name(same->scalar));
   }
   return "";
 }
