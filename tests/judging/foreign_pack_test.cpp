@@ -205,9 +205,10 @@ TEST_F(ForeignPacks, AUniformBlockOfOtherOffsetsIsNamed) {
   make();
   write_port("padded", "grow", "vec2 wind; float rate; float dt;", "vec2 wind; vec2 unused; float rate; float dt;");
   run_port("padded", "out");
-  EXPECT_THAT(judged("out", "padded").judged.notes,
-              Contains("grow: 'grow.spv': its uniform block has 'rate' at byte 16, the pack has it at byte 8: every value from there on may "
-                       "be another one"));
+  EXPECT_THAT(
+      judged("out", "padded").judged.notes,
+      Contains("grow: 'grow.spv': its uniform block has 'rate' at byte 16, the pack has it at byte 8: every value from there on may "
+               "be another one"));
   write_port("typed", "grow", "int count;", "uint count;");
   run_port("typed", "out_typed");
   EXPECT_THAT(judged("out_typed", "typed").judged.notes,
