@@ -22,9 +22,17 @@ capture::SourceLine Module::source_line(std::uint32_t instruction) const {
   const Code& at = code[instruction];
   capture::SourceLine out{files[at.file], at.line};
   if (at.line == 0 || at.file >= sources.size()) return out;
+  // A compiler may put lines of its own before the source and then begin anew: `#line 1`. The last line of this number is meant.
   std::istringstream text(sources[at.file]);
-  for (std::uint32_t k = 0; k < at.line; ++k)
-    if (!std::getline(text, out.text)) out.text.clear();
+  std::uint32_t number = 1;
+  for (std::string line; std::getline(text, line);) {
+    std::uint32_t anew = 0;
+    if (line.starts_with("#line ")) std::istringstream(line.substr(6)) >> anew;
+    if (anew > 0)
+      number = anew;
+    else if (number++ == at.line)
+      out.text = line;
+  }
   const std::size_t begin = out.text.find_first_not_of(" \t"), end = out.text.find_last_not_of(" \t\r");
   out.text = begin == std::string::npos ? "" : out.text.substr(begin, end - begin + 1);
   return out;

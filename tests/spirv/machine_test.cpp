@@ -74,6 +74,24 @@ TEST(Machine, DeterminantsAndInversesAreExactOfWholeNumbers) {
   EXPECT_EQ(std::vector<float>(found.begin(), found.begin() + 7), (std::vector<float>{2, 5, 4, 4, -1, -1.5f, 0.5f}));
   EXPECT_LE(found[7], 16 * 0x1p-22f);
 }
+// For SPIR-V 1.0 glslang writes lines of its own before the source, and `#line 1`.
+TEST(Machine, ALineHasItsOwnTextForEachTarget) {
+  RAINREF_NEED_COMPILER();
+  const std::string first = "layout(local_size_x = 1) in;", second = "layout(std430, binding = 0) buffer Words { float words[]; };",
+                    third = "void main() { words[1] = sqrt(words[0]); }";
+  for (const char* target : {"vulkan1.0", "vulkan1.1"}) {
+    const Module module(compiled(first + "\n" + second + "\n" + third + "\n", std::string("-g --target-env ") + target), "'test.spv'");
+    int lines = 0;
+    for (std::uint32_t i = 0; i < module.code.size(); ++i) {
+      const capture::SourceLine line = module.source_line(i);
+      if (line.line == 0) continue;
+      EXPECT_EQ(line.line, 4u) << target;  // compiled() begins with #version
+      EXPECT_EQ(line.text, third) << target;
+      ++lines;
+    }
+    EXPECT_GT(lines, 3) << target;
+  }
+}
 // What SPIR-V leaves open has one result, and no trap.
 TEST(Machine, UndefinedIntegersHaveOneResult) {
   RAINREF_NEED_COMPILER();
