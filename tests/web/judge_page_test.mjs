@@ -59,10 +59,27 @@ function brokenPort() {
   execFileSync("tar", ["-czf", path.join(work, "dumped.tar.gz"), "-C", work, "dumped"]);
   return port;
 }
+/// A port that exchanges red and blue, and its shader, which says so.
+function swappedPort() {
+  const port = path.join(work, "swapped"), shaders = path.join(work, "shaders"), ports = path.resolve(sources, "examples/ports");
+  fs.cpSync(path.join(packs, "puddle-corrected"), port, {recursive: true});
+  fs.rmSync(path.join(port, "manifest.json"));
+  for (const run of fs.readdirSync(path.join(port, "puddle.display"))) {
+    const file = path.join(port, "puddle.display", run, "out.picture.npy"), bytes = fs.readFileSync(file);
+    for (let at = 10 + bytes.readUInt16LE(8); at < bytes.length; at += 4) [bytes[at], bytes[at + 2]] = [bytes[at + 2], bytes[at]];
+    fs.writeFileSync(file, bytes);
+  }
+  fs.cpSync(path.join(ports, "puddle"), shaders, {recursive: true});
+  const shader = path.join(shaders, "display_corrected.comp"), text = fs.readFileSync(shader, "utf8");
+  assert(text.includes("vec4(code, 1.0)"));
+  fs.writeFileSync(shader, text.replace("vec4(code, 1.0)", "vec4(code.bgr, 1.0)"));
+  execFileSync("glslangValidator", ["-V", "-g", "--quiet", `-I${path.join(ports, "common")}`, "display_corrected.comp", "-o", "display_corrected.spv"], {cwd: shaders});
+  for (const name of ["swapped", "shaders"]) execFileSync("tar", ["-cf", path.join(work, `${name}.tar`), "-C", work, name]);
+}
 /// What the native program says of it, where the pack lies as the page says that it lies.
-function natively(...options) {
+function natively(port, ...options) {
   fs.symlinkSync(packs, path.join(work, "packs"));
-  const made = spawnSync(path.resolve(rainref), ["validate", "packs/puddle-corrected", "--port", "dumped", ...options], {cwd: work, encoding: "utf8"});
+  const made = spawnSync(path.resolve(rainref), ["validate", "packs/puddle-corrected", "--port", port, ...options], {cwd: work, encoding: "utf8"});
   fs.unlinkSync(path.join(work, "packs"));
   assert.equal(made.status, 1, made.stderr);
   return made.stdout;
@@ -194,7 +211,7 @@ try {
 
   const port = brokenPort();
   await step("a port's folder has the native program's verdict", async () => {
-    const expected = natively("--partial");
+    const expected = natively("dumped", "--partial");
     const input = await page.$("#archive-input");
     await input.uploadFile(path.join(work, "dumped.tar.gz"));
     await page.waitForFunction(() => document.getElementById("folder-state").textContent.startsWith("dumped:"), {timeout: mostMs});
@@ -221,6 +238,21 @@ try {
     await page.$eval("#partial", e => { e.checked = false; });
     await after(page, () => click(page, "#judge-folder"));
     assert(JSON.parse(await saved(page, "#save-json")).files.some(f => f.pass === "shade" && f.exit_code === 3));
+  });
+
+  await step("a port's own shaders name the line", async () => {
+    swappedPort();
+    const expected = natively("swapped", "--partial", "--spirv", "shaders");
+    assert.match(expected, /\ndisplay_corrected\.comp:\d+: /);
+    assert.match(expected, /the device did what this shader says/);
+    for (const [archive, state, begin] of [["swapped", "#folder-state", "swapped:"], ["shaders", "#shaders-state", "shaders:"]]) {
+      await (await page.$("#archive-input")).uploadFile(path.join(work, `${archive}.tar`));
+      await page.waitForFunction((id, text) => document.querySelector(id).textContent.startsWith(text), {timeout: mostMs}, state, begin);
+    }
+    await page.$eval("#partial", e => { e.checked = true; });
+    assert.match(await after(page, () => click(page, "#judge-folder")), /^FAIL/);
+    assert.equal(await saved(page, "#save-text"), expected);
+    await shot(page, "line");
   });
 
   await step("a pack of one's own", async () => {
