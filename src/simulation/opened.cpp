@@ -88,8 +88,15 @@ effect::RunMemory memory_of(const scene::Config& scene) {
   return memory;
 }
 
-Opened::Opened(scene::Config config, const parallel::Executor& executor)
-    : Opened(std::move(config), executor, night_street::Street::make) {}
+namespace {
+
+// The bare address would not do: where nothing calls a function whose result is a template, clang gives it another type, and WebAssembly
+// then has no function there.
+std::shared_ptr<const scene::Scenery> make_street(const scene::SceneryOptions& options) { return night_street::Street::make(options); }
+
+}  // namespace
+
+Opened::Opened(scene::Config config, const parallel::Executor& executor) : Opened(std::move(config), executor, make_street) {}
 
 Opened::Opened(scene::Config config, const parallel::Executor& executor, scene::MakeScenery street)
     : config_(std::move(config)),

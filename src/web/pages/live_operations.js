@@ -11,7 +11,7 @@ Object.assign(structs, {
   rr_member: [["name", "text"], ["unit", "text"], ["sentence", "text"], ["type", "i32"], ["components", "i32"], ["offset", "size"], ["low", "f64"],
               ["high", "f64"]],
   rr_judge_options: [["profile", "text"], ["port", "text"], ["half", "text"], ["threads", "i32"], ["strict", "i32"],
-                     ["exhaustive", "i32"]],
+                     ["exhaustive", "i32"], ["spirv", "text"]],
   rr_pass_verdict: [["pass", "text"], ["formula", "text"], ["status", "text"], ["reason", "text"], ["where", "text"], ["cases", "i64"],
                     ["elements", "i64"], ["outside", "i64"], ["differing", "i64"], ["vacuous", "i64"], ["causes", "size"], ["worst", "size"],
                     ["sampled", "i64"]],
