@@ -61,7 +61,7 @@ function brokenPort() {
 }
 /// A port that exchanges red and blue, and its shader, which says so.
 function swappedPort() {
-  const port = path.join(work, "swapped"), shaders = path.join(work, "shaders"), ports = path.resolve(sources, "examples/ports");
+  const port = path.join(work, "swapped"), shaders = path.join(work, "spirv/shaders"), ports = path.resolve(sources, "examples/ports");
   fs.cpSync(path.join(packs, "puddle-corrected"), port, {recursive: true});
   fs.rmSync(path.join(port, "manifest.json"));
   for (const run of fs.readdirSync(path.join(port, "puddle.display"))) {
@@ -74,7 +74,8 @@ function swappedPort() {
   assert(text.includes("vec4(code, 1.0)"));
   fs.writeFileSync(shader, text.replace("vec4(code, 1.0)", "vec4(code.bgr, 1.0)"));
   execFileSync("glslangValidator", ["-V", "-g", "--quiet", `-I${path.join(ports, "common")}`, "display_corrected.comp", "-o", "display_corrected.spv"], {cwd: shaders});
-  for (const name of ["swapped", "shaders"]) execFileSync("tar", ["-cf", path.join(work, `${name}.tar`), "-C", work, name]);
+  for (const folder of [port, shaders])
+    execFileSync("tar", ["-cf", path.join(work, `${path.basename(folder)}.tar`), "-C", path.dirname(folder), path.basename(folder)]);
 }
 /// What the native program says of it, where the pack lies as the page says that it lies.
 function natively(port, ...options) {
@@ -242,7 +243,7 @@ try {
 
   await step("a port's own shaders name the line", async () => {
     swappedPort();
-    const expected = natively("swapped", "--partial", "--spirv", "shaders");
+    const expected = natively("swapped", "--partial", "--spirv", "spirv/shaders");
     assert.match(expected, /\ndisplay_corrected\.comp:\d+: /);
     assert.match(expected, /the device did what this shader says/);
     for (const [archive, state, begin] of [["swapped", "#folder-state", "swapped:"], ["shaders", "#shaders-state", "shaders:"]]) {
