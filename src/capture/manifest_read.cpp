@@ -40,14 +40,27 @@ scene::UniformBlock read_uniform_block(const JsonField& from) {
   return block;
 }
 
-namespace {
-
-template <class Enum, int Count>
-Enum named(const JsonField& field) {
-  std::vector<std::string> names;
-  for (int i = 0; i < Count; ++i) names.emplace_back(name(static_cast<Enum>(i)));
-  return static_cast<Enum>(field.one_of(names));
+Format read_format(const JsonField& from) {
+  try {
+    return format_from_name(from.text());
+  } catch (const Error& e) {
+    from.refuse(e.what());
+  }
 }
+std::array<double, 2> read_range(const JsonField& from) {
+  const std::vector<JsonField> range = from.elements();
+  if (range.size() != 2) from.fail("two numbers");
+  return {range[0].number(), range[1].number()};
+}
+std::array<float, 4> read_border(const JsonField& from) {
+  const std::vector<JsonField> border = from.elements();
+  if (border.size() != 4) from.fail("four numbers");
+  std::array<float, 4> out{};
+  for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<float>(border[k].number());
+  return out;
+}
+
+namespace {
 
 PackFileEntry read_file_entry(const JsonField& from) {
   PackFileEntry file;
@@ -79,11 +92,7 @@ PackArray read_array(const JsonField& from, const Records& records) {
     out.shape.width = static_cast<int>(from["count"].whole(0, largest_count));
     out.shape.height = 1;
   } else {
-    try {
-      out.shape.format = format_from_name(format.text());
-    } catch (const Error& e) {
-      format.refuse(e.what());
-    }
+    out.shape.format = read_format(format);
     out.shape.width = static_cast<int>(from["width"].whole(1, largest_side));
     out.shape.height = static_cast<int>(from["height"].whole(1, largest_side));
     from["channels"].whole(info(out.shape.format).channels, info(out.shape.format).channels);
@@ -96,9 +105,7 @@ PackArray read_array(const JsonField& from, const Records& records) {
       from["mips"].refuse(fmt::format("expected {} levels below the first, found {}", levels - 1, mips.size()));
     for (const JsonField& mip : mips) out.levels.push_back(read_file_entry(mip));
   }
-  const std::vector<JsonField> range = from["range"].elements();
-  if (range.size() != 2) from["range"].fail("two numbers");
-  out.range = {range[0].number(), range[1].number()};
+  out.range = read_range(from["range"]);
   out.unit = from["unit"].text();
   out.meaning = from["channel_meaning"].text();
   return out;
@@ -110,15 +117,11 @@ PackInput read_input(const JsonField& from, const Records& records) {
   rules.name = input.name;
   rules.array = input.shape;
   if (input.shape.is_records) return input;
-  rules.address_u = named<Address, 4>(from["address_u"]);
-  rules.address_v = named<Address, 4>(from["address_v"]);
-  if (!from.is_null("border")) {
-    const std::vector<JsonField> border = from["border"].elements();
-    if (border.size() != 4) from["border"].fail("four numbers");
-    for (std::size_t k = 0; k < 4; ++k) rules.border[k] = static_cast<float>(border[k].number());
-  }
-  rules.filter = named<Filter, 3>(from["min_filter"]);
-  rules.mip_filter = named<Filter, 3>(from["mip_filter"]);
+  rules.address_u = read_name<Address, 4>(from["address_u"]);
+  rules.address_v = read_name<Address, 4>(from["address_v"]);
+  if (!from.is_null("border")) rules.border = read_border(from["border"]);
+  rules.filter = read_name<Filter, 3>(from["min_filter"]);
+  rules.mip_filter = read_name<Filter, 3>(from["mip_filter"]);
   rules.linear = rules.filter == Filter::linear;
   return input;
 }
@@ -135,8 +138,8 @@ PackOutput read_output(const JsonField& from, const Records& records) {
   PackOutput output{read_array(from, records), {}};
   output.rules.name = output.name;
   output.rules.array = output.shape;
-  output.rules.store_rounding = named<Rounding, 2>(from["store_rounding"]);
-  output.rules.judge = named<Judge, 4>(from["judge"]);
+  output.rules.store_rounding = read_name<Rounding, 2>(from["store_rounding"]);
+  output.rules.judge = read_name<Judge, 4>(from["judge"]);
   if (output.shape.is_records && output.rules.judge == Judge::envelope) from["judge"].fail("bits, keyed or input_only for records");
   if (output.rules.judge == Judge::keyed && !is_keyed_record(output.shape))
     from["judge"].fail("bits, envelope or input_only for what is no list of records with a uint 'id' or of floats alone");

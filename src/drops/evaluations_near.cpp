@@ -1,4 +1,4 @@
-// Which drops may touch, for the passes whose records depend on their neighbours.
+// Finds the drops that may touch, for the passes whose records depend on their neighbours.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,7 +11,7 @@ Surroundings::Surroundings(const float (&frame)[3], const Drop& drop, double bas
   const double u = drop.position[0], v = drop.position[1], x_of_u = frame[0] * u, x_of_v = frame[1] * v;
   x = x_of_u + x_of_v;
   y = frame[2] * v;
-  // A radius is a power, known to 2^-14 at worst; a place a sum of two products, each within a few roundings of its own size.
+  // A radius is a power, accurate to 2^-14 at worst; a position is a sum of two products, each accurate to a few roundings of its size.
   radius = 1.01 * base + 0x1p-18 * (std::abs(x_of_u) + std::abs(x_of_v) + std::abs(y));
 }
 bool Surroundings::meets(const Surroundings& other) const {
@@ -23,7 +23,7 @@ std::vector<std::pair<std::size_t, std::size_t>> meeting_ones(const std::vector<
   double side = 0;
   for (const Surroundings& s : all) side = std::max(side, 2.001 * s.radius);  // a little wider, for rounding
   if (side == 0) return {};                                                   // points meet nothing
-  // Circles that meet lie in one cell or in neighbouring ones. A radius grows with the place, so that there are few cells to count.
+  // Circles that meet lie in one cell or in neighbouring cells. A radius grows with the coordinates, so cell numbers stay small.
   using Cell = std::pair<int, int>;
   const auto cell_of = [&](const Surroundings& s) {
     return Cell(static_cast<int>(std::floor(s.y / side)), static_cast<int>(std::floor(s.x / side)));

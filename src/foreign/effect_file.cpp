@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -38,21 +37,19 @@ std::string text_or(const JsonField& from, const char* key, const char* otherwis
 }
 template <class Enum, int Count>
 Enum named_or(const JsonField& from, const char* key, Enum otherwise) {
-  if (from.is_null(key)) return otherwise;
-  std::vector<std::string> names;
-  for (int i = 0; i < Count; ++i) names.emplace_back(name(static_cast<Enum>(i)));
-  return static_cast<Enum>(from[key].one_of(names));
+  return from.is_null(key) ? otherwise : capture::read_name<Enum, Count>(from[key]);
 }
 
 /// Reads one pass; its inputs from other passes are checked once all passes are known.
 class PassReader {
  public:
-  PassReader(const JsonField& from, const std::filesystem::path& folder, std::string effect, EffectFile& file) : from_(from), file_(file) {
+  PassReader(const JsonField& from, const std::filesystem::path& folder, const MayRead& may_read, EffectFile& file)
+      : from_(from), file_(file) {
     static const std::vector<std::string> keys{"name", "sentence", "spirv", "uniform_block", "inputs", "outputs"};
     from.require_known(keys);
-    pass_.effect = std::move(effect);
     pass_.name = name_in(from["name"]);
     pass_.program.spirv = folder / from["spirv"].text();
+    if (may_read) may_read(pass_.program.spirv);
     pass_.words = spirv::read_spirv(pass_.program);
     const spirv::Module module(pass_.words, "'" + pass_.program.spirv.string() + "'");
     if (module.is_cooperative)
@@ -80,7 +77,7 @@ class PassReader {
   }
 
  private:
-  /// The shader's descriptor for an entry of the file, by name or by binding.
+  /// The shader's descriptor for an entry of the file: by the set and binding that it says, else by its position in the file.
   const Wanted& descriptor(const JsonField& at, std::initializer_list<Bound> kinds) {
     const auto position = static_cast<std::int64_t>(pass_.program.at.size());
     constexpr std::int64_t most = 1 << 16;
@@ -99,8 +96,7 @@ class PassReader {
   void read_block() {
     const auto found = std::find_if(wanted_.begin(), wanted_.end(), [](const Wanted& w) { return w.bound == Bound::uniform_buffer; });
     pass_.block = {"Nothing", 16, {}};
-    pass_.has_uniforms = found != wanted_.end();
-    if (!pass_.has_uniforms) {
+    if (found == wanted_.end()) {
       if (!from_.is_null("uniform_block")) from_["uniform_block"].refuse(shader() + " has no uniform block");
       return;
     }
@@ -125,13 +121,8 @@ class PassReader {
   }
 
   void read_size(const JsonField& at, capture::Array& array) const {
-    const JsonField format = at["format"];
-    try {
-      array.format = format_from_name(format.text());
-    } catch (const Error& e) {
-      format.refuse(e.what());
-    }
-    if (info(array.format).kind == FormatInfo::uint32) format.fail("a format of numbers with fractions");
+    array.format = capture::read_format(at["format"]);
+    if (info(array.format).kind == FormatInfo::uint32) at["format"].fail("a format of numbers with fractions");
     array.width = static_cast<int>(at["width"].whole(1, largest_side));
     array.height = static_cast<int>(at["height"].whole(1, largest_side));
   }
@@ -166,11 +157,7 @@ class PassReader {
       like.filter = named_or<Filter, 3>(at, "filter", Filter::none);
       like.mip_filter = named_or<Filter, 3>(at, "mip_filter", Filter::none);
       like.linear = like.filter == Filter::linear;
-      if (!at.is_null("border")) {
-        const std::vector<JsonField> border = at["border"].elements();
-        if (border.size() != 4) at["border"].fail("four numbers");
-        for (std::size_t k = 0; k < 4; ++k) like.border[k] = static_cast<float>(border[k].number());
-      }
+      if (!at.is_null("border")) like.border = capture::read_border(at["border"]);
       if (levels > 1 && like.mip_filter == Filter::none) at["mip_filter"].fail("nearest or linear, for an image of several levels");
     }
     pass_.program.inputs.push_back(like.name);
@@ -203,9 +190,8 @@ class PassReader {
     capture::BufferInfo buffer{name, array.is_records ? "records" : std::string(info(array.format).name), text_or(at, "sentence", "")};
     buffer.unit = text_or(at, "unit", "1");
     if (!at.is_null("range")) {
-      const std::vector<JsonField> range = at["range"].elements();
-      if (range.size() != 2 || !(range[0].number() < range[1].number())) at["range"].fail("two numbers, the lower one first");
-      buffer.range = {range[0].number(), range[1].number()};
+      buffer.range = capture::read_range(at["range"]);
+      if (!(buffer.range[0] < buffer.range[1])) at["range"].fail("two numbers, the lower one first");
     }
     if (array.is_records) {
       buffer.record = array.record.name;
@@ -266,7 +252,12 @@ void require_graph(const JsonField& passes, const EffectFile& file) {
 
 }  // namespace
 
-EffectFile read_effect(const std::filesystem::path& path) {
+const Pass* EffectFile::find(const std::string& name) const {
+  const auto found = std::find_if(passes.begin(), passes.end(), [&](const Pass& p) { return p.name == name; });
+  return found == passes.end() ? nullptr : &*found;
+}
+
+EffectFile read_effect(const std::filesystem::path& path, const MayRead& may_read) {
   const nlohmann::ordered_json json = capture::read_json(path, path.string(), file_limits);
   const JsonField top(json, path.string());
   if (!top.has("format") || top["format"].dump() != fmt::format("\"{}\"", file_format))
@@ -277,10 +268,10 @@ EffectFile read_effect(const std::filesystem::path& path) {
   EffectFile file;
   file.info.name = name_in(top["effect"]);
   if (registry::find(file.info.name)) top["effect"].fail("a name that none of rainref's own effects has");
-  std::set<std::string> names;
   for (const JsonField& from : top["passes"].elements()) {
-    file.passes.push_back(PassReader(from, path.parent_path(), file.info.name, file).take());
-    if (!names.insert(file.passes.back().name).second) from["name"].refuse(fmt::format("'{}' is there twice", file.passes.back().name));
+    Pass pass = PassReader(from, path.parent_path(), may_read, file).take();
+    if (file.find(pass.name)) from["name"].refuse(fmt::format("'{}' is there twice", pass.name));
+    file.passes.push_back(std::move(pass));
   }
   if (file.passes.empty()) top["passes"].refuse("expected one pass or more, found none");
   require_graph(top["passes"], file);

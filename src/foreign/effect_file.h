@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,20 +30,22 @@ struct Pass {
   spirv::Program program;        ///< program.spirv: the file, at the path relative to the description
   std::vector<std::byte> words;  ///< of the program
   scene::UniformBlock block;     ///< without members if the shader has no uniforms
-  bool has_uniforms = false;
   std::vector<Input> inputs;
   std::vector<capture::CaseOutput> outputs;  ///< without values
-  std::string formula() const { return effect + "." + name + "." + variant + "/1"; }
-  std::string effect;
 };
 struct EffectFile {
   capture::EffectInfo info;
   std::vector<Pass> passes;  ///< in the order of execution
+
+  /// Null if there is no pass of this name.
+  const Pass* find(const std::string& name) const;
 };
 
 /// Reads and checks a description and its shaders. Throws Error(port_files) naming the file, the place, and what was expected and found,
 /// also if a shader contradicts it (a binding, a format, an offset). Throws spirv::Refusal for a shader that cannot be a reference: its
 /// invocations cooperate, it writes records, or it uses something unsupported.
-EffectFile read_effect(const std::filesystem::path& file);
+/// `may_read` is called with the path of each shader before it is read, and throws if that is not allowed.
+using MayRead = std::function<void(const std::filesystem::path&)>;
+EffectFile read_effect(const std::filesystem::path& file, const MayRead& may_read = {});
 
 }  // namespace rainref::foreign

@@ -34,29 +34,29 @@ std::string case_fault(const EffectFile& effect, const Pass& pass, const capture
 
 std::shared_ptr<const EffectFile> reference_of(const capture::Pack& pack) {
   if (pack.reference.empty()) return nullptr;
-  // Hashes first, so that what is read below is what the manifest names.
-  for (const capture::PackFileEntry& file : pack.reference) static_cast<void>(pack.read_file(file));
   const auto refuse = [&](const std::string& why) {
     throw Error(ExitCode::port_files, fmt::format("{}: {}", pack.folder().string(), why));
   };
-  const std::filesystem::path path = pack.folder() / pack.reference.front().path;
-  auto effect = std::make_shared<EffectFile>(read_effect(path));
-  for (const Pass& pass : effect->passes) {
-    const std::string shader = pass.program.spirv.lexically_relative(pack.folder()).generic_string();
+  // Hashes first, and no other file: a description may name any path.
+  for (const capture::PackFileEntry& file : pack.reference) static_cast<void>(pack.read_file(file));
+  const auto must_be_named = [&](const std::filesystem::path& path) {
+    const std::string shader = path.lexically_relative(pack.folder()).generic_string();
     if (std::none_of(pack.reference.begin(), pack.reference.end(), [&](const auto& f) { return f.path == shader; }))
       refuse(fmt::format("the manifest does not name the shader '{}'", shader));
-  }
+  };
+  auto effect = std::make_shared<EffectFile>(read_effect(pack.folder() / pack.reference.front().path, must_be_named));
   if (effect->info.name != pack.effect || pack.variant != variant)
     refuse(
         fmt::format("its reference is of effect '{}', the manifest of '{}', variant '{}'", effect->info.name, pack.effect, pack.variant));
   const auto pass_named = [&](const std::string& name) -> const Pass& {
-    const auto found = std::find_if(effect->passes.begin(), effect->passes.end(), [&](const Pass& p) { return p.name == name; });
-    if (found == effect->passes.end()) refuse(fmt::format("its reference has no pass '{}'", name));
+    const Pass* found = effect->find(name);
+    if (!found) refuse(fmt::format("its reference has no pass '{}'", name));
     return *found;
   };
   for (const capture::PackPass& said : pack.passes) {
     const Pass& pass = pass_named(said.name);
-    if (said.formula != pass.formula() || !scene::same_layout(said.block, pass.block))
+    const capture::PassInfo& declared = effect->info.pass(said.name);
+    if (said.formula != capture::formula(effect->info, declared, *declared.variant(variant)) || !scene::same_layout(said.block, pass.block))
       refuse(fmt::format("pass '{}' is not as its reference describes it", said.name));
   }
   for (const capture::PackCase& entry : pack.cases)
@@ -66,8 +66,8 @@ std::shared_ptr<const EffectFile> reference_of(const capture::Pack& pack) {
 }
 
 std::unique_ptr<capture::PassModel> model_of(const EffectFile& effect, const std::string& name, const capture::PassCase& c) {
-  const auto pass = std::find_if(effect.passes.begin(), effect.passes.end(), [&](const Pass& p) { return p.name == name; });
-  if (pass == effect.passes.end()) return nullptr;
+  const Pass* pass = effect.find(name);
+  if (!pass) return nullptr;
   return spirv::spirv_model(c, pass->program, pass->words, "'" + pass->program.spirv.filename().string() + "'");
 }
 

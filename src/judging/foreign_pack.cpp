@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_file.h"
-#include "capture/json_read.h"
 #include "capture/check_case.h"
+#include "capture/json_read.h"
 #include "foreign/reference.h"
 #include "judge/coverage.h"
 #include "judge/null_ports.h"
@@ -56,7 +56,7 @@ class RunFiles {
     return all;
   }
   std::vector<std::byte> uniforms(const foreign::Pass& pass, const std::string& id) const {
-    if (!pass.has_uniforms) return std::vector<std::byte>(pass.block.size);
+    if (pass.block.members.empty()) return std::vector<std::byte>(pass.block.size);
     const fs::path path = folder_ / id / "uniforms.bin";
     std::vector<std::byte> bytes = read_file(path, {pass.block.size, ExitCode::port_files});
     std::size_t least = 0;  // bytes after the last member are padding, which a host may omit
@@ -204,10 +204,7 @@ ForeignPack make_foreign_pack(const ForeignPackRequest& request, const parallel:
     if (std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.pass == pass.name; })) made.passes.push_back(pass.name);
   capture::PackWriter writer(request.output, effect.info, config_of(effect), request.effect.filename().string(), true, made.passes);
   Packing packing(effect, files, executor);
-  for (const judge::DumpedRun& at : runs) {
-    const auto pass = std::find_if(effect.passes.begin(), effect.passes.end(), [&](const auto& p) { return p.name == at.pass; });
-    writer.add(packing.run(*pass, at));
-  }
+  for (const judge::DumpedRun& at : runs) writer.add(packing.run(*effect.find(at.pass), at));
   packing.add_coverage(writer);
   add_reference(writer, request.effect, effect);
   made.total = writer.finish();

@@ -160,7 +160,7 @@ class Rows {
       std::array<const float*, R> shores;
       for (int k = 0; k < R + 2; ++k) rows[k] = newest(y + k - 1);
       for (int k = 0; k < R; ++k) out[k] = job_.previous->row<Storage>(y + k), shores[k] = shore(y + k);
-      int next = y;  // testing them all costs less than a branch
+      int next = y;  // rows that are cached: fetching them again costs less than a branch
       if (ahead.y0 < ahead.y1) {
         next = ahead.y0;
         ahead.y0 = std::min(ahead.y0 + rows_fetched, ahead.y1);

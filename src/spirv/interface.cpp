@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t most_members = 4096;
 
+// By the numbers of Image Format in the SPIR-V specification.
 std::optional<Format> format_of(std::uint32_t image_format) {
   switch (image_format) {
     case 1:

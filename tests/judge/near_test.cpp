@@ -1,4 +1,4 @@
-// What a pass says to count near a block of texels is all that counts there: the other records change no bit and no bound.
+// Only the records that a pass names near a block of texels count there: the others change no bit and no bound.
 #include <bit>
 #include <map>
 #include <random>
@@ -21,7 +21,7 @@ namespace {
 
 using enclosed::Enclosure;
 
-/// The bits that an evaluation gives; of an enclosure both bounds in each alternative, till there are too many.
+/// The bits of an evaluation; for an enclosure both bounds of each alternative, until there are too many.
 template <class N, class Bound>
 std::vector<std::uint64_t> bits_of(const Bound& pass, int x, int y) {
   std::vector<std::uint64_t> bits;
@@ -48,7 +48,7 @@ std::vector<std::uint64_t> bits_of(const Bound& pass, int x, int y) {
   return bits;
 }
 
-/// How many records the blocks of this case leave out.
+/// Returns the number of records that the blocks of this case leave out.
 template <class P, class Text>
 std::size_t expect_no_change(const capture::PassCase& c) {
   const pass::Bound<P, Text> chosen = pass::bound<P, Text>(c);

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/hash.h"
 #include "faults/mutate.h"
 #include "foreign/draft.h"
 #include "foreign/reference.h"
@@ -339,6 +340,16 @@ TEST_F(ForeignPacks, ADamagedReferenceIsRefused) {
   EXPECT_THAT(with("/effect", "lake"), Not(IsEmpty()));
   EXPECT_THAT(with("/passes/0/formula", "pond.grow.reference/2"), HasSubstr("pass 'grow' is not as its reference describes it"));
   EXPECT_THAT(with("/reference/1", ordered_json::parse(said)["reference"][2]), HasSubstr("does not name the shader 'reference/grow.spv'"));
+  // Nor is any file read that the manifest does not name, wherever it lies.
+  put(manifest, said);
+  ordered_json description = ordered_json::parse(contents(*effect_ / "pack/reference/effect.json"));
+  description["passes"][0]["spirv"] = "../../grow.spv";
+  const std::string outside = description.dump();
+  put(*effect_ / "pack/reference/effect.json", outside);
+  ordered_json file = ordered_json::parse(said)["reference"][0];
+  file["bytes"] = outside.size();
+  file["xxh3"] = file_hash(std::as_bytes(std::span(outside))).text();
+  EXPECT_THAT(with("/reference/0", file), HasSubstr("does not name the shader"));
 }
 
 }  // namespace
