@@ -36,14 +36,28 @@ struct ProgramTrace {
   std::vector<Call> calls;
 };
 
+/// The source of a program.
+class ProgramSource {
+ public:
+  virtual ~ProgramSource() = default;
+  virtual SourceLine line(std::uint32_t instruction) const = 0;
+};
+
 /// A program with one invocation for each texel of its outputs.
-class TracedProgram : public PassModel {
+class TracedProgram : public PassModel, public ProgramSource {
  public:
   using PassModel::PassModel;
   /// Executes the invocation of a texel. A value that is stored, passed on or put into a vector becomes a new node (perturbed::Op::stored),
   /// because a mistake may be there. Throws what an evaluation throws.
   virtual void trace(int x, int y, ProgramTrace& out) const = 0;
-  virtual SourceLine line(std::uint32_t instruction) const = 0;
+};
+
+/// A program that writes lists.
+class TracedListProgram : public ProgramSource {
+ public:
+  /// Executes the first invocation alone on a case of the program's pass, whose list has one record, and returns the pass's outputs. The
+  /// nodes of all floats that it writes to lists become `out.outputs`. Throws what an execution throws.
+  virtual std::vector<Array> trace(const PassCase& c, ProgramTrace& out) const = 0;
 };
 
 }  // namespace rainref::capture

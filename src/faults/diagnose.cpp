@@ -40,6 +40,10 @@ std::vector<Cause> causes_of_lists(const FailedRun& f, const SearchLimit& limit)
       continue;
     }
     if (f.other) other.emplace(replay_of(*f.other));
+    if (f.list_program) {
+      run.take(*f.list_program);
+      if (other) other->take(*f.list_program);
+    }
     run.limit(limit);
     if (other) other->limit(limit);
     for (Cause& c : diagnosed(run, other && other->fails() ? &*other : nullptr)) found.push_back(std::move(c));
@@ -129,6 +133,7 @@ int far_fetched(const Tried& c) {
   const What& what = c.what;
   if (c.of_records && what.is(trait::lost | trait::empty)) return 8;
   if (c.of_records && what.is(trait::late)) return 4;
+  if (what.is(trait::symptom)) return 1;
   // If few records fail, 0 is more likely a wrong number.
   constexpr std::int64_t few = 8;
   if (what.is(trait::unset) && c.of_records && c.of < few) return 1;
@@ -206,10 +211,23 @@ std::vector<Tried> best_causes(std::vector<Tried> causes) {
     if (rank(a) != rank(b)) return rank(a) > rank(b);
     return is_best(a) && is_best(b) && far(a) < far(b);
   });
+  // A mistake in all components of a vector is the plainer one, if it explains as much as the same in one of them.
+  const auto is_whole_vector = [&](const Tried& c) {
+    const Tried& first = causes.front();
+    return c.what.kind == first.what.kind && c.what.of == first.what.of && is_best(c) && c.explained >= first.explained &&
+           c.inside >= first.inside && (c.what.reach == Reach::both || c.what.reach == Reach::all);
+  };
+  if (causes.front().what.reach == Reach::one)
+    if (const auto vector = std::find_if(causes.begin(), causes.end(), is_whole_vector); vector != causes.end())
+      std::rotate(causes.begin(), vector, std::next(vector));
   std::vector<Tried> out;
   for (const Tried& c : causes)
     if (score(c) > 0 && out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Tried& o) { return o.name == c.name; }))
       out.push_back(c);
+  // What a list lacks is said beside the reasons, as far as it explains as much.
+  const auto is_symptom = [](const Tried& c) { return c.what.is(trait::symptom); };
+  const auto symptom = std::find_if(causes.begin(), causes.end(), [&](const Tried& c) { return is_symptom(c) && is_best(c); });
+  if (symptom != causes.end() && out.size() == 3 && std::none_of(out.begin(), out.end(), is_symptom)) out.back() = *symptom;
   // At most one cause is likely: the first of those marked so, if enough fails that it is not chance. If a whole part of a pass vanishes,
   // dozens of mistakes explain it equally well: its failures cannot distinguish them.
   constexpr std::ptrdiff_t most_rivals = 20;
@@ -220,8 +238,8 @@ std::vector<Tried> best_causes(std::vector<Tried> causes) {
   // If a list is unchanged, anything that prevents the pass from working is an equally good cause.
   if (std::any_of(causes.begin(), causes.end(), [](const Tried& c) { return c.of_records && c.what.is(trait::late) && c.inside == c.of; }))
     for (Tried& c : out) c.is_likely = false;
-  // An empty list is a symptom, not a cause.
-  for (Tried& c : out) c.is_likely &= !(c.of_records && c.what.is(trait::empty));
+  // An empty list is a symptom, not a cause, and so is a record that the pass left as it was.
+  for (Tried& c : out) c.is_likely &= !(c.of_records && c.what.is(trait::empty | trait::symptom));
   for (Tried& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;
 }

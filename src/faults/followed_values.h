@@ -36,25 +36,45 @@ class ByValue {
   std::vector<std::vector<std::pair<float, int>>> sorted_;
 };
 
+/// The values of an operation's operands.
+using Operands = std::vector<Values>;
+/// True if two comparisons have the same operands, in either order.
+bool is_same_comparison(const Operands& a, const Operands& b);
+
+/// An operation of the reference that a mistake changes, or an operand that it replaces.
+struct ChangedValues {
+  Values values;      ///< with the mistake, where it changes them
+  Operands operands;  ///< of the operation then; empty for an operand
+  /// If it is a decision that differs although what it decides between does not: its comparison's operands.
+  Operands decision = {};
+  /// True if the mistake leaves the operation out: one of its operands remains.
+  bool is_left_out() const;
+};
 /// Operations of the reference.
 struct ReferenceValues {
   explicit ReferenceValues(const std::vector<Followed>& invocations);
   /// True if one operation has all of these values.
   bool has(const Values& v) const;
+  /// True if one operation has all of these values, and operands with those.
+  bool has(const Values& v, const Operands& operands) const;
 
-  std::vector<Values> right;    ///< values of the operations of each shape
-  std::vector<Values> changed;  ///< values with the mistake of each operation that it changes, where it does; in order of execution
+  std::vector<Values> right;           ///< values of the operations of each shape
+  std::vector<Operands> operands;      ///< and of their operands
+  std::vector<ChangedValues> changed;  ///< in order of execution
+  bool moves_position = false;         ///< the mistake changes the invocation's own index
   ByValue by_right;
 };
 
 /// A part of an instruction of the port's program, in one call chain.
 struct PortStep {
   perturbed::Op op;
-  std::uint32_t instruction;
+  std::uint32_t instruction, part;
   std::vector<std::uint32_t> calls;  ///< call instructions, from the entry point on
   Values values;
   std::vector<int> of = {};  ///< steps whose values are operands
+  Operands compared = {};    ///< of a comparison
 
+  int users = 0;             ///< number of steps that it is an operand of
   bool is_position = false;  ///< it is the invocation's own index, unchanged
   /// True if it exists before the program begins: a constant, which has no line.
   bool is_given() const { return instruction == capture::ProgramTrace::given; }

@@ -93,6 +93,21 @@ std::vector<float> constants_of_lists(const capture::PassModel& model, const Pas
   return out;
 }
 
+std::optional<std::vector<std::byte>> evaluated(const Fault& d, const capture::KeyedModel& keyed, perturbed::Trace* trace) {
+  perturbed::Behaviour behaviour = d.behaviour;
+  std::vector<float> unused;
+  if (d.at_texel) d.at_texel({-1, -1}, behaviour, unused);
+  perturbed::Trace own;
+  if (trace || d.rewrites) behaviour.trace = trace ? trace : &own;
+  perturbed::Substitutions substitutions{d.substitutions};
+  if (!substitutions.all.empty()) behaviour.substitutions = &substitutions, substitutions.start();
+  const perturbed::RewriteScope rewriting(d.rewrites.value_or(perturbed::Rewrites()));
+  const perturbed::Scope scope(behaviour);
+  substitutions.look_ahead([&] { static_cast<void>(keyed.perturbed()); });
+  if (trace) *trace = {};
+  return keyed.perturbed();
+}
+
 std::optional<Array> faulty_list(const Fault& d, const PassCase& c, std::size_t output, const capture::PassEvaluations& evaluations,
                                  const capture::PassModel* model, const Array& finished, const std::vector<std::uint32_t>& at,
                                  const Records* port) {
@@ -123,17 +138,7 @@ std::optional<Array> faulty_list(const Fault& d, const PassCase& c, std::size_t 
   }
   const capture::KeyedModel* keyed = model ? model->keyed(c.outputs[output].name) : nullptr;
   if (!keyed) return std::nullopt;
-  perturbed::Behaviour behaviour = d.behaviour;
-  std::vector<float> unused;
-  if (d.at_texel) d.at_texel({-1, -1}, behaviour, unused);
-  perturbed::Trace trace;
-  if (d.rewrites) behaviour.trace = &trace;
-  perturbed::Substitutions substitutions{d.substitutions};
-  if (!substitutions.all.empty()) behaviour.substitutions = &substitutions, substitutions.start();
-  const perturbed::RewriteScope rewriting(d.rewrites.value_or(perturbed::Rewrites()));
-  const perturbed::Scope scope(behaviour);
-  substitutions.look_ahead([&] { static_cast<void>(keyed->perturbed()); });
-  const auto bytes = keyed->perturbed();
+  const auto bytes = evaluated(d, *keyed);
   if (!bytes) return std::nullopt;
   Array out = finished;
   out.width = static_cast<int>(bytes->size() / finished.record.size);

@@ -33,6 +33,8 @@ std::optional<capture::Array> faulty_list(const Fault& d, const capture::PassCas
                                           const capture::PassEvaluations& evaluations, const capture::PassModel* model,
                                           const capture::Array& finished, const std::vector<std::uint32_t>& at = {},
                                           const Records* port = nullptr);
+/// The bytes of a list in which a mistake is made, which must not change the case. `trace`: collects its operations; null: nothing does.
+std::optional<std::vector<std::byte>> evaluated(const Fault& d, const capture::KeyedModel& keyed, perturbed::Trace* trace = nullptr);
 
 // ---- helpers of the generators
 

@@ -37,6 +37,9 @@ class ListReplay : public Replay {
   std::vector<Tried> causes(const std::vector<Fault>& all) const override;
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
+  void follow(const Fault& d, std::vector<Followed>& out) const override;
+  /// Sets the port's own program. It must outlive the replay.
+  void take(const capture::TracedListProgram& program) { source_ = program_ = &program; }
 
  protected:
   /// For the list of a varied case.
@@ -74,6 +77,7 @@ class ListReplay : public Replay {
   std::map<std::uint32_t, std::vector<double>> own_leeway_;  ///< of records by id, for each word; 0: not known
   Constants constants_;
   std::vector<std::shared_ptr<Alone>> alone_;  ///< some of the failing records
+  const capture::TracedListProgram* program_ = nullptr;
 };
 
 }  // namespace rainref::faults

@@ -41,7 +41,9 @@ class OrderAdder {
     }
     if (made_ >= most_ || !done_.insert({r.kind, key, site.occurrence, r.operand, r.path}).second) return;
     ++made_;
-    if (site.nodes.size() > 1) what.reach = Reach::all;
+    const std::size_t components =
+        site.nodes.size() == 1 && site.occurrence < 0 ? components_of(p, site.nodes[0]).size() : site.nodes.size();
+    if (components > 1) what.reach = components == 2 ? Reach::both : Reach::all;
     Fault& d = out_.emplace_back(std::move(what));
     d.rewrites = all;
     tell_places_by(d, known_);

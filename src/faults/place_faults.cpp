@@ -121,6 +121,22 @@ std::vector<std::vector<std::size_t>> vector_values_of(const Probe& p) {
   return groups_of(p, [](Op op) { return op != Op::comparison && op != Op::lookup; });
 }
 
+std::vector<std::size_t> components_of(const Probe& p, std::size_t at) {
+  const std::uint32_t shape = p.trace.nodes[at].shape;
+  std::map<std::string, std::size_t> first;  // node of each text
+  std::set<std::string> forms;
+  for (std::size_t k = 0; k < p.trace.nodes.size() && first.size() < 4; ++k)
+    if (p.trace.nodes[k].shape == shape) {
+      const std::string text = p.text(static_cast<std::int32_t>(k), 3);
+      first.emplace(text, k);
+      forms.insert(of_any_component(text));
+    }
+  if (forms.size() != 1 || first.size() < 2 || first.size() > 3) return {at};
+  std::vector<std::size_t> out;
+  for (const auto& [text, node] : first) out.push_back(node);
+  return out;
+}
+
 void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, PlaceKind kind) {
   const auto shared = std::make_shared<const std::vector<float>>(known);
   const auto add = [&](const Mistake& m, std::array<perturbed::Place, 4> places, Reach reach, std::vector<std::string> where = {}) {
@@ -163,11 +179,12 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
       for (const std::int32_t occurrence : {-1, n.occurrence}) {
         if (occurrence >= 0 && (count == 1 || count > most)) continue;
         if (!done.insert({n.shape, occurrence}).second) continue;
-        for (const Mistake& m : mistakes_at(p, at)) {
+        const std::vector<std::size_t> all = occurrence < 0 ? components_of(p, at) : std::vector<std::size_t>{at};
+        for (const Mistake& m : mistakes_at(p, all.front())) {
           if ((kind == PlaceKind::multiple) != is_multiple(m.fault, n.op)) continue;
           const std::array<perturbed::Place, 4> place{perturbed::Place{n.shape, occurrence, m.fault}};
           if (occurrence < 0)
-            add(m, place, Reach::one);
+            add(m, place, all.size() == 1 ? Reach::one : all.size() == 2 ? Reach::both : Reach::all);
           else
             add(m, place, Reach::one_alike, {std::to_string(count), std::to_string(occurrence + 1)});
         }

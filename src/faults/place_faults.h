@@ -40,6 +40,8 @@ std::uint32_t shape_of(const perturbed::Trace::Node& n, const SharedPlace& place
 void reach_all(What& what, const SharedPlace& place);
 std::vector<SharedPlace> shared_places_of(const std::vector<Probe>& probes);
 
+/// The nodes of one shape, if they differ in the component alone: one for each of two or three components. Else only `at`.
+std::vector<std::size_t> components_of(const Probe& p, std::size_t at);
 /// Places of vector components: two or three nodes of a probe with equal operation and text but for the component.
 std::vector<std::vector<std::size_t>> vectors_of(const Probe& p);
 /// The same for all values, including leaves.

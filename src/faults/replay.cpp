@@ -26,7 +26,8 @@ bool is_explained(const std::vector<Tried>& causes) {
   // for which a few records are weak evidence.
   constexpr std::int64_t few = 8;
   const auto is_symptom = [](const Tried& c) {
-    return c.what.is(trait::lost | trait::late) || (c.of_records && c.what.is(trait::empty)) || (c.what.is(trait::unset) && c.of < few);
+    return c.what.is(trait::lost | trait::late | trait::symptom) || (c.of_records && c.what.is(trait::empty)) ||
+           (c.what.is(trait::unset) && c.of < few);
   };
   return std::any_of(causes.begin(), causes.end(),
                      [&](const Tried& c) { return c.is_likely && score(c) >= 1.9 && !is_symptom(c) && !is_fitted(c); });
@@ -340,6 +341,17 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   else
     say_one_of(best.front(), causes, others, 2, as_much);
   return said();
+}
+
+std::optional<judge::ShaderLine> Replay::line(const FoundLine& found) const {
+  if (!source_) return {};
+  const auto number = [](const capture::SourceLine& l) { return static_cast<int>(l.line); };
+  capture::SourceLine first = source_->line(found.at), last = source_->line(found.until);
+  if (first.file == last.file && last.line < first.line) std::swap(first, last);
+  if (first.file != last.file) last = first;
+  judge::ShaderLine out{first.file, number(first), first.text, 0};
+  if (last.line != first.line) out.until = number(last);
+  return out.line == 0 ? std::nullopt : std::optional(out);
 }
 
 capture::PassCase varied(const capture::PackPass& pass, const capture::PassCase& c) {

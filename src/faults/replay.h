@@ -58,11 +58,14 @@ class Replay {
   /// Appends some invocations in which a mistake reproduces the port's bits, traced in the port's shader too; none if there is no shader.
   virtual void follow(const Fault&, std::vector<Followed>&) const {}
   /// A line of that shader; nothing if it has no line information.
-  virtual std::optional<judge::ShaderLine> line(const FoundLine&) const { return {}; }
+  std::optional<judge::ShaderLine> line(const FoundLine& found) const;
 
   /// From now on causes() stops when the time is over. The limit must outlive the replay.
   void limit(const SearchLimit& to) { limit_ = &to; }
   bool is_time_over() const { return limit_ && limit_->is_over(); }
+
+ protected:
+  const capture::ProgramSource* source_ = nullptr;  ///< of the port's shader; null: there is none
 
  private:
   const SearchLimit* limit_ = nullptr;

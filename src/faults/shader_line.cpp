@@ -1,21 +1,21 @@
 #include "faults/shader_line.h"
 
 #include <algorithm>
-#include <map>
+#include <functional>
+#include <iterator>
 #include <set>
 #include <utility>
 
-#include "faults/followed_values.h"
+#include "faults/compared_steps.h"
 
 namespace rainref::faults {
 namespace {
 
 using perturbed::Op;
 
-class LineSearch {
+class LineSearch : ComparedSteps {
  public:
-  LineSearch(const std::vector<Followed>& invocations, bool in_function)
-      : reference_(invocations), port_(invocations), in_function_(in_function) {}
+  using ComparedSteps::ComparedSteps;
   std::vector<FoundLine> found() const;
 
  private:
@@ -23,88 +23,30 @@ class LineSearch {
   struct Met {
     int node, user;
   };
-  bool is_vouched(const PortStep& p) const;
-  int sooner(int changed, const Values& v) const;
-  int first_constant(int from) const;
-  std::vector<Met> unvouched(int from) const;
-  std::uint32_t blamed(int node) const;
+  std::vector<Met> unvouched(int from, int changed = 0) const;
   FoundLine line_at(int node) const { return {blamed(node), blamed(node)}; }
   std::vector<FoundLine> walked_back(int changed, int from, bool is_late) const;
   std::vector<FoundLine> of_outputs() const;
-
-  ReferenceValues reference_;
-  PortValues port_;
-  bool in_function_;
+  std::vector<FoundLine> of_decision(const Operands& compared) const;
+  std::vector<FoundLine> of_remains() const;
+  std::vector<FoundLine> of_operands(const ChangedValues& wrong) const;
 };
 
-/// True if the reference computes it, too: the values of one contain all of the other's, because either may omit rounds of a loop, or do in
-/// one place what the other does in several.
-bool LineSearch::is_vouched(const PortStep& p) const {
-  for (std::size_t k = 0; k < p.values.size(); ++k) {
-    if (p.values[k].empty()) continue;
-    std::vector<int> near;
-    for (const float v : p.values[k])
-      for (const int n : reference_.by_right.near(k, v)) near.push_back(n);
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    if (near.empty()) continue;
-    return std::any_of(near.begin(), near.end(), [&](int n) {
-      const Values& right = reference_.right[static_cast<std::size_t>(n)];
-      return is_met_by(p.values, right) || (tells(right) && is_met_by(right, p.values));
-    });
-  }
-  return false;
-}
-
-/// The first operation before `changed` to which the mistake gives these values; -1 if there is none.
-int LineSearch::sooner(int changed, const Values& v) const {
-  for (int n = 0; n < changed; ++n)
-    if (is_within(reference_.changed[static_cast<std::size_t>(n)], v)) return n;
-  return -1;
-}
-
-/// Finds the source in the port of a number that is equal in every invocation and that the reference lacks.
-int LineSearch::first_constant(int from) const {
-  std::vector<char> is_seen(port_.steps.size(), 0);
-  for (int at = from;;) {
-    is_seen[static_cast<std::size_t>(at)] = 1;
-    const auto& of = port_[at].of;
-    const auto next = std::find_if(of.begin(), of.end(), [&](int operand) {
-      const PortStep& p = port_[operand];
-      return !is_seen[static_cast<std::size_t>(operand)] && !p.is_given() && !varies(p.values) && !is_vouched(p);
-    });
-    if (next == of.end()) return at;
-    at = *next;
-  }
-}
-
 /// Walks back from a step through all steps that the reference lacks; returns these with their users.
-std::vector<LineSearch::Met> LineSearch::unvouched(int from) const {
+std::vector<LineSearch::Met> LineSearch::unvouched(int from, int changed) const {
   std::vector<Met> open{{from, from}}, out;
   std::set<int> is_seen;
   while (!open.empty()) {
     const Met at = open.back();
     open.pop_back();
-    if (port_[at.node].is_given() || !is_seen.insert(at.node).second) continue;
+    if (port[at.node].is_given() || !is_seen.insert(at.node).second) continue;
     out.push_back(at);
-    if (at.node != from && is_vouched(port_[at.node])) continue;
-    for (const int operand : port_[at.node].of) open.push_back({operand, at.node});
+    const PortStep& p = port[at.node];
+    // What the reference has too is right, unless the mistake makes it elsewhere.
+    if (at.node != from && is_vouched(p) && !(varies(p.values) && sooner(changed, p.values) >= 0)) continue;
+    for (const int operand : port[at.node].of) open.push_back({operand, at.node});
   }
   return out;
-}
-
-/// The instruction of a step. If a function is right in most of its calls, the call is wrong.
-std::uint32_t LineSearch::blamed(int node) const {
-  const PortStep& p = port_[node];
-  if (p.calls.empty() || in_function_) return p.instruction;
-  std::map<std::vector<std::uint32_t>, bool> right;  // for each call: true if all of its parts are right
-  for (const PortStep& o : port_.steps)
-    if (o.instruction == p.instruction && o.calls.size() == p.calls.size()) {
-      const auto [at, is_new] = right.emplace(o.calls, true);
-      at->second = at->second && is_vouched(o);
-    }
-  const auto wrong = std::count_if(right.begin(), right.end(), [](const auto& call) { return !call.second; });
-  return right.size() > 1 && 2 * wrong <= static_cast<std::ptrdiff_t>(right.size()) ? p.calls.back() : p.instruction;
 }
 
 /// Walks back from a value of the port that equals the mistake's and that the reference lacks, through steps that the reference also lacks
@@ -112,33 +54,44 @@ std::uint32_t LineSearch::blamed(int node) const {
 std::vector<FoundLine> LineSearch::walked_back(int changed, int from, bool is_late) const {
   Met best{from, from};
   int best_time = changed, first = from;
-  bool is_old = false;
-  for (const Met& at : unvouched(from)) {
-    const PortStep& p = port_[at.node];
+  bool is_old = false, is_place = false;
+  for (const Met& at : unvouched(from, changed)) {
+    const PortStep& p = port[at.node];
     const bool is_right = at.node != from && is_vouched(p);
     // The invocation's own index is right; its use may be wrong.
-    if (p.is_position && port_[at.user].is_position) continue;
-    const int time = at.node == from ? -1 : sooner(changed, p.values);
+    if (p.is_position && port[at.user].is_position) continue;
+    const bool is_moved = p.is_position && reference.moves_position;
+    const int time = at.node == from ? -1 : is_moved ? 0 : sooner(changed, p.values);
     if (!is_right && !p.is_position) first = std::min(first, at.node);
     // If several steps copy one value, the first counts, because it computes it; if the reference has the value too, the last.
-    if (time >= 0 && (!is_right || varies(p.values)) && (time < best_time || (time == best_time && !is_right && at.node < best.node))) {
+    if (time >= 0 && (!is_right || varies(p.values)) &&
+        (time < best_time || (time == best_time && (is_right ? at.node > best.node : at.node < best.node)))) {
       best = at;
       best_time = time;
-      is_old = is_right;
+      is_old = is_right || is_moved;
+      is_place = is_moved;
     }
   }
   const FoundLine begins = line_at(first);
   if (is_old) {
     // A wrong result of a function is attributed to the call, if its user is outside.
-    const PortStep &kept = port_[best.node], &user = port_[best.user];
+    const PortStep &kept = port[best.node], &user = port[best.user];
+    const bool is_remains = reference.changed[static_cast<std::size_t>(best_time)].is_left_out();
+    const std::uint32_t made = port[first_copy(best.node, is_remains)].instruction;
+    if (is_place) return {{made, user.calls.empty() ? user.instruction : user.calls.front()}, begins};
     if (kept.of.empty()) return {line_at(best.user), begins};
-    const std::uint32_t at = kept.calls.size() > user.calls.size() ? kept.calls[user.calls.size()] : kept.instruction;
+    const bool leaves = kept.calls.size() > user.calls.size();
+    if (leaves && (in_function || is_old_in_most_calls(kept))) return {{kept.instruction, kept.instruction}, begins};
+    const std::uint32_t at = leaves ? kept.calls[user.calls.size()] : made;
     return {{at, kept.calls.size() < user.calls.size() ? at : user.instruction}, begins};
   }
+  if (best.node == from)
+    if (const int other = other_operand(from, reference.changed[static_cast<std::size_t>(changed)]); other >= 0)
+      return {{port[first_copy(other, false)].instruction, blamed(from)}, begins};
   // A texel is wrong if its position is. If the port has the mistake's operation in another form, the mistake begins there.
-  const Op op = port_[best.node].op;
+  const Op op = port[best.node].op;
   const bool is_of_place = op == Op::lookup || op == Op::load || op == Op::fetch;
-  if (!in_function_ && (is_of_place || (is_late && best.node == from))) return {begins, line_at(best.node)};
+  if (!in_function && (is_of_place || (is_late && best.node == from))) return {begins, line_at(best.node)};
   return {line_at(first_constant(best.node)), begins};
 }
 
@@ -146,29 +99,84 @@ std::vector<FoundLine> LineSearch::walked_back(int changed, int from, bool is_la
 /// none, the store itself, or the construction of the stored vector.
 std::vector<FoundLine> LineSearch::of_outputs() const {
   int first = -1;
-  for (const int output : port_.outputs)
+  for (const int output : port.outputs)
     for (const Met& at : unvouched(output))
-      if ((first < 0 || at.node < first) && !port_[at.node].is_position && !is_vouched(port_[at.node])) first = at.node;
+      if ((first < 0 || at.node < first) && !port[at.node].is_position && !is_vouched(port[at.node])) first = at.node;
   if (first >= 0) return {line_at(first)};
-  if (port_.outputs.empty()) return {};
-  int made = port_.outputs.front();
+  if (port.outputs.empty()) return {};
+  int made = port.outputs.front();
   const FoundLine stored = line_at(made);
-  while (port_[made].op == Op::stored && port_[made].of.size() == 1 && port_[made].of[0] < made && !port_[port_[made].of[0]].is_given())
-    made = port_[made].of[0];
+  while (port[made].op == Op::stored && port[made].of.size() == 1 && port[made].of[0] < made && !port[port[made].of[0]].is_given())
+    made = port[made].of[0];
   return {stored, line_at(made)};
 }
 
+/// The port's comparison with these operands, whatever it does with the outcome; the number in it that the reference lacks, if there is
+/// one.
+std::vector<FoundLine> LineSearch::of_decision(const Operands& compared) const {
+  for (std::size_t k = 0; k < port.steps.size(); ++k) {
+    const PortStep& p = port.steps[k];
+    if (p.op != Op::comparison || !is_same_comparison(compared, p.compared)) continue;
+    const std::uint32_t at = port[first_constant(static_cast<int>(k))].instruction;
+    return {{at, at}};
+  }
+  return {};
+}
+
+/// The step that makes what remains if a step is left out; the mistake lies behind it.
+std::vector<FoundLine> LineSearch::of_remains() const {
+  const auto left = std::find_if(reference.changed.begin(), reference.changed.end(), std::mem_fn(&ChangedValues::is_left_out));
+  if (left == reference.changed.end() || port.outputs.empty()) return {};
+  for (std::size_t k = 0; k < port.steps.size(); ++k) {
+    const PortStep& p = port.steps[k];
+    if (!p.is_given() && is_within(left->values, p.values)) return {{p.instruction, port[port.outputs.front()].instruction}};
+  }
+  return {};
+}
+
+/// The port's operation that makes the mistake's values of the mistake's operands, where the reference makes them of others.
+std::vector<FoundLine> LineSearch::of_operands(const ChangedValues& wrong) const {
+  Operands telling;
+  std::copy_if(wrong.operands.begin(), wrong.operands.end(), std::back_inserter(telling), tells);
+  if (telling.empty() || wrong.is_left_out() || reference.has(wrong.values, telling)) return {};
+  for (std::size_t k = 0; k < port.steps.size(); ++k) {
+    const PortStep& p = port.steps[k];
+    const auto is_operand = [&](const Values& wanted) {
+      return std::any_of(p.of.begin(), p.of.end(), [&](int of) { return is_within(wanted, port[of].values); });
+    };
+    if (!p.is_given() && p.op != Op::comparison && is_within(wrong.values, p.values) &&
+        std::all_of(telling.begin(), telling.end(), is_operand))
+      return {line_at(static_cast<int>(k))};
+  }
+  return {};
+}
+
 std::vector<FoundLine> LineSearch::found() const {
-  bool is_late = false;  // a new value of the mistake is not in the port, whose text has another form there
-  for (std::size_t n = 0; n < reference_.changed.size(); ++n) {
-    const Values& wrong = reference_.changed[n];
-    if (!varies(wrong) || reference_.has(wrong)) continue;
+  const Values* remains = nullptr;  // if a step is left out
+  bool is_late = false;             // a new value of the mistake is not in the port, whose text has another form there
+  for (std::size_t n = 0; n < reference.changed.size(); ++n) {
+    const ChangedValues& c = reference.changed[n];
+    const Values& wrong = c.values;
+    if (!remains && c.is_left_out()) remains = &wrong;
+    // Of what follows a step that is left out, only its user says more: the rest is a consequence.
+    const auto is_of_remains = [&](const Values& operand) { return is_within(*remains, operand); };
+    const bool is_near = !remains || std::any_of(c.operands.begin(), c.operands.end(), is_of_remains);
+    if (!remains && !c.decision.empty())
+      if (auto lines = of_decision(c.decision); !lines.empty()) return lines;
+    if (!varies(wrong) || reference.has(wrong)) {
+      if (auto lines = is_near ? of_operands(c) : std::vector<FoundLine>(); !lines.empty()) return lines;
+      continue;
+    }
     const auto there = std::find_if(wrong.begin(), wrong.end(), [](const auto& one) { return !one.empty(); });
-    for (const int k : port_.by_value.near(static_cast<std::size_t>(there - wrong.begin()), there->front()))
-      if (is_within(wrong, port_[k].values) && !is_vouched(port_[k])) return walked_back(static_cast<int>(n), k, is_late);
+    for (const int k : port.by_value.near(static_cast<std::size_t>(there - wrong.begin()), there->front()))
+      if (!port[k].is_given() && !port[k].is_position && is_within(wrong, port[k].values) && !is_vouched(port[k]))
+        return walked_back(static_cast<int>(n), k, is_late);
     is_late = true;
   }
-  return of_outputs();
+  std::vector<FoundLine> lines = of_remains();
+  for (const FoundLine& line : of_outputs()) lines.push_back(line);
+  lines.resize(std::min<std::size_t>(lines.size(), 2));
+  return lines;
 }
 
 }  // namespace

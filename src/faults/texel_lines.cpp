@@ -53,15 +53,4 @@ void TexelReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
 } catch (const Error&) {
   out.clear();  // the program uses something unsupported: a note says so
 }
-std::optional<judge::ShaderLine> TexelReplay::line(const FoundLine& found) const {
-  if (!program_) return {};
-  const auto number = [](const capture::SourceLine& l) { return static_cast<int>(l.line); };
-  capture::SourceLine first = program_->line(found.at), last = program_->line(found.until);
-  if (first.file == last.file && last.line < first.line) std::swap(first, last);
-  if (first.file != last.file) last = first;
-  judge::ShaderLine out{first.file, number(first), first.text, 0};
-  if (last.line != first.line) out.until = number(last);
-  return out.line == 0 ? std::nullopt : std::optional(out);
-}
-
 }  // namespace rainref::faults

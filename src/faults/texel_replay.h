@@ -40,9 +40,8 @@ class TexelReplay : public Replay {
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
   void follow(const Fault& d, std::vector<Followed>& out) const override;
-  std::optional<judge::ShaderLine> line(const FoundLine& found) const override;
   /// Sets the port's own program for this run. It must outlive the replay.
-  void take(const capture::TracedProgram& program) { program_ = &program; }
+  void take(const capture::TracedProgram& program) { source_ = program_ = &program; }
   /// Mistakes that need no search, and equally plain mistakes in finished buffers.
   std::vector<Fault> decidable() const;
   std::vector<Fault> of_finished() const;

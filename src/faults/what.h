@@ -35,6 +35,7 @@ constexpr unsigned empty = 256;      ///< nothing is written
 constexpr unsigned late = 512;       ///< a list that is as before the pass
 constexpr unsigned bare = 1024;      ///< only its weight counts, whatever its text leaves out
 constexpr unsigned lookup = 2048;    ///< how an image is looked up, at every lookup
+constexpr unsigned symptom = 4096;   ///< says what a list lacks, not why: never likely
 }  // namespace trait
 
 /// Where else a mistake is made, beside the place that its text names.

@@ -44,7 +44,8 @@ struct FailedRun {
   double share = 1;                  ///< share of the pass's time limit; a pass may be diagnosed under each rounding of halves
   /// The elements give a WARN, not a FAIL; `judgement` counts them as failing. Only plain mistakes are tried, which limits the time.
   bool is_warned = false;
-  const capture::TracedProgram* program = nullptr;  ///< the port's own, on this run; null: not available
+  const capture::TracedProgram* program = nullptr;           ///< the port's own, on this run; null: not available
+  const capture::TracedListProgram* list_program = nullptr;  ///< the same of a pass that writes lists
 };
 /// Finds causes of the failures and their common property. The judge itself knows no mistakes: faults/diagnose.h does.
 using Explain = std::function<Explanation(const FailedRun&)>;

@@ -10,6 +10,7 @@
 #include "judge/alternatives.h"
 #include "judge/evaluations.h"
 #include "judge/invocation_judge.h"
+#include "judge/keyed.h"
 #include "judge/profiles.h"
 #include "judge/slots.h"
 #include "rainref/error.h"
@@ -22,6 +23,8 @@ using capture::Array, capture::PassCase, capture::PassModel;
 using Places = std::vector<std::array<int, 2>>;
 
 constexpr std::size_t most_places = 32;
+
+std::string name_of(const spirv::Program& program) { return "'" + program.spirv.filename().string() + "'"; }
 
 /// Failing texels; if there are none, some spread over the picture.
 Places places_of(const judge::CaseJudgement& judged, const PassModel& model) {
@@ -65,8 +68,7 @@ std::string answer_of(const judge::PassJudgement& pass, const LoadStored& load, 
   const std::optional<StoredRun> run = load(most->id);
   if (!run) return "";
   const spirv::Program& program = programs.at(pass.formula);
-  const spirv::Module module(spirv::read_spirv(program), "'" + program.spirv.filename().string() + "'",
-                             spirv::specialization_of(program, run->c));
+  const spirv::Module module(spirv::read_spirv(program), name_of(program), spirv::specialization_of(program, run->c));
   if (std::string fault = block_fault(run->block, module); !fault.empty()) return module.name + ": " + fault;
   const std::unique_ptr<PassModel> shader = program_model(programs, pass.formula, run->c);
   if (!shader) return "";
@@ -77,19 +79,34 @@ std::string answer_of(const judge::PassJudgement& pass, const LoadStored& load, 
       ask_shader(run->c, *reference, *shader, run->stored, places_of(*most, *reference), judge::profile(profile), pass.half_mode), fails);
 }
 
-/// Returns the port's program of a pass if it can be traced. ask_shaders() reports why it cannot.
-std::unique_ptr<capture::TracedProgram> followed_program(const judge::FailedRun& failed, const Programs& programs) try {
-  return program_model(programs, failed.judged.formula, failed.run.c);
-} catch (const Error&) {
-  return nullptr;
-}
+/// The port's programs for a failing run, as far as they can be traced. ask_shaders() reports why they cannot.
+struct FollowedPrograms {
+  std::unique_ptr<capture::TracedProgram> texels;
+  std::unique_ptr<capture::TracedListProgram> list;
+
+  FollowedPrograms(const judge::FailedRun& failed, const Programs& programs) {
+    const auto program = programs.find(failed.judged.formula);
+    if (program == programs.end()) return;
+    try {
+      texels = program_model(programs, failed.judged.formula, failed.run.c);
+      if (!judge::keyed_outputs(failed.run.c).empty())
+        list = spirv::spirv_list(failed.run.c, program->second, spirv::read_spirv(program->second), name_of(program->second));
+    } catch (const Error&) {
+      // it cannot be executed, or not in every number type
+    }
+  }
+  void give(judge::FailedRun& run) const {
+    run.program = texels.get();
+    run.list_program = list.get();
+  }
+};
 
 }  // namespace
 
 std::unique_ptr<capture::TracedProgram> program_model(const Programs& programs, const std::string& formula, const PassCase& c) {
   const auto program = programs.find(formula);
   if (program == programs.end() || program->second.one_group || !judge::is_enveloped(c)) return nullptr;
-  return spirv::spirv_model(c, program->second, spirv::read_spirv(program->second), "'" + program->second.spirv.filename().string() + "'");
+  return spirv::spirv_model(c, program->second, spirv::read_spirv(program->second), name_of(program->second));
 }
 
 ShaderAnswer ask_shader(const PassCase& c, const PassModel& reference, const PassModel& shader, const std::vector<Array>& stored,
@@ -150,11 +167,12 @@ std::string block_fault(const scene::UniformBlock& block, const spirv::Module& s
 }
 
 judge::Explanation explain(const judge::FailedRun& failed, const Programs& programs, const faults::SearchLimit& limit) {
-  const std::unique_ptr<capture::TracedProgram> program = followed_program(failed, programs);
-  const std::unique_ptr<capture::TracedProgram> other_program = failed.other ? followed_program(*failed.other, programs) : nullptr;
+  const FollowedPrograms own(failed, programs);
+  const std::optional<FollowedPrograms> of_other =
+      failed.other ? std::make_optional<FollowedPrograms>(*failed.other, programs) : std::nullopt;
   judge::FailedRun with_program = failed, other = failed.other ? *failed.other : failed;
-  with_program.program = program.get();
-  other.program = other_program.get();
+  own.give(with_program);
+  if (of_other) of_other->give(other);
   if (failed.other) with_program.other = &other;
   return faults::diagnose_within(limit, with_program);
 }

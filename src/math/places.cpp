@@ -297,7 +297,9 @@ void Perturbed::leaf(Op op, std::uint32_t shape) {
 namespace {
 
 /// The result of an operation after the substitutions at it, each applied after the previous ones: first to operands, then to the result.
-Perturbed substituted(Substitutions& all, Op op, Perturbed r, std::initializer_list<const Perturbed*> of, std::uint32_t shape) {
+/// `with` becomes the operands.
+Perturbed substituted(Substitutions& all, Op op, Perturbed r, std::initializer_list<const Perturbed*> of, std::uint32_t shape,
+                      std::array<float, 4>& with) {
   std::array<Perturbed, 4> operands;
   std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
   for (std::size_t s = 0; s < all.all.size(); ++s) {
@@ -312,6 +314,7 @@ Perturbed substituted(Substitutions& all, Op op, Perturbed r, std::initializer_l
     }
     Perturbed& operand = operands[static_cast<std::size_t>(other.operand)];
     operand = Perturbed::of(all.value_for(s, operand.v));
+    with[static_cast<std::size_t>(other.operand)] = operand.v;
     r = again(op, r, operands);
   }
   return r;
@@ -339,7 +342,9 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
     const std::int32_t occurrence = place.seen++;
     if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of, place.fault);
   }
-  if (b.substitutions && !b.substitutions->is_looking) r = substituted(*b.substitutions, op, r, of, shape);
+  std::array<float, 4> with{};
+  std::transform(of.begin(), of.end(), with.begin(), [](const Perturbed* operand) { return operand->v; });
+  if (b.substitutions && !b.substitutions->is_looking) r = substituted(*b.substitutions, op, r, of, shape, with);
   for (const Rewrite& rewriting : rewrites) {
     if (!b.trace || rewriting.kind == RewriteKind::none) break;
     const bool is_wild = rewriting.kind == RewriteKind::first_wins;  // it applies to every choice, whatever its shape
@@ -359,7 +364,7 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   if (!b.trace) return r;
   Trace::Node node{op, r.v, shape, b.trace->met[shape]++};
   std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed* operand) { return operand->node_; });
-  std::transform(of.begin(), of.end(), node.with.begin(), [](const Perturbed* operand) { return operand->v; });
+  node.with = with;
   node.shallow = {depth[1], depth[2]};
   node.sequence = depth[by_sequence];
   r.node_ = static_cast<std::int32_t>(b.trace->nodes.size());

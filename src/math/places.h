@@ -174,7 +174,7 @@ struct Trace {
     std::uint32_t shape;
     std::int32_t occurrence;
     std::array<std::int32_t, 4> of{-1, -1, -1, -1};  ///< nodes; -1: none, or a number of unknown origin
-    std::array<float, 4> with{};                     ///< the operands themselves
+    std::array<float, 4> with{};                     ///< the operands themselves, after substitutions
     std::array<std::uint32_t, 2> shallow{};          ///< shapes one and two operations deep
     std::uint32_t sequence = 0;                      ///< hash of the last operations up to it
   };

@@ -82,6 +82,8 @@ void Invocation<N>::store(const Code& code) {
   for (std::uint32_t k = 0; k < code.n; ++k) {
     const std::uint32_t word = leaves[k] % 2 != 0 ? numbers::bits_of(from[k].number) : from[k].word;
     std::memcpy(to + leaves[k] / 2, &word, 4);
+    if constexpr (std::is_same_v<N, perturbed::Perturbed>)
+      if (trace_ && leaves[k] % 2 != 0 && from[k].number.node() >= 0) trace_->outputs.push_back(from[k].number.as_stored().node());
   }
 }
 

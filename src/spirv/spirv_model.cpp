@@ -35,6 +35,23 @@ int values_of(const capture::PassCase& c) {
   return values;
 }
 
+/// The numbers of an invocation are not made by an instruction.
+void note_given(capture::ProgramTrace& trace) {
+  for (std::uint32_t part = 0; trace.steps.size() < trace.values.nodes.size(); ++part)
+    trace.steps.push_back({capture::ProgramTrace::given, -1, part});
+}
+
+/// The resources of a case for another number type; `storage` makes the images that are written.
+template <class N, class MakeStorage>
+std::vector<Resource<N>> resources_of(const CaseBinding& binding, const MakeStorage& storage) {
+  std::vector<Resource<N>> out;
+  for (std::size_t i = 0; i < binding.resources().size(); ++i) {
+    const Resource<Float>& bound = binding.resources()[i];
+    out.push_back({bound.buffer, bound.image, bound.storage != nullptr ? storage(i) : nullptr});
+  }
+  return out;
+}
+
 class SpirvModel final : public capture::TracedProgram {
  public:
   SpirvModel(const capture::PassCase& c, const CaseOutput& first, std::unique_ptr<Module> module, std::unique_ptr<CaseBinding> binding,
@@ -70,14 +87,9 @@ class SpirvModel final : public capture::TracedProgram {
   void run(int x, int y, N* out, [[maybe_unused]] capture::ProgramTrace* trace = nullptr) const {
     const FloatingPointGuard guard;
     std::map<const CaseOutput*, OwnTexel<N>> written;
-    std::vector<Resource<N>> resources;
-    for (std::size_t i = 0; i < module_->descriptors.size(); ++i) {
-      const Resource<Float>& bound = binding_->resources()[i];
-      Resource<N>& r = resources.emplace_back();
-      r.buffer = bound.buffer;
-      r.image = bound.image;
-      if (bound.storage != nullptr) r.storage = &written.try_emplace(binding_->output(i), *binding_->output(i), x, y).first->second;
-    }
+    const auto resources = resources_of<N>(*binding_, [&](std::size_t i) -> StorageImage<N>* {
+      return &written.try_emplace(binding_->output(i), *binding_->output(i), x, y).first->second;
+    });
     Machine<N> machine(*module_, resources, limits_);
     Invocation<N> invocation(machine);
     if constexpr (std::is_same_v<N, perturbed::Perturbed>)
@@ -86,8 +98,7 @@ class SpirvModel final : public capture::TracedProgram {
     const Three& size = module_->group;
     invocation.begin({binding_->groups(), {column / size[0], row / size[1], 0}, {column % size[0], row % size[1], 0}});
     if constexpr (std::is_same_v<N, perturbed::Perturbed>)
-      for (std::uint32_t part = 0; trace && trace->steps.size() < trace->values.nodes.size(); ++part)
-        trace->steps.push_back({capture::ProgramTrace::given, -1, part});
+      if (trace) note_given(*trace);
     invocation.run();
     for (const CaseOutput& o : case_.outputs) {
       if (!is_asked(o)) continue;
@@ -102,7 +113,42 @@ class SpirvModel final : public capture::TracedProgram {
   Limits limits_;
 };
 
+class SpirvList final : public capture::TracedListProgram {
+ public:
+  SpirvList(const capture::PassCase& c, Program program, std::span<const std::byte> spirv, const std::string& name, const Limits& limits)
+      : program_(std::move(program)), module_(spirv, name, specialization_of(program_, c)), limits_(limits) {}
+  std::vector<capture::Array> trace(const capture::PassCase& c, capture::ProgramTrace& out) const override {
+    using perturbed::Perturbed;
+    const FloatingPointGuard guard;
+    perturbed::Behaviour behaviour;
+    behaviour.trace = &out.values;
+    const perturbed::Scope scope(behaviour);
+    const CaseBinding binding(c, program_, module_);
+    const auto resources = resources_of<Perturbed>(binding, [](std::size_t) -> StorageImage<Perturbed>* { return nullptr; });
+    Machine<Perturbed> machine(module_, resources, limits_);
+    Invocation<Perturbed> invocation(machine);
+    invocation.follow(out);
+    invocation.begin({binding.groups(), {}, {}});
+    note_given(out);
+    // The others have no record of their own, so that a barrier waits for nobody.
+    while (invocation.run() != Stop::finished) {
+    }
+    return binding.outputs();
+  }
+  capture::SourceLine line(std::uint32_t instruction) const override { return module_.source_line(instruction); }
+
+ private:
+  Program program_;
+  Module module_;
+  Limits limits_;
+};
+
 }  // namespace
+
+std::unique_ptr<capture::TracedListProgram> spirv_list(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
+                                                       const std::string& name, const Limits& limits) {
+  return std::make_unique<SpirvList>(c, program, spirv, name, limits);
+}
 
 std::unique_ptr<capture::TracedProgram> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
                                                     const std::string& name, const Limits& limits) {

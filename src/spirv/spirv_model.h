@@ -17,4 +17,8 @@ namespace rainref::spirv {
 std::unique_ptr<capture::TracedProgram> spirv_model(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
                                                     const std::string& name, const Limits& limits = {});
 
+/// A program that writes lists; `c` is a case of its pass. Throws like execute().
+std::unique_ptr<capture::TracedListProgram> spirv_list(const capture::PassCase& c, const Program& program, std::span<const std::byte> spirv,
+                                                       const std::string& name, const Limits& limits = {});
+
 }  // namespace rainref::spirv

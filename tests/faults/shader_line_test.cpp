@@ -2,6 +2,7 @@
 #include "faults/shader_line.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +16,7 @@ using perturbed::Trace;
 int add(Trace& t, Op op, float value, std::initializer_list<int> of = {}) {
   Trace::Node n{op, value, static_cast<std::uint32_t>(t.nodes.size()) + 1, 0};
   std::copy(of.begin(), of.end(), n.of.begin());
+  std::transform(of.begin(), of.end(), n.with.begin(), [&](int operand) { return t.nodes[static_cast<std::size_t>(operand)].value; });
   t.nodes.push_back(n);
   return static_cast<int>(t.nodes.size()) - 1;
 }
@@ -96,6 +98,112 @@ TEST(ShaderLine, OfAConstantIsWhereItIsSet) {
   const auto lines = lines_of_mistake(all);
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 7u);
+}
+/// a < b ? a b : c, and with the mistake the other way. `is_choice`: the mistake is in the choice.
+void add_decision(Followed& f, float a, float b, float c, bool is_choice) {
+  for (Trace* t : {&f.right, &f.wrong}) {
+    const bool is_wrong = t == &f.wrong, is_less = (a < b) != (is_wrong && !is_choice), takes_product = (a < b) != is_wrong;
+    const int na = add(*t, Op::load, a), nb = add(*t, Op::load, b), nc = add(*t, Op::load, c);
+    const int product = add(*t, Op::product, a * b, {na, nb});
+    const int less = add(*t, Op::comparison, is_less, {na, nb});
+    const int chosen = add(*t, Op::choice, takes_product ? a * b : c, {product, nc, less});
+    add(*t, Op::stored, takes_product ? a * b : c, {chosen});
+  }
+}
+TEST(ShaderLine, OfAConditionTheOtherWayIsItsComparison) {
+  // The port branches: what it chooses is a copy, which the reference has too.
+  for (const bool is_choice : {false, true}) {
+    const auto all = followed([&](Followed& f, float a, float b, float c) {
+      add_decision(f, a, b, c, is_choice);
+      const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b), nc = add(f.port, 12, Op::load, c);
+      add(f.port, 13, Op::comparison, b < c, {nb, nc});
+      add(f.port, 15, Op::comparison, b <= a, {nb, na});
+      const int taken = b <= a ? add(f.port, 16, Op::product, a * b, {na, nb}) : nc;
+      f.port.outputs = {add(f.port, 18, Op::stored, b <= a ? a * b : c, {taken})};
+      f.outputs = {0};
+    });
+    const auto lines = lines_of_mistake(all);
+    ASSERT_FALSE(lines.empty()) << is_choice;
+    EXPECT_EQ(lines[0].at, 15u) << is_choice;
+    EXPECT_EQ(lines[0].until, 15u) << is_choice;
+  }
+}
+TEST(ShaderLine, OfARoundingIsKnownByWhatIsRounded) {
+  // The half is left out: int(a) in place of floor(a + 1/2), whose values other operations have too.
+  const auto all = followed([](Followed& f, float a, float b, float) {
+    const float x = 1.6f + a / 20;
+    for (Trace* t : {&f.right, &f.wrong}) {
+      const bool is_wrong = t == &f.wrong;
+      const int nx = add(*t, Op::load, x), one = add(*t, Op::load, 1), nb = add(*t, Op::load, b);
+      const int sum = add(*t, Op::sum, is_wrong ? x : x + 0.5f, {nx});
+      const int whole = add(*t, Op::floor, std::floor(is_wrong ? x : x + 0.5f), {sum});
+      add(*t, Op::product, std::floor(is_wrong ? x : x + 0.5f) * b, {whole, nb, one});
+    }
+    const int nx = add(f.port, 10, Op::load, x), nb = add(f.port, 11, Op::load, b), one = add(f.port, 12, Op::load, 1);
+    const int whole = add(f.port, 13, Op::stored, std::floor(x), {nx}), copy = add(f.port, 14, Op::stored, 1, {one});
+    f.port.outputs = {add(f.port, 20, Op::product, std::floor(x) * b, {nb, whole, copy})};
+    f.outputs = {0};
+  });
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0].at, 13u);
+}
+TEST(ShaderLine, LiesBehindWhatRemainsWhereNothingElseIsNew) {
+  // max(a - b, c) without its max, which decides nothing in these invocations but what is stored.
+  const auto all = followed([](Followed& f, float a, float b, float) {
+    for (Trace* t : {&f.right, &f.wrong}) {
+      const int na = add(*t, Op::load, a), nb = add(*t, Op::load, b), nc = add(*t, Op::load, 9);
+      const int difference = add(*t, Op::difference, a - b, {na, nb});
+      const int held = add(*t, Op::maximum, t == &f.right ? 9 : a - b, {difference, nc});
+      add(*t, Op::stored, t == &f.right ? 9 : a - b, {held});
+    }
+    const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b);
+    const int difference = add(f.port, 12, Op::difference, a - b, {na, nb});
+    f.port.outputs = {add(f.port, 20, Op::stored, a - b, {difference})};
+    f.outputs = {0};
+  });
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0].at, 12u);
+  EXPECT_EQ(lines[0].until, 20u);
+}
+TEST(ShaderLine, LiesBehindTheOperandThatLacksAStep) {
+  // The reference adds c^2 to a b, the mistake and the port c, which the reference has too.
+  const auto all = followed([](Followed& f, float a, float b, float c) {
+    for (Trace* t : {&f.right, &f.wrong}) {
+      const int na = add(*t, Op::load, a), nb = add(*t, Op::load, b), nc = add(*t, Op::load, c);
+      const int squared = add(*t, Op::square, c * c, {nc}), product = add(*t, Op::product, a * b, {na, nb});
+      add(*t, Op::sum, a * b + (t == &f.right ? c * c : c), {product, squared});
+    }
+    const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b), nc = add(f.port, 12, Op::load, c);
+    const int copy = add(f.port, 14, Op::stored, c, {nc}), product = add(f.port, 15, Op::product, a * b, {na, nb});
+    add(f.port, 19, Op::sum, a * b + c, {product, copy});
+  });
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_LE(lines[0].at, 14u);
+  EXPECT_EQ(lines[0].until, 19u);
+}
+TEST(ShaderLine, OfAHelperThatIsWrongInMostCallsIsInTheHelper) {
+  // A helper reads a in place of b; its two calls add what it reads to others.
+  const auto all = followed([](Followed& f, float a, float b, float c) {
+    for (Trace* t : {&f.right, &f.wrong})
+      for (const float x : {c, c * c}) {
+        const int na = add(*t, Op::load, a * x), nx = add(*t, Op::load, x);
+        const int read = add(*t, Op::load, t == &f.right ? b * x : a * x);
+        add(*t, Op::sum, x + (t == &f.right ? b * x : a * x), {nx, read, na});
+      }
+    f.port.calls = {{30, -1}, {31, -1}};
+    int call = 0;
+    for (const float x : {c, c * c}) {
+      const int nx = add(f.port, 10, Op::load, x);
+      const int read = add(f.port, 5, Op::load, a * x, {nx}, call++);
+      add(f.port, 30 + static_cast<std::uint32_t>(call), Op::sum, x + a * x, {nx, read});
+    }
+  });
+  const auto lines = lines_of_mistake(all);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0].at, 5u);
 }
 TEST(ShaderLine, IsNotSaidOfAPortThatDoesSomethingElse) {
   const auto all = followed([](Followed& f, float a, float b, float c) {

@@ -44,16 +44,19 @@ struct Judged {
   Json mistake;
 };
 
-/// A port of one pass with a mistake in it, compiled with or without its lines, executed and judged.
+/// A port of one pass with a mistake in it, compiled with or without its lines, executed and judged. Set o is in ports of its own.
 Judged judged(const std::string& id, const std::string& pack_name, const std::string& option) {
   const fs::path ports = fs::path(test::source_folder()) / "tests/ports";
   Judged out;
-  const Json set = Json::parse(text_of(ports / "mistakes/set_o.json"));
+  const Json set = Json::parse(text_of(ports / ("mistakes/set_" + id.substr(0, 1) + ".json")));
   for (const Json& m : set["mistakes"])
     if (m["id"] == id) out.mistake = m;
-  const std::string effect = out.mistake["effect"], pass = out.mistake["pass"];
+  const std::string pass = out.mistake["pass"], edited = out.mistake["edits"][0]["file"];
+  const bool is_example = !edited.starts_with("other_hand/");
+  const std::string effect = is_example ? edited.substr(0, edited.find('/')) : std::string(out.mistake["effect"]);
+  const fs::path examples = fs::path(test::source_folder()) / "examples/ports";
   const TemporaryFolder folder;
-  fs::copy(ports / "other_hand" / effect, folder / "src");
+  fs::copy((is_example ? examples : ports / "other_hand") / effect, folder / "src");
   const auto pack = std::make_shared<const capture::Pack>(test::pack_folder(pack_name));
   const std::string formula = pack->pass(pass).formula;
   Json program = Json::parse(text_of(folder / "src/bindings.json"))["programs"][formula];
@@ -68,8 +71,9 @@ Judged judged(const std::string& id, const std::string& pack_name, const std::st
   }
   const fs::path spirv = folder / "spirv", port = folder / "port";
   fs::create_directories(spirv);
-  const auto [said, status] = output_of("cd '" + (folder / "src").string() + "' && '" RAINREF_GLSLANG "' -V " + option +
-                                        " --target-env vulkan1.1 --quiet " + shader + " -o ../spirv/a.spv");
+  const auto [said, status] =
+      output_of("cd '" + (folder / "src").string() + "' && '" RAINREF_GLSLANG "' -V " + option + " --target-env vulkan1.1 --quiet -I'" +
+                (examples / "common").string() + "' " + shader + " -o ../spirv/a.spv");
   if (status != 0) throw std::runtime_error(said);
   program["spirv"] = "a.spv";
   std::ofstream(spirv / "bindings.json") << Json{{"programs", {{formula, program}}}};
@@ -124,6 +128,9 @@ void expect_line(const std::string& id, const std::string& pack) {
 TEST_F(ShaderLines, OfAShade) { expect_line("o008", "puddle-as-published"); }
 TEST_F(ShaderLines, OfALookup) { expect_line("o028", "edge_splash-corrected"); }
 TEST_F(ShaderLines, OfAMissingStep) { expect_line("o002", "puddle-as-published"); }
+TEST_F(ShaderLines, OfACondition) { expect_line("q005", "puddle-corrected"); }
+TEST_F(ShaderLines, OfARounding) { expect_line("o026", "edge_splash-corrected"); }
+TEST_F(ShaderLines, OfARecordOfAList) { expect_line("q016", "windshield-as-published"); }
 
 TEST_F(ShaderLines, AreNotSaidOfAShaderWithoutThem) {
   const Judged j = judged("o008", "puddle-as-published", "");
