@@ -3,13 +3,29 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "capture/json_field.h"
 #include "capture/json_read.h"
+#include "port_dump/apis.h"
 #include "port_dump/dump_file.h"
+#include "rainref/error.h"
 
 namespace rainref::port_dump {
+namespace {
+
+/// The text of `api`, which names a known one, or is empty.
+std::string api_text(const capture::JsonField& field) {
+  const std::string text = field.text();
+  if (text.empty() || api_of(text)) return text;
+  std::vector<std::string> names;
+  for (const Api& api : apis()) names.emplace_back(api.name);
+  field.refuse(fmt::format("expected one of {}, with or without a version, found '{}'{}", fmt::join(names, ", "), text.substr(0, 64),
+                           did_you_mean(text.substr(0, text.find_first_of(" 0123456789")), names)));
+}
+
+}  // namespace
 
 PortInfo parse_port_info(std::string_view text, const std::string& file) {
   static const std::array<std::string, 8> keys{"api", "device", "driver", "half_store", "flush_denormals", "origin", "precise", "notes"};
@@ -20,7 +36,7 @@ PortInfo parse_port_info(std::string_view text, const std::string& file) {
   object.require_known(keys);
   const auto text_of = [&](const char* key) { return object.has(key) ? object[key].text() : std::string(); };
   PortInfo out;
-  out.api = text_of("api");
+  if (object.has("api")) out.api = api_text(object["api"]);
   out.device = text_of("device");
   out.driver = text_of("driver");
   out.notes = text_of("notes");
