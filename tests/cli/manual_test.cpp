@@ -74,7 +74,7 @@ TEST_F(Manual, ShellsCompleteVerbsWordsScenesAndFiles) {
   EXPECT_EQ(completed({"sweep", "pl"}), std::vector<std::string>{"plan"});
   EXPECT_EQ(completed({"describe", "rain"}), std::vector<std::string>{"rainy_glass"});
   EXPECT_EQ(completed({"run", "x.toml", "--image", "p"}), std::vector<std::string>{"png"});
-  EXPECT_EQ(completed({"validate", "--profile", "w"}), std::vector<std::string>{"webgpu"});
+  EXPECT_EQ(completed({"validate", "--profile", "v"}), std::vector<std::string>{"vulkan"});
   EXPECT_EQ(completed({"hash", "puddle/def"}), std::vector<std::string>{"puddle/default.toml"});
   EXPECT_THAT(completed({"run", "x.toml", "--frames", ""}), testing::IsEmpty());
   std::filesystem::create_directories(folder / "my_folder");

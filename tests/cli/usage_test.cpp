@@ -50,7 +50,7 @@ TEST_F(Usage, HelpSaysWhatAValueIs) {
 
 TEST_F(Usage, HelpNamesTheProfilesThatJudge) {
   for (const char* verb : {"validate", "mutate"})
-    EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda|d3d|ieee|metal|vulkan|webgpu"));
+    EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda|d3d|gles|ieee|metal|opencl|opengl|vulkan|webgl|webgpu"));
 }
 
 TEST_F(Usage, VersionIsOneLine) {

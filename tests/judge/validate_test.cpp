@@ -364,6 +364,23 @@ TEST_F(Files, EachIsReadOnce) {
   EXPECT_EQ(shown->port.levels.at(0).size(), std::size_t{35} * 21 * 4);
 }
 
+// A port that ran under another API than the profile's is judged, and the report says so.
+TEST_F(Files, AnotherApiThanTheProfilesIsANote) {
+  const auto notes = [&](const std::string& api, const std::string& profile) {
+    put(folder / "port.json", R"({"api": ")" + api + "\"}");
+    ValidateOptions options;
+    options.profile = profile;
+    options.only = {"display"};
+    options.executor = &test_executor();
+    return validate(port.pack, folder.path(), options).notes;
+  };
+  for (const auto& [api, profile] :
+       {std::pair{"Vulkan 1.3", "vulkan"}, {"GLES 3.2", "gles"}, {"OpenCL", "ieee"}, {"CPU", "vulkan"}, {"", "d3d"}})
+    EXPECT_THAT(notes(api, profile), testing::IsEmpty()) << api << ' ' << profile;
+  EXPECT_THAT(notes("OpenGL ES 3.2", "vulkan"),
+              testing::ElementsAre("port.json names OpenGL ES, whose profile is gles; this is judged under vulkan"));
+}
+
 // A folder in the place of a file is the port's, as a missing file is.
 TEST_F(Files, AFolderInThePlaceOfAFileIsRefusedAsAMissingOne) {
   std::filesystem::remove(file("puddle.shade/0011.0/out.colour.npy"));
