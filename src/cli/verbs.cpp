@@ -53,7 +53,8 @@ Verb describe_verb(CLI::App& app) {
   const auto f = std::make_shared<Flags>();
   verb.add_option("EFFECT", f->effect, "Effect")->type_name(effect_words());
   verb.add_flag("--json", f->json, "As JSON");
-  verb.add_option("--layout", f->layout.language, "Uniform blocks, records and lists ready to paste")->type_name("c|glsl|hlsl|wgsl|cuda");
+  verb.add_option("--layout", f->layout.language, "Uniform blocks, records, images and lists ready to paste")
+      ->type_name("c|glsl|hlsl|wgsl|cuda|glsl330|gdshader");
   verb.add_option("--pass", f->layout.pass, "With --layout: what this pass needs alone")->type_name("NAME");
   verb.add_option("--variant", f->layout.variant, "With --layout: in this variant alone")->type_name("as-published|corrected");
   verb.add_option("--spirv", f->spirv, "Instead of an effect: the first draft of a description of these shaders, for `pack --spirv`")

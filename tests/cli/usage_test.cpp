@@ -105,7 +105,7 @@ TEST_F(Usage, MissingAndSpareArguments) {
 TEST_F(Usage, UnknownEffectOrLayout) {
   expect_refusal({"describe", "pudle"}, 2, "effect: expected one of " + effect_list() + ", found 'pudle'; did you mean 'puddle'?");
   expect_refusal({"describe", "puddle", "--layout", "glls"}, 2,
-                 "layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', found 'glls'; did you mean 'glsl'?");
+                 "layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', 'glsl330', 'gdshader', found 'glls'; did you mean 'glsl'?");
   expect_refusal({"describe", "puddle", "--layout", ""}, 2, StartsWith("layout: expected one of 'c', "));
 }
 
