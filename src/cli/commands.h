@@ -97,3 +97,5 @@ int mutate(const MutateRequest& request);
 int selftest();
 
 }  // namespace rainref::cli
+/// `pack --flat`: a pack's inputs and uniforms as raw bytes, in a folder of their own.
+int flat_pack(const std::filesystem::path& pack, const std::filesystem::path& output);

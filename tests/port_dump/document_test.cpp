@@ -59,6 +59,18 @@ TEST(Document, TheWriterInCSharp) {
   EXPECT_EQ((10 + static_cast<unsigned char>(file.at(8)) + 256 * static_cast<unsigned char>(file.at(9))) % 64, 0);  // as the others pad
 }
 
+// npy.js, which the document names.
+TEST(Document, TheWriterInJavaScript) {
+  if (run("node --version") != 0) GTEST_SKIP() << "no node here";
+  Dump dump;
+  const std::string folder = dump.path().string();
+  dump.file("main.mjs", "import {writeFileSync} from 'fs';\nimport {npyFile} from '" + rainref::test::source_folder() +
+                            "/examples/ports/wgsl/npy.js';\nwriteFileSync(process.argv[2], npyFile(\"'<f2'\", [2, 3, 2], Buffer.from('" +
+                            texels + "')));\n");
+  ASSERT_EQ(run("node " + folder + "/main.mjs " + folder + "/out.b.npy"), 0);
+  EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
+}
+
 TEST(Document, ItsJsonIsAccepted) {
   const std::string text = contents(document);
   std::vector<std::string> blocks;
