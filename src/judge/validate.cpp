@@ -79,8 +79,9 @@ PortRun read_run(const Pack& pack, const PackCase& entry, PortFiles& port, FileF
     }
     const std::string stem = "out." + output.name;
     faults.attempt(entry.pass, entry.id, stem, [&] {
-      require_apart(pack.folder() / entry.outputs[o].levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, stem).path,
-                    ExitCode::port_files);
+      for (const std::string& file : port_dump::stems_of(stem, port.info()))
+        require_apart(pack.folder() / entry.outputs[o].levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, file).path,
+                      ExitCode::port_files);
       run.stored.push_back(port.read(entry.id, stem, output.array));
     });
   }

@@ -25,10 +25,26 @@ std::string api_text(const capture::JsonField& field) {
                            did_you_mean(text.substr(0, text.find_first_of(" 0123456789")), names)));
 }
 
+Encodings encodings_of(const capture::JsonField& object) {
+  Encodings out;
+  for (const auto& [buffer, list] : object.members()) {
+    const std::vector<std::string> texts = list.texts();
+    if (texts.empty() || texts.size() > 4) list.refuse(fmt::format("expected 1 to 4 channels, found {}", texts.size()));
+    for (const std::string& text : texts) {
+      ChannelSource source;
+      if (!parse_source(text, source))
+        list.refuse(fmt::format("expected a channel such as x, -y, 1-g or newest.x, found '{}'", text.substr(0, 64)));
+      out[buffer].push_back(std::move(source));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 PortInfo parse_port_info(std::string_view text, const std::string& file) {
-  static const std::array<std::string, 8> keys{"api", "device", "driver", "half_store", "flush_denormals", "origin", "precise", "notes"};
+  static const std::array<std::string, 9> keys{"api",    "device",    "driver",  "half_store", "flush_denormals",
+                                               "origin", "encodings", "precise", "notes"};
   static const std::array<std::string, 3> roundings{"rne", "rtz", "unknown"};
   static const std::array<std::string, 2> origins{"top-left", "bottom-left"};
   const nlohmann::ordered_json json = capture::parse_json(text, file, capture::small_json);
@@ -44,6 +60,7 @@ PortInfo parse_port_info(std::string_view text, const std::string& file) {
   if (rounding < 2) out.half_store = rounding == 0 ? Rounding::rne : Rounding::rtz;
   if (object.has("flush_denormals")) out.flush_denormals = object["flush_denormals"].boolean();
   if (object.has("origin")) out.origin = static_cast<Origin>(object["origin"].one_of(origins));
+  if (object.has("encodings")) out.encodings = encodings_of(object["encodings"]);
   out.precise = object.has("precise") && object["precise"].boolean();
   return out;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "port_dump/encoding.h"
 #include "rainref/storage.h"
 
 namespace rainref::port_dump {
@@ -21,6 +22,7 @@ struct PortInfo {
   std::optional<Rounding> half_store;   ///< how a store to binary16 rounds; nothing if unknown
   std::optional<bool> flush_denormals;  ///< subnormal results become zero; nothing if unknown
   Origin origin = Origin::top_left;     ///< for every image of the dump unless its sidecar overrides it
+  Encodings encodings;                  ///< of buffers that the port keeps in its own way
   bool precise = false;                 ///< the port states that it requested no contraction and no reassociation
   std::string notes;
 };
