@@ -305,8 +305,7 @@ TEST(ProfileTables, AreThoseThatAreOffered) {
 // Each API has one, and each but `ieee` is that of one API.
 TEST(ProfileTables, AreThoseOfTheApisOfPorts) {
   std::set<std::string> of_apis{"ieee"};
-  for (const port_dump::Api& api : port_dump::apis())
-    EXPECT_TRUE(api.profile.empty() || of_apis.emplace(api.profile).second) << api.name;
+  for (const port_dump::Api& api : port_dump::apis()) EXPECT_TRUE(api.profile.empty() || of_apis.emplace(api.profile).second) << api.name;
   const std::vector<std::string> names = profile_names();
   EXPECT_EQ(of_apis, std::set<std::string>(names.begin(), names.end()));
 }
