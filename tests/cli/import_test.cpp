@@ -82,6 +82,7 @@ TEST_F(Import, Refusals) {
   before = folder.names();
   refused(id + "/out.picture", 3, HasSubstr("out.picture.dds' holds the same buffer; remove it first"));
   std::filesystem::remove(folder / "file");
+  std::filesystem::remove_all(folder / "port");
   before = folder.names();
   refused(id + "/out.picture", 4, HasSubstr("file"));
 }
