@@ -7,9 +7,9 @@ packages=(cmake ninja-build g++ ccache pkg-config git
   libembree-dev libopenimageio-dev libpng-dev libsqlite3-dev libgtest-dev libgmock-dev libbenchmark-dev libmpfr-dev
   libvulkan-dev mesa-vulkan-drivers glslang-tools)
 # Without these some tests would be skipped: the page in a browser and its script without one, JUnit against its schema, the format of the sources, the Python package and its types, the reference,
-# films, what other programs read in pictures, and C#.
+# films, what other programs read in pictures, C#, and Godot.
 test_packages=(chromium nodejs libxml2-utils clang-format python3-numpy python3-pytest python3-pip python3-venv python3-setuptools python3-wheel
-  mypy doxygen ffmpeg openimageio-tools mono-mcs)
+  mypy doxygen ffmpeg openimageio-tools mono-mcs godot3-server)
 
 say() { printf '%s\n' "$*" >&2; }
 die() { say "$*"; exit 1; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/validate_reports.h"
+#include "port_dump/import_image.h"
 
 namespace rainref::cli {
 
@@ -47,6 +48,13 @@ struct PackOptions {
 struct ForeignPackOptions {
   std::filesystem::path effect, inputs, output;
   int threads = 0;
+};
+
+/// `import`.
+struct ImportRequest {
+  std::filesystem::path file, pack, output;  ///< output: the port's folder
+  std::string as;                            ///< "puddle.display/0012.0/out.picture"
+  port_dump::ImportHints hints;
 };
 
 struct ValidateRequest {
@@ -91,7 +99,11 @@ int run(const RunOptions& options);
 int hash(const SceneOptions& options);
 int pack(const PackOptions& options);
 int pack(const ForeignPackOptions& options);
+/// `pack --flat`: a pack's inputs and uniforms as raw bytes, in a folder of their own.
+int flat_pack(const std::filesystem::path& pack, const std::filesystem::path& output);
 int diff(const std::filesystem::path& a, const std::filesystem::path& b);
+/// `import`: writes a file of a debugger or an engine into a port's folder, and says how it was read.
+int import_file(const ImportRequest& request);
 int validate(const ValidateRequest& request);
 int mutate(const MutateRequest& request);
 int selftest();

@@ -166,6 +166,41 @@ Verb validate_verb(CLI::App& app, const std::string& command) {
           }};
 }
 
+Verb import_verb(CLI::App& app) {
+  struct Flags {
+    std::string file, as, pack, output;
+    std::optional<std::string> origin, order, pitch;
+  };
+  CLI::App& verb = *app.add_subcommand("import", "Take a file of a debugger or an engine into a port's dump");
+  const auto f = std::make_shared<Flags>();
+  verb.add_option("FILE", f->file, "DDS, EXR, PNG, NPY or raw bytes of one image")->type_name("FILE")->required();
+  verb.add_option("--as", f->as, "What it holds: a case and an output of the pack, such as puddle.display/0012.0/out.picture")
+      ->type_name("CASE/out.BUFFER")
+      ->required();
+  verb.add_option("--pack", f->pack, "Folder of the pack, whose expected values tell what the file does not say")
+      ->type_name("DIR")
+      ->required();
+  verb.add_option("-o,--output", f->output, "The port's folder")->type_name("DIR")->required();
+  verb.add_option("--origin", f->origin, "The first stored row: v = 0 is top-left (default: as the values tell)")
+      ->type_name("top-left|bottom-left");
+  verb.add_option("--row-pitch", f->pitch, "Raw bytes: bytes from row to row")->type_name("N");
+  verb.add_option("--channel-order", f->order, "Raw bytes of four channels")->type_name("rgba|bgra");
+  verb.footer("Example: rainref import picture.dds --as puddle.display/0012.0/out.picture --pack out/pack -o out/port");
+  return {&verb, [f] {
+            ImportRequest request{f->file, f->pack, f->output, f->as, {}};
+            if (f->origin) {
+              require_word(*f->origin, "--origin", "top-left or bottom-left", {"top-left", "bottom-left"});
+              request.hints.origin = *f->origin == "top-left" ? port_dump::Origin::top_left : port_dump::Origin::bottom_left;
+            }
+            if (f->order) {
+              require_word(*f->order, "--channel-order", "rgba or bgra", {"rgba", "bgra"});
+              request.hints.is_bgra = *f->order == "bgra";
+            }
+            if (f->pitch) request.hints.row_pitch = static_cast<std::size_t>(whole_number(*f->pitch, "--row-pitch", 1, 1 << 24));
+            return import_file(request);
+          }};
+}
+
 Verb mutate_verb(CLI::App& app) {
   struct Flags {
     MutateRequest request;

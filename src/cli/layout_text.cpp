@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "rainref/error.h"
+#include "scene/binding_layout.h"
 
 namespace rainref::cli {
 namespace {
@@ -15,7 +16,7 @@ using scene::Language;
 
 /// The bindings of a pass in a variant, in order.
 struct Bound {
-  std::string name, record;  ///< record: "" for an image
+  std::string name, record, format;  ///< record: "" for an image
   bool is_written;
   int slot;  ///< HLSL: t or u register
   bool operator==(const Bound&) const = default;
@@ -23,6 +24,10 @@ struct Bound {
 struct Interface {
   std::string variant, block;
   std::vector<Bound> bound;
+
+  bool writes_lists() const {
+    return std::any_of(bound.begin(), bound.end(), [](const Bound& b) { return b.is_written && !b.record.empty(); });
+  }
 };
 
 Interface interface_of(const capture::EffectInfo& effect, const capture::PassInfo& pass, const capture::PassVariant& variant) {
@@ -30,7 +35,7 @@ Interface interface_of(const capture::EffectInfo& effect, const capture::PassInf
   int slots[2] = {0, 0};
   const auto add = [&](const std::string& buffer, const std::string& name, bool is_written) {
     const capture::BufferInfo& info = effect.buffer(buffer, variant.name);
-    out.bound.push_back({name, info.format == "records" ? info.record : "", is_written, slots[is_written]++});
+    out.bound.push_back({name, info.format == "records" ? info.record : "", info.format, is_written, slots[is_written]++});
   };
   for (const capture::ReadInfo& r : pass.reads)
     if (r.variant.empty() || r.variant == variant.name) add(r.buffer, r.buffer, false);
@@ -42,9 +47,17 @@ Interface interface_of(const capture::EffectInfo& effect, const capture::PassInf
   return out;
 }
 
+/// Where members of a block are names of the whole shader, an image or a list of the same name gets another.
+void set_apart(Interface& of, const scene::UniformBlock& block, Language language) {
+  if (language != Language::hlsl && language != Language::gdshader) return;
+  for (Bound& b : of.bound)
+    if (std::any_of(block.members.begin(), block.members.end(), [&](const scene::Member& m) { return m.name == b.name; }))
+      b.name += b.record.empty() ? "_image" : "_list";
+}
+
 // "0 WaveStepUniforms, 1 wave (image), 2 drops, 3 wave_out (image)".
 std::string places(const Interface& of, Language language) {
-  if (language == Language::c || language == Language::cuda) {
+  if (language == Language::c || language == Language::cuda || language == Language::gdshader || language == Language::glsl330) {
     std::vector<std::string> read, written;
     for (const Bound& b : of.bound) (b.is_written ? written : read).push_back(b.record.empty() ? b.name + " (image)" : b.name);
     return fmt::format("Reads {}; writes {}.", read.empty() ? "nothing" : fmt::format("{}", fmt::join(read, ", ")),
@@ -58,6 +71,25 @@ std::string places(const Interface& of, Language language) {
     text += fmt::format(", {} {}{}", place, b.name, b.record.empty() ? " (image)" : "");
   }
   return text + ".";
+}
+
+/// Declares images and lists.
+std::string declarations(const capture::EffectInfo& effect, const std::string& pass, const Interface& of, Language language) {
+  int counter = static_cast<int>(std::count_if(of.bound.begin(), of.bound.end(), [](const Bound& b) { return b.is_written; }));
+  std::vector<scene::ImageBinding> images;
+  std::string lists;
+  for (std::size_t i = 0; i < of.bound.size(); ++i) {
+    const Bound& b = of.bound[i];
+    const scene::Place place{static_cast<int>(i) + 1, b.slot};
+    if (b.record.empty()) {
+      images.push_back({b.name, b.format, b.is_written, place});
+      continue;
+    }
+    const scene::ListBinding list{b.name, b.record, b.is_written, place, b.is_written ? counter++ : 0};
+    const bool is_texels = language == Language::glsl330 || language == Language::gdshader;
+    lists += is_texels ? scene::list_in_texels(list, effect.record(b.record), language) : scene::list_layout(list, language);
+  }
+  return scene::image_layout(images, pass, !of.writes_lists(), language) + lists;
 }
 
 const capture::PassInfo& find_pass(const capture::EffectInfo& effect, const std::string& name) {
@@ -88,12 +120,13 @@ std::string layout_text(const capture::EffectInfo& effect, Language language, co
                             pass ? fmt::format(", in which {} runs", *pass) : "", *variant, did_you_mean(*variant, variants)));
   }
 
-  std::string text;
+  std::string text = scene::layout_preamble(language);
   std::set<std::string> printed;
   for (const capture::PassInfo* p : passes) {
     std::vector<Interface> interfaces;
     for (const capture::PassVariant& v : p->variants)
       if (!variant || v.name == *variant) interfaces.push_back(interface_of(effect, *p, v));
+    for (Interface& i : interfaces) set_apart(i, p->block(i.variant), language);
     // Variants with equal bindings are listed once.
     const bool are_alike = std::all_of(interfaces.begin(), interfaces.end(), [&](const Interface& i) {
       return i.block == interfaces[0].block && i.bound == interfaces[0].bound;
@@ -102,15 +135,12 @@ std::string layout_text(const capture::EffectInfo& effect, Language language, co
     for (const Interface& of : interfaces) {
       text += fmt::format("// Pass {}{}. {}\n", p->name, are_alike && !variant ? "" : ", " + of.variant, places(of, language));
       for (const Bound& b : of.bound) {
-        if (!b.record.empty() && printed.insert(b.record).second) text += scene::record_layout(effect.record(b.record), language) + "\n";
+        if (b.record.empty() || !printed.insert(b.record).second) continue;
+        if (const std::string record = scene::record_layout(effect.record(b.record), language); !record.empty()) text += record + "\n";
       }
       if (printed.insert(of.block).second) text += scene::layout(p->block(of.variant), language) + "\n";
-      std::string lists;
-      for (std::size_t i = 0; i < of.bound.size(); ++i) {
-        const Bound& b = of.bound[i];
-        if (!b.record.empty()) lists += scene::list_layout({b.name, b.record, b.is_written, static_cast<int>(i) + 1, b.slot}, language);
-      }
-      if (!lists.empty()) text += lists + "\n";
+      const std::string bindings = declarations(effect, p->name, of, language);
+      if (!bindings.empty()) text += bindings + "\n";
     }
   }
   return text;

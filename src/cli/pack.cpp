@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "capture/capture_recorder.h"
+#include "capture/flat_pack.h"
 #include "capture/pack_read.h"
 #include "capture/pack_write.h"
 #include "cli/commands.h"
@@ -190,6 +191,12 @@ int pack(const ForeignPackOptions& options) {
   for (const std::string& warning : made.warnings) say("warning: {}\n", warning);
   say("{} of {} in {}, {}, in {}\n", counted(made.total.cases, "case"), fmt::join(made.passes, " "), counted(made.total.files, "file"),
       memory_text(made.total.bytes), options.output.string());
+  return 0;
+}
+
+int flat_pack(const std::filesystem::path& pack, const std::filesystem::path& output) {
+  const capture::PackWriter::Total total = capture::write_flat(capture::Pack(pack), output);
+  say("{} in {}, {}, in {}\n", counted(total.cases, "case"), counted(total.files, "file"), memory_text(total.bytes), output.string());
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/progress.h"
 #include "cli/terminal.h"
 #include "rainref/recorder.h"
 #include "simulation/opened.h"

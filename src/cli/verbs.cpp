@@ -53,7 +53,8 @@ Verb describe_verb(CLI::App& app) {
   const auto f = std::make_shared<Flags>();
   verb.add_option("EFFECT", f->effect, "Effect")->type_name(effect_words());
   verb.add_flag("--json", f->json, "As JSON");
-  verb.add_option("--layout", f->layout.language, "Uniform blocks, records and lists ready to paste")->type_name("c|glsl|hlsl|wgsl|cuda");
+  verb.add_option("--layout", f->layout.language, "Uniform blocks, records, images and lists ready to paste")
+      ->type_name("c|glsl|hlsl|wgsl|cuda|glsl330|gdshader");
   verb.add_option("--pass", f->layout.pass, "With --layout: what this pass needs alone")->type_name("NAME");
   verb.add_option("--variant", f->layout.variant, "With --layout: in this variant alone")->type_name("as-published|corrected");
   verb.add_option("--spirv", f->spirv, "Instead of an effect: the first draft of a description of these shaders, for `pack --spirv`")
@@ -145,7 +146,7 @@ Verb pack_verb(CLI::App& app) {
     std::string output;
     std::optional<std::string> at, passes;
     bool shows_coverage = false;
-    std::string spirv, inputs;
+    std::string spirv, inputs, flat;
   };
   CLI::App& verb = *app.add_subcommand("pack", "Write a conformance pack: inputs, uniforms and expected outputs of every pass");
   const auto f = std::make_shared<Flags>();
@@ -156,19 +157,36 @@ Verb pack_verb(CLI::App& app) {
           "Instead of a scene: the description of an effect of your own, whose trusted shaders are the reference (see `describe --spirv`)")
       ->type_name("FILE");
   verb.add_option("--inputs", f->inputs, "With --spirv: inputs and uniforms of your own run")->type_name("DIR");
+  verb.add_option(
+          "--flat", f->flat,
+          "Instead of a scene: a pack, whose inputs and uniforms are written once more as raw bytes with one flat.json, for engines "
+          "that read no NPY")
+      ->type_name("PACK");
   verb.add_option("-o,--output", f->output, "Folder of the pack; an older pack there is replaced")->type_name("DIR")->required();
   verb.add_option("--at", f->at, "Frames to take (default: 0,1,12, and one more for a pass that does nothing in these)")->type_name("LIST");
   verb.add_option("--passes", f->passes, "Passes to take, such as wave_step,shade (default: all)")->type_name("LIST");
   verb.add_flag("--coverage", f->shows_coverage, "List what of each pass's text no case takes; the manifest has it too");
   verb.footer(
       "Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack\n"
-      "An effect of your own: rainref pack --spirv effect.json --inputs my_run -o out/pack");
+      "An effect of your own: rainref pack --spirv effect.json --inputs my_run -o out/pack\n"
+      "For an engine without NPY: rainref pack --flat out/pack -o out/flat");
   return {&verb, [f] {
             require_text(f->output, "--output", "a folder");
-            require_either(f->scene.scene, "SCENE", f->spirv);
-            if (!f->spirv.empty()) {
+            const int sources = !f->scene.scene.empty() + !f->spirv.empty() + !f->flat.empty();
+            if (sources != 1)
+              throw Error(ExitCode::usage,
+                          fmt::format("expected one of SCENE, --spirv and --flat, found {}", sources == 0 ? "none" : "several"));
+            if (f->scene.scene.empty()) {
               if (f->at || f->passes || f->shows_coverage || f->scene.size || f->scene.simd || !f->scene.set.empty())
-                throw Error(ExitCode::usage, "--spirv: expected none of --at, --passes, --coverage, --size, --simd and --set beside it");
+                throw Error(ExitCode::usage,
+                            fmt::format("{}: expected none of --at, --passes, --coverage, --size, --simd and --set beside it",
+                                        f->flat.empty() ? "--spirv" : "--flat"));
+            }
+            if (!f->flat.empty()) {
+              if (!f->inputs.empty()) throw Error(ExitCode::usage, "--inputs: only beside --spirv");
+              return flat_pack(f->flat, f->output);
+            }
+            if (!f->spirv.empty()) {
               require_text(f->inputs, "--inputs", "the folder of a run");
               ForeignPackOptions own{f->spirv, f->inputs, f->output};
               if (f->scene.threads) own.threads = whole_number(*f->scene.threads, "--threads", 1, parallel::Executor::max_threads);

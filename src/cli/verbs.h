@@ -26,6 +26,7 @@ Verb diff_verb(CLI::App& app);
 /// `command`: as typed, for the reports.
 Verb validate_verb(CLI::App& app, const std::string& command);
 Verb mutate_verb(CLI::App& app);
+Verb import_verb(CLI::App& app);
 Verb sweep_verb(CLI::App& app);
 Verb selftest_verb(CLI::App& app);
 

@@ -52,6 +52,13 @@ PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::stri
                 fmt::format("{}: expected a folder of a port, found {}", folder_.string(), fs::exists(folder_, error) ? "a file" : "none"));
   }
   info_ = port_dump::read_port_info(folder_);
+  if (!own) return;
+  std::vector<std::string> names;
+  for (const capture::BufferInfo& buffer : own->info->buffers) names.push_back(buffer.name);
+  for (const auto& [name, sources] : info_.encodings)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw Error(ExitCode::port_files, fmt::format("'{}': encodings: expected a buffer of {}, found '{}'{}",
+                                                    (folder_ / "port.json").string(), effect, name, did_you_mean(name, names)));
 }
 
 capture::Array PortFiles::read(const fs::path& run, const std::string& stem, const capture::Array& expected) {

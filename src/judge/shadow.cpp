@@ -119,7 +119,8 @@ class Shadow {
     if (!shared.empty() && shared.front() != run.id + "/" + stem) {
       // A manifest names one file for equal arrays; the port's own dump has priority.
       try {
-        static_cast<void>(port_dump::find_dump_file(files_.folder() / run.id, stem));
+        for (const std::string& file : port_dump::stems_of(stem, files_.info()))
+          static_cast<void>(port_dump::find_dump_file(files_.folder() / run.id, file));
       } catch (const Error&) {
         // Each level may be shared with another run.
         Array all;

@@ -11,6 +11,7 @@
 #include "judge/judge_pass.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
+#include "port_dump/apis.h"
 #include "port_dump/dump_file.h"
 #include "rainref/error.h"
 
@@ -78,8 +79,9 @@ PortRun read_run(const Pack& pack, const PackCase& entry, PortFiles& port, FileF
     }
     const std::string stem = "out." + output.name;
     faults.attempt(entry.pass, entry.id, stem, [&] {
-      require_apart(pack.folder() / entry.outputs[o].levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, stem).path,
-                    ExitCode::port_files);
+      for (const std::string& file : port_dump::stems_of(stem, port.info()))
+        require_apart(pack.folder() / entry.outputs[o].levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, file).path,
+                      ExitCode::port_files);
       run.stored.push_back(port.read(entry.id, stem, output.array));
     });
   }
@@ -116,6 +118,9 @@ void describe_port(const port_dump::PortInfo& info, PortJudgement& j) {
   j.api = info.api;
   j.device = info.device;
   j.driver = info.driver;
+  const port_dump::Api* api = port_dump::api_of(info.api);
+  if (api && !api->profile.empty() && api->profile != j.profile && !profile(j.profile).reference)
+    j.notes.push_back(fmt::format("port.json names {}, whose profile is {}; this is judged under {}", api->name, api->profile, j.profile));
 }
 
 std::optional<HalfMode> declared_mode(const port_dump::PortInfo& port) {
@@ -182,7 +187,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   for (const PackPass& pass : pack.passes)
     if (options.wants(pass.name)) result.passes.push_back(absent.contains(pass.name) ? without_files(pass) : std::move(*next++));
   for (const FileFaults& own : faults) result.files.insert(result.files.end(), own.all().begin(), own.all().end());
-  result.notes = port.notes();
+  result.notes.insert(result.notes.end(), port.notes().begin(), port.notes().end());
   conclude(result);
   return result;
 }

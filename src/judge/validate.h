@@ -43,7 +43,7 @@ PortJudgement validate(const capture::Pack& pack, const std::filesystem::path& p
 /// A judgement with the pack's description only, and no results of a port yet.
 PortJudgement unjudged(const capture::Pack& pack, const std::string& profile);
 
-/// Adds the port's description of itself, and its declared rounding of half stores.
+/// Adds the port's description of itself, and a note if its API has another profile than this judgement.
 void describe_port(const port_dump::PortInfo& info, PortJudgement& judgement);
 std::optional<HalfMode> declared_mode(const port_dump::PortInfo& port);
 

@@ -12,6 +12,7 @@
 #include "judge/profiles.h"
 #include "judge/races.h"
 #include "judge/shadow.h"
+#include "judging/own_upstream.h"
 #include "judging/shader_answer.h"
 #include "rainref/error.h"
 #include "spirv/bindings.h"
@@ -30,7 +31,14 @@ class JudgeCall {
     options.explain = [this, &o](const judge::FailedRun& failed) {
       if (o.at_cause) o.at_cause(failed.pass.name);
       const faults::SearchLimit limit(o.causes_within * failed.share);
+      std::optional<judge::Cause> own;
+      if (pack && !failed.is_warned) {
+        judge::PortFiles port(folder, pack->effect, pack->variant, options.buffers);
+        own = made_from_own(failed, *pack, port);
+      }
+      if (own && own->is_likely) return judge::Explanation{{std::move(*own)}, ""};
       judge::Explanation why = judging::explain(failed, programs, limit);
+      if (own) why.causes.push_back(std::move(*own));
       if (limit.was_met() && (cut_short_.empty() || cut_short_.back() != failed.pass.name)) cut_short_.push_back(failed.pass.name);
       return why;
     };
@@ -40,6 +48,9 @@ class JudgeCall {
 
   judge::ValidateOptions options;
   Programs programs;  ///< the port's own
+  /// With a pack, a cause may be that a pass was made from the port's own outputs in `folder`.
+  const capture::Pack* pack = nullptr;
+  std::filesystem::path folder;
 
   /// Adds notes about searches that reached their time limit.
   void add_notes(judge::PortJudgement& judgement) const {
@@ -93,7 +104,9 @@ void check_request(const capture::Pack& pack, const FolderOptions& options) {
 Judged judge_folder(const std::shared_ptr<const capture::Pack>& pack, const std::vector<std::filesystem::path>& runs,
                     const FolderOptions& o) {
   check_request(*pack, o);
-  const JudgeCall call(o);
+  JudgeCall call(o);
+  call.pack = pack.get();
+  call.folder = runs.front();
   judge::PortJudgement judgement = judge::validate(*pack, runs.front(), call.options);
   call.add_notes(judgement);
   if (runs.size() > 1) find_races(*pack, runs, call.options, judgement);

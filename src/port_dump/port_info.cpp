@@ -3,16 +3,48 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "capture/json_field.h"
 #include "capture/json_read.h"
+#include "port_dump/apis.h"
 #include "port_dump/dump_file.h"
+#include "rainref/error.h"
 
 namespace rainref::port_dump {
+namespace {
+
+/// The text of `api`, which names a known one, or is empty.
+std::string api_text(const capture::JsonField& field) {
+  const std::string text = field.text();
+  if (text.empty() || api_of(text)) return text;
+  std::vector<std::string> names;
+  for (const Api& api : apis()) names.emplace_back(api.name);
+  field.refuse(fmt::format("expected one of {}, with or without a version, found '{}'{}", fmt::join(names, ", "), text.substr(0, 64),
+                           did_you_mean(text.substr(0, text.find_first_of(" 0123456789")), names)));
+}
+
+Encodings encodings_of(const capture::JsonField& object) {
+  Encodings out;
+  for (const auto& [buffer, list] : object.members()) {
+    const std::vector<std::string> texts = list.texts();
+    if (texts.empty() || texts.size() > 4) list.refuse(fmt::format("expected 1 to 4 channels, found {}", texts.size()));
+    for (const std::string& text : texts) {
+      ChannelSource source;
+      if (!parse_source(text, source))
+        list.refuse(fmt::format("expected a channel such as x, -y, 1-g or newest.x, found '{}'", text.substr(0, 64)));
+      out[buffer].push_back(std::move(source));
+    }
+  }
+  return out;
+}
+
+}  // namespace
 
 PortInfo parse_port_info(std::string_view text, const std::string& file) {
-  static const std::array<std::string, 8> keys{"api", "device", "driver", "half_store", "flush_denormals", "origin", "precise", "notes"};
+  static const std::array<std::string, 9> keys{"api",    "device",    "driver",  "half_store", "flush_denormals",
+                                               "origin", "encodings", "precise", "notes"};
   static const std::array<std::string, 3> roundings{"rne", "rtz", "unknown"};
   static const std::array<std::string, 2> origins{"top-left", "bottom-left"};
   const nlohmann::ordered_json json = capture::parse_json(text, file, capture::small_json);
@@ -20,7 +52,7 @@ PortInfo parse_port_info(std::string_view text, const std::string& file) {
   object.require_known(keys);
   const auto text_of = [&](const char* key) { return object.has(key) ? object[key].text() : std::string(); };
   PortInfo out;
-  out.api = text_of("api");
+  if (object.has("api")) out.api = api_text(object["api"]);
   out.device = text_of("device");
   out.driver = text_of("driver");
   out.notes = text_of("notes");
@@ -28,6 +60,7 @@ PortInfo parse_port_info(std::string_view text, const std::string& file) {
   if (rounding < 2) out.half_store = rounding == 0 ? Rounding::rne : Rounding::rtz;
   if (object.has("flush_denormals")) out.flush_denormals = object["flush_denormals"].boolean();
   if (object.has("origin")) out.origin = static_cast<Origin>(object["origin"].one_of(origins));
+  if (object.has("encodings")) out.encodings = encodings_of(object["encodings"]);
   out.precise = object.has("precise") && object["precise"].boolean();
   return out;
 }

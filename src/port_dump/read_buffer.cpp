@@ -11,6 +11,7 @@
 #include "capture/npy_read.h"
 #include "image_io/evidence.h"
 #include "port_dump/dds.h"
+#include "port_dump/encoding.h"
 #include "port_dump/raw_bytes.h"
 #include "port_dump/sidecar.h"
 #include "port_dump/stored_records.h"
@@ -184,6 +185,8 @@ capture::Array read_port_buffer(const std::filesystem::path& folder, std::string
   if (expected.levels.empty() || (!expected.is_records && (expected.width < 1 || expected.height < 1))) {
     throw Error(ExitCode::internal, fmt::format("buffer '{}' was asked for without a size", stem));
   }
+  if (const auto own = port.encodings.find(buffer_of(stem)); own != port.encodings.end())
+    return read_encoded(folder, stem, expected, own->second, port, notes);
   capture::Array out = expected;
   out.levels.clear();
   if (expected.is_records) {

@@ -21,6 +21,8 @@ namespace rainref::port_dump {
 /// the port stored it; the only conversion is from a float to the half that it equals. `alpha`: if the buffer's fourth channel is the
 /// constant 1, an image of the other three is accepted.
 ///
+/// A buffer that `port` has an encoding for is put together from the port's own channels.
+///
 /// Throws Error(port_files) with one sentence that names the file, what was expected and what was found; Error(io) if a file cannot be
 /// read. Memory depends on the sizes of `expected` and of the file, not on the header.
 capture::Array read_port_buffer(const std::filesystem::path& folder, std::string_view stem, const capture::Array& expected,

@@ -4,37 +4,14 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "rainref/error.h"
 
 namespace rainref::scene {
 namespace {
 
-constexpr std::array<const char*, 5> language_names{"c", "glsl", "hlsl", "wgsl", "cuda"};
-
-// The name of a member's type; rows: languages, columns: float, int, uint.
-std::string type_name(const Member& m, Language language) {
-  const auto pick = [&](const char* of_float, const char* of_int, const char* of_uint) -> std::string {
-    return m.scalar == Scalar::float32 ? of_float : m.scalar == Scalar::int32 ? of_int : of_uint;
-  };
-  const bool is_vector = m.components > 1;
-  const std::string count = is_vector ? std::to_string(m.components) : "";
-  switch (language) {
-    case Language::c:
-      return is_vector ? pick("rainref_float", "rainref_int", "rainref_uint") + count : pick("float", "int32_t", "uint32_t");
-    case Language::cuda:
-      return is_vector ? pick("float", "int", "uint") + count : pick("float", "int", "unsigned int");
-    case Language::glsl:
-      return is_vector ? pick("vec", "ivec", "uvec") + count : pick("float", "int", "uint");
-    case Language::hlsl:
-      return pick("float", "int", "uint") + count;
-    case Language::wgsl: {
-      const std::string scalar = pick("f32", "i32", "u32");
-      return is_vector ? fmt::format("vec{}<{}>", m.components, scalar) : scalar;
-    }
-  }
-  return "?";
-}
+constexpr std::array<const char*, 7> language_names{"c", "glsl", "hlsl", "wgsl", "cuda", "glsl330", "gdshader"};
 
 // "WaveStepUniforms" -> "wave_step_uniforms"
 std::string snake_case(const std::string& camel) {
@@ -43,16 +20,6 @@ std::string snake_case(const std::string& camel) {
     const bool is_upper = c >= 'A' && c <= 'Z';
     if (is_upper && !out.empty()) out += '_';
     out += is_upper ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return out;
-}
-
-// "count_thresholds" -> "CountThresholds"
-std::string camel_case(const std::string& snake) {
-  std::string out;
-  for (std::size_t i = 0; i < snake.size(); ++i) {
-    const bool is_first = i == 0 || snake[i - 1] == '_';
-    if (snake[i] != '_') out += is_first ? static_cast<char>(snake[i] - 'a' + 'A') : snake[i];
   }
   return out;
 }
@@ -106,8 +73,11 @@ std::string struct_text(const UniformBlock& block, Language language) {
     case Language::wgsl:
       return fmt::format("struct {} {{\n{}}}\n", block.name, lines);
     case Language::glsl:
+    case Language::glsl330:
     case Language::hlsl:
       return fmt::format("struct {} {{\n{}}};\n", block.name, lines);
+    case Language::gdshader:
+      return "";
   }
   return "";
 }
@@ -116,15 +86,48 @@ std::string head(const UniformBlock& block) {
   return fmt::format("// {}: {} bytes, little endian. Comments: offset in bytes, [unit], meaning.\n", block.name, block.size);
 }
 
+// Uniforms of their own; padding is nothing there.
+std::string godot_uniforms(const UniformBlock& block) {
+  std::string out;
+  for (const Member& m : block.members)
+    out += fmt::format("uniform {} {};  // [{}] {}\n", type_name(m, Language::gdshader), m.name, m.unit, m.sentence);
+  return out;
+}
+
 }  // namespace
+
+std::string type_name(const Member& m, Language language) {
+  const auto pick = [&](const char* of_float, const char* of_int, const char* of_uint) -> std::string {
+    return m.scalar == Scalar::float32 ? of_float : m.scalar == Scalar::int32 ? of_int : of_uint;
+  };
+  const bool is_vector = m.components > 1;
+  const std::string count = is_vector ? std::to_string(m.components) : "";
+  switch (language) {
+    case Language::c:
+      return is_vector ? pick("rainref_float", "rainref_int", "rainref_uint") + count : pick("float", "int32_t", "uint32_t");
+    case Language::cuda:
+      return is_vector ? pick("float", "int", "uint") + count : pick("float", "int", "unsigned int");
+    case Language::glsl:
+    case Language::glsl330:
+    case Language::gdshader:
+      return is_vector ? pick("vec", "ivec", "uvec") + count : pick("float", "int", "uint");
+    case Language::hlsl:
+      return pick("float", "int", "uint") + count;
+    case Language::wgsl: {
+      const std::string scalar = pick("f32", "i32", "u32");
+      return is_vector ? fmt::format("vec{}<{}>", m.components, scalar) : scalar;
+    }
+  }
+  return "?";
+}
 
 Language language_from_name(std::string_view wanted) {
   for (std::size_t i = 0; i < language_names.size(); ++i) {
     if (language_names[i] == wanted) return static_cast<Language>(i);
   }
   const std::vector<std::string> names(language_names.begin(), language_names.end());
-  throw Error(ExitCode::usage, fmt::format("layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', found '{}'{}", wanted,
-                                           did_you_mean(wanted, names)));
+  throw Error(ExitCode::usage,
+              fmt::format("layout: expected one of '{}', found '{}'{}", fmt::join(names, "', '"), wanted, did_you_mean(wanted, names)));
 }
 
 const char* name(Language language) { return language_names[static_cast<std::size_t>(language)]; }
@@ -139,6 +142,11 @@ std::string layout(const UniformBlock& block, Language language) {
     case Language::glsl:
       return out + fmt::format("layout(std140, binding = 0) uniform {} {{\n{}}} {};\n", block.name, member_lines(block, language),
                                snake_case(block.name));
+    case Language::glsl330:
+      return out +
+             fmt::format("layout(std140) uniform {} {{\n{}}} {};\n", block.name, member_lines(block, language), snake_case(block.name));
+    case Language::gdshader:
+      return fmt::format("// {}. Comments: [unit], meaning.\n", block.name) + godot_uniforms(block);
     case Language::hlsl:
       return out + fmt::format("cbuffer {} : register(b0) {{\n{}}};\n", block.name, member_lines(block, language));
     case Language::wgsl:
@@ -150,35 +158,8 @@ std::string layout(const UniformBlock& block, Language language) {
 
 std::string record_layout(const UniformBlock& record, Language language) {
   validate_record(record);
-  return head(record) + struct_text(record, language);
-}
-
-std::string list_layout(const ListBinding& list, Language language) {
-  const std::string camel = camel_case(list.name);
-  switch (language) {
-    case Language::c:
-    case Language::cuda:
-      return "";
-    case Language::glsl:
-      if (!list.is_written) {
-        return fmt::format("layout(std430, binding = {}) readonly buffer {}Buffer {{ {} {}[]; }};\n", list.binding, camel, list.record,
-                           list.name);
-      }
-      return fmt::format(
-          "layout(std430, binding = {0}) buffer {1}Buffer {{\n  uint {3}_count;\n  uint {3}_padding[3];\n  {2} {3}[];\n}};\n", list.binding,
-          camel, list.record, list.name);
-    case Language::hlsl:
-      return fmt::format("{}StructuredBuffer<{}> {} : register({}{});\n", list.is_written ? "RW" : "", list.record, list.name,
-                         list.is_written ? 'u' : 't', list.slot);
-    case Language::wgsl:
-      if (!list.is_written)
-        return fmt::format("@group(0) @binding({}) var<storage, read> {} : array<{}>;\n", list.binding, list.name, list.record);
-      return fmt::format(
-          "struct {1}Buffer {{\n  count : u32,\n  padding_0 : u32,\n  padding_1 : u32,\n  padding_2 : u32,\n  records : array<{2}>,\n}}\n"
-          "@group(0) @binding({0}) var<storage, read_write> {3} : {1}Buffer;\n",
-          list.binding, camel, list.record, list.name);
-  }
-  return "";
+  const std::string text = struct_text(record, language);
+  return text.empty() ? "" : head(record) + text;
 }
 
 }  // namespace rainref::scene

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 #include <regex>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -224,12 +225,18 @@ TEST_P(Layout, OnePassAloneCompilesInEachLanguage) {
       const std::string name = pass["name"], block = pass["uniform_block"]["name"];
       const std::vector<std::string> alone{"--pass", name, "--variant", variant};
       std::map<std::string, std::string> texts;
-      for (const char* language : {"glsl", "hlsl", "wgsl", "c"}) {
+      for (const char* language : {"glsl", "hlsl", "wgsl", "c", "glsl330", "gdshader"}) {
         const std::string text = texts[language] = described(language, alone);
-        EXPECT_THAT(text, testing::StartsWith(fmt::format("// Pass {}, {}. ", name, variant)));
+        EXPECT_THAT(text, testing::HasSubstr(fmt::format("// Pass {}, {}. ", name, variant)));
         for (const auto& [other, layout] : layouts(false))
-          EXPECT_EQ(text.find(fmt::format("// {}: ", other)) != std::string::npos, other == block) << text;
+          EXPECT_EQ(std::regex_search(text, std::regex(fmt::format("// {}[:.] ", other))), other == block) << text;
       }
+      // Whatever the pass reads or writes is declared, lists in GLSL 3.30 and Godot as far as a fragment shader can.
+      for (const ordered_json& buffer : pass["reads"])
+        for (const char* language : {"glsl", "hlsl", "wgsl", "glsl330", "gdshader"})
+          EXPECT_TRUE(std::regex_search(texts[language], std::regex(fmt::format("\\b{}\\b[ \\[]?[;:\\]]", buffer.get<std::string>()))))
+              << language << ' ' << buffer << '\n'
+              << texts[language];
       const std::regex place("binding ?[=(] ?([0-9]+)|register\\(([btu][0-9]+)\\)");
       std::size_t lists = 0;
       for (const auto& c : manifest["cases"]) {
@@ -242,7 +249,9 @@ TEST_P(Layout, OnePassAloneCompilesInEachLanguage) {
         std::vector<std::string> places;
         const std::string& text = texts[language];
         for (std::sregex_iterator m(text.begin(), text.end(), place), end; m != end; ++m) places.push_back((*m)[0]);
-        EXPECT_GE(places.size(), 1 + lists) << text;
+        // WGSL: a fragment shader's outputs have no place, an image that is read has one more for its sampler.
+        const std::size_t bound = pass["reads"].size() + pass["writes"].size();
+        EXPECT_GE(places.size(), 1 + (language == std::string("wgsl") ? std::max(lists, pass["reads"].size()) : bound)) << text;
         std::sort(places.begin(), places.end());
         EXPECT_EQ(std::adjacent_find(places.begin(), places.end()), places.end()) << text;
       }
@@ -250,7 +259,17 @@ TEST_P(Layout, OnePassAloneCompilesInEachLanguage) {
       put(folder / (stem + ".comp"), "#version 450\n" + texts["glsl"] + "void main() {}\n");
       put(folder / (stem + ".hlsl"), texts["hlsl"] + "[numthreads(1, 1, 1)] void main() {}\n");
       put(folder / (stem + ".c"), texts["c"]);
-      glsl += " " + stem + ".comp";
+      std::set<std::string> uniforms;
+      const std::regex uniform("uniform \\w+ (\\w+);");
+      for (std::sregex_iterator m(texts["gdshader"].begin(), texts["gdshader"].end(), uniform), end; m != end; ++m)
+        EXPECT_TRUE(uniforms.insert((*m)[1]).second) << texts["gdshader"];
+      put(folder / (stem + "_330.frag"), "#version 330\n" + texts["glsl330"] + "void main() {}\n");
+      put(folder / (stem + "_es.frag"), "#version 300 es\n" + texts["glsl330"] + "void main() {}\n");
+      // Godot writes uniforms with another name, so that one may be called as a function is.
+      put(folder / (stem + "_godot.frag"),
+          "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n" +
+              std::regex_replace(texts["gdshader"], std::regex("(uniform \\w+) (\\w+);  //"), "$1 m_$2;  //") + "void main() {}\n");
+      glsl += fmt::format(" {0}.comp {0}_330.frag {0}_es.frag {0}_godot.frag", stem);
       hlsl.push_back(stem + ".hlsl");
     }
   }

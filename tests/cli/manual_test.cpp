@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using testing::UnorderedElementsAreArray;
 
-constexpr std::array verbs{"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "sweep", "selftest"};
+constexpr std::array verbs{"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "import", "sweep", "selftest"};
 constexpr std::array sweep_actions{"plan", "run", "status", "collect", "gc", "script"};
 
 class Manual : public CommandLine {
@@ -74,7 +74,7 @@ TEST_F(Manual, ShellsCompleteVerbsWordsScenesAndFiles) {
   EXPECT_EQ(completed({"sweep", "pl"}), std::vector<std::string>{"plan"});
   EXPECT_EQ(completed({"describe", "rain"}), std::vector<std::string>{"rainy_glass"});
   EXPECT_EQ(completed({"run", "x.toml", "--image", "p"}), std::vector<std::string>{"png"});
-  EXPECT_EQ(completed({"validate", "--profile", "w"}), std::vector<std::string>{"webgpu"});
+  EXPECT_EQ(completed({"validate", "--profile", "v"}), std::vector<std::string>{"vulkan"});
   EXPECT_EQ(completed({"hash", "puddle/def"}), std::vector<std::string>{"puddle/default.toml"});
   EXPECT_THAT(completed({"run", "x.toml", "--frames", ""}), testing::IsEmpty());
   std::filesystem::create_directories(folder / "my_folder");

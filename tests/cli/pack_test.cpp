@@ -155,8 +155,9 @@ TEST_F(PackVerb, AnOlderPackIsReplacedAndNothingElse) {
 
 TEST_F(PackVerb, BadArguments) {
   expect_refusal({"pack", "corrected.toml"}, 2, HasSubstr("--output is required"));
-  expect_refusal({"pack", "-o", "p"}, 2, "expected either SCENE or --spirv, found neither");
-  expect_refusal({"pack", "corrected.toml", "--spirv", "effect.json", "-o", "p"}, 2, "expected either SCENE or --spirv, found both");
+  expect_refusal({"pack", "-o", "p"}, 2, "expected one of SCENE, --spirv and --flat, found none");
+  expect_refusal({"pack", "corrected.toml", "--spirv", "effect.json", "-o", "p"}, 2,
+                 "expected one of SCENE, --spirv and --flat, found several");
   expect_refusal({"pack", "corrected.toml", "--inputs", "run", "-o", "p"}, 2, "--inputs: only beside --spirv");
   expect_refusal({"pack", "--spirv", "effect.json", "-o", "p"}, 2, "--inputs: expected the folder of a run, found ''");
   expect_refusal({"pack", "--spirv", "effect.json", "--inputs", "run", "-o", "p", "--at", "1"}, 2,

@@ -40,7 +40,7 @@ TEST_F(Usage, HelpIsAVerbToo) {
 
 TEST_F(Usage, HelpSaysWhatAValueIs) {
   const auto help = [&](const char* verb) { return rainref({verb, "--help"}).out; };
-  for (const char* verb : {"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "selftest"})
+  for (const char* verb : {"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "import", "selftest"})
     EXPECT_THAT(help(verb), Not(HasSubstr("TEXT"))) << verb;
   EXPECT_THAT(help("run"), AllOf(HasSubstr("SCENE FILE"), HasSubstr("--frames N"), HasSubstr("--size WxH"), HasSubstr("--threads N"),
                                  HasSubstr("--set KEY=VALUE"), HasSubstr("--output DIR")));
@@ -50,7 +50,7 @@ TEST_F(Usage, HelpSaysWhatAValueIs) {
 
 TEST_F(Usage, HelpNamesTheProfilesThatJudge) {
   for (const char* verb : {"validate", "mutate"})
-    EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda|d3d|ieee|metal|vulkan|webgpu"));
+    EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda|d3d|gles|ieee|metal|opencl|opengl|vulkan|webgl|webgpu"));
 }
 
 TEST_F(Usage, VersionIsOneLine) {
@@ -70,9 +70,9 @@ TEST_F(Usage, AnEffectHasAGoldenHashOfItsOwn) {
 
 TEST_F(Usage, AVerbIsNeeded) {
   expect_refusal({}, 2, HasSubstr("required"));
-  expect_refusal(
-      {"lst"}, 2,
-      "expected one of list, describe, run, hash, pack, diff, validate, mutate, sweep, selftest, found 'lst'; did you mean 'list'?");
+  expect_refusal({"lst"}, 2,
+                 "expected one of list, describe, run, hash, pack, diff, validate, mutate, import, sweep, selftest, found 'lst'; did you "
+                 "mean 'list'?");
   expect_refusal({"Run", "corrected.toml"}, 2, EndsWith("found 'Run'; did you mean 'run'?"));
   expect_refusal({"zebra"}, 2, EndsWith("found 'zebra'"));
 }
@@ -105,7 +105,7 @@ TEST_F(Usage, MissingAndSpareArguments) {
 TEST_F(Usage, UnknownEffectOrLayout) {
   expect_refusal({"describe", "pudle"}, 2, "effect: expected one of " + effect_list() + ", found 'pudle'; did you mean 'puddle'?");
   expect_refusal({"describe", "puddle", "--layout", "glls"}, 2,
-                 "layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', found 'glls'; did you mean 'glsl'?");
+                 "layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', 'glsl330', 'gdshader', found 'glls'; did you mean 'glsl'?");
   expect_refusal({"describe", "puddle", "--layout", ""}, 2, StartsWith("layout: expected one of 'c', "));
 }
 

@@ -49,7 +49,8 @@ TEST_F(Validate, ExitCodes) {
   expect_refusal({"validate", pack, "--port", pack}, 2, HasSubstr("judged by themselves"));
   expect_refusal({"validate", pack, "--port", "port", "--profile", "vulcan"}, 2, HasSubstr("did you mean 'vulkan'?"));
   expect_refusal({"validate", pack, "--port", "port", "--profile", "typical"}, 2,
-                 AllOf(HasSubstr("expected one of cuda, d3d, ieee, metal, vulkan, webgpu, found 'typical'"), HasSubstr("no rule")));
+                 AllOf(HasSubstr("expected one of cuda, d3d, gles, ieee, metal, opencl, opengl, vulkan, webgl, webgpu, found 'typical'"),
+                       HasSubstr("no rule")));
   expect_refusal({"mutate", pack, "--profile", "typical"}, 2, HasSubstr("found 'typical'"));
   expect_refusal({"validate", pack, "--port", "port", "--only", "shad"}, 2, HasSubstr("did you mean 'shade'?"));
   expect_refusal({"validate", pack, "--port", "port", "--repeat", "2"}, 2, "--repeat: goes with --exec only");

@@ -23,6 +23,7 @@
 #include "judge/judge_pass.h"
 #include "registry/registry.h"
 #include "judge/reference_outputs.h"
+#include "judge/profiles.h"
 #include "judge/shadow.h"
 #include "judge/validate.h"
 #include "rainref/error.h"
@@ -192,7 +193,7 @@ inline bool judge_pack(Bytes bytes) {
   judge::ValidateOptions options;
   options.executor = &executor;
   if (is_explained) options.explain = faults::diagnose;
-  options.profile = p.one_of(std::vector<std::string>{"vulkan", "ieee", "webgpu", "d3d", "cuda", "metal"});
+  options.profile = p.one_of(judge::profile_names());
   return is_taken([&] {
     const capture::Pack opened(pack.root());
     if (verb == 0) {

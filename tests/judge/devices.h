@@ -124,7 +124,7 @@ inline void expect_reference(const std::vector<BoundPass>& passes) {
 
 /// RAINREF_EVALUATIONS devices of every profile for each pass: none outside.
 inline void expect_honest(const std::vector<BoundPass>& passes) {
-  const std::int64_t each = count_from("RAINREF_EVALUATIONS", 12000);
+  const std::int64_t each = count_from("RAINREF_EVALUATIONS", 20000);
   const parallel::Executor executor;
   const std::vector<std::string> profiles = inexact_profiles();
   const char* only = std::getenv("RAINREF_ONLY");

@@ -10,6 +10,7 @@
 #include "image/code_range.h"
 #include "judge/profiles.h"
 #include "math/half.h"
+#include "port_dump/apis.h"
 #include "registry/registry.h"
 
 namespace rainref::judge {
@@ -177,6 +178,74 @@ Profile metal() {
   return p;
 }
 
+/// What the tables "Range and Precision" of GLSL 4.60 and GLSL ES 3.20 and 4.5.1 of GLSL ES 3.00 have alike for highp floats, and what all
+/// three leave open.
+Profile glsl(const char* name) {
+  Profile p = inexact(name);
+  p.basic = BasicRounding::either;                       // correctly rounded; the rounding mode is undefined
+  p.contraction = true;                                  // a * b + c: one operation or two
+  p.flush = Flush::may;                                  // any subnormal value can be flushed to 0
+  p.rearrangement = Rearrangement::distributed;          // GLSL ES 3.20 names it; elsewhere a choice
+  p.division = ulp(2.5);                                 // b in [2^-126, 2^126]
+  p.inverse_sqrt = ulp(2);                               // inversesqrt
+  p.sqrt_is_inherited = true;                            // from 1.0 / inversesqrt()
+  p.exp = p.exp2 = growing(3, 2);                        // (3 + 2 |x|) ULP
+  p.log = p.log2 = ulp(3);                               // outside [0.5, 2.0]
+  p.log_near_one = p.log2_near_one = absolute(0x1p-21);  // inside
+  p.pow_is_inherited = true;                             // from exp2(y log2(x))
+  p.sin_cos = absolute(0x1p-11);                         // a choice: as VK-GL-CTS verifies, like the next three
+  p.sin_cos_domain = pi;
+  p.sin_cos_beyond = 0x1p-12;
+  p.atan2 = ulp(4096);
+  p.subtexel_bits = 7;  // a choice: as VK-GL-CTS verifies, like the next
+  p.coordinate_bits = 20;
+  p.lod_bits = 4;                            // a choice
+  p.unorm_load = ulp(3);                     // a choice
+  p.half_store = StoreRounding::either;      // a choice
+  p.half_overflow = StoreOverflow::either;   // a choice
+  p.unorm_store_ulp = p.srgb_store_ulp = 1;  // 2.3.5.2 of OpenGL 4.6 and OpenGL ES 3.2: one of the two closest
+  return p;
+}
+Profile opengl() { return glsl("opengl"); }
+/// A store may drop a subnormal half: a choice, because no text has it.
+Profile gles() {
+  Profile p = glsl("gles");
+  p.half_store_flush = true;
+  return p;
+}
+Profile webgl() {
+  Profile p = glsl("webgl");
+  p.half_store_flush = true;
+  return p;
+}
+
+/// OpenCL C, "Relative Error as ULPs", the table of single precision in the full profile, whose errors count from the exact result; other
+/// places are named.
+Profile opencl() {
+  Profile p = inexact("opencl");
+  p.basic = BasicRounding::nearest;  // x + y, x - y, x * y; "Rounding Modes": to nearest even
+  p.contraction = true;              // FP_CONTRACT is ON
+  p.flush = Flush::may;              // "INF, NaN and Denormalized Numbers"
+  p.division = ulp(2.5);             // x / y
+  p.inverse_sqrt = ulp(2);           // rsqrt
+  p.sqrt = ulp(3);                   // sqrt
+  p.exp = p.exp2 = ulp(3);           // exp, exp2
+  p.log = p.log2 = ulp(3);           // log, log2
+  p.log_near_one = p.log2_near_one = ulp(3);
+  p.pow = ulp(16);      // pow, powr
+  p.sin_cos = ulp(4);   // sin, cos, full range
+  p.atan2 = ulp(6);     // atan2
+  p.subtexel_bits = 7;  // a choice, like the next two: "Addressing and Filter Modes" defines none
+  p.coordinate_bits = 20;
+  p.lod_bits = 4;
+  p.unorm_load = ulp(1.5);                     // "Conversion Rules for Normalized Integer Channel Data Types"
+  p.half_store = StoreRounding::either;        // "Conversion Rules for Half-Precision ...": nearest even or toward zero
+  p.half_overflow = StoreOverflow::either;     // a choice
+  p.half_store_flush = true;                   // the same section: may be flushed
+  p.unorm_store_ulp = p.srgb_store_ulp = 0.6;  // "Converting Floating-Point Values ...", "... sRGBA and sBGRA Images"
+  return p;
+}
+
 /// Exact rules: the defaults.
 Profile ieee() { return {}; }
 
@@ -222,14 +291,23 @@ std::map<std::string, double> figures(const Profile& p) {
   return out;
 }
 
-const std::map<std::string, Profile (*)()> specifications{{"ieee", ieee}, {"vulkan", vulkan}, {"webgpu", webgpu},
-                                                          {"d3d", d3d},   {"cuda", cuda},     {"metal", metal}};
+const std::map<std::string, Profile (*)()> specifications{{"ieee", ieee},   {"vulkan", vulkan}, {"webgpu", webgpu}, {"d3d", d3d},
+                                                          {"cuda", cuda},   {"metal", metal},   {"opengl", opengl}, {"gles", gles},
+                                                          {"webgl", webgl}, {"opencl", opencl}};
 
 TEST(ProfileTables, AreThoseThatAreOffered) {
   std::vector<std::string> names = profile_names(), expected;
   for (const auto& [name, unused] : specifications) expected.push_back(name);
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, expected);
+}
+
+// Each API has one, and each but `ieee` is that of one API.
+TEST(ProfileTables, AreThoseOfTheApisOfPorts) {
+  std::set<std::string> of_apis{"ieee"};
+  for (const port_dump::Api& api : port_dump::apis()) EXPECT_TRUE(api.profile.empty() || of_apis.emplace(api.profile).second) << api.name;
+  const std::vector<std::string> names = profile_names();
+  EXPECT_EQ(of_apis, std::set<std::string>(names.begin(), names.end()));
 }
 
 // The profiles typical and coarsest follow no specification.
@@ -260,6 +338,9 @@ TEST(ProfileTables, NothingIsLooserThanTheCoarsest) {
     if (p.sqrt_is_inherited) {
       EXPECT_GE(most.sqrt.ulp, 2 * p.inverse_sqrt.ulp + 2 * p.division.ulp + 0.5) << name;
     }
+    // pow is exp2(y log2(x)) there.
+    ASSERT_TRUE(most.pow_is_inherited);
+    EXPECT_GE(most.exp2.ulp, p.pow.ulp) << name;
     EXPECT_GE(most.sin_cos_beyond, p.sin_cos_beyond) << name;
     for (const int Profile::*bits : {&Profile::subtexel_bits, &Profile::lod_bits}) EXPECT_LE(most.*bits, p.*bits) << name;
     EXPECT_TRUE(p.coordinate_bits == 0 || most.coordinate_bits <= p.coordinate_bits) << name;
@@ -327,10 +408,12 @@ TEST(ProfileTables, EachEntryNamesDocumentVersionAndSection) {
 }
 
 // Vulkan, "Floating-Point Format Conversions": one of the representable neighbours. WGSL, "Channel Formats": quantizeToF16, which may
-// flush. Direct3D 11.3, 3.2.2: to the denorm representation. CUDA: IEEE 754. What devices do: none flushes.
+// flush. Direct3D 11.3, 3.2.2: to the denorm representation. CUDA: IEEE 754. OpenCL: may be flushed. What devices do: none flushes.
 TEST(ProfileTables, AStoreThatFlushesASubnormalHalf) {
   const std::map<std::string, bool> may{{"ieee", false}, {"vulkan", false}, {"webgpu", true},   {"d3d", false},
-                                        {"cuda", false}, {"metal", true},   {"typical", false}, {"coarsest", true}};
+                                        {"cuda", false}, {"metal", true},   {"opengl", false},  {"gles", true},
+                                        {"webgl", true}, {"opencl", true},  {"typical", false}, {"coarsest", true}};
+  EXPECT_EQ(may.size(), detail::embedded_profiles().size());
   for (const auto& [name, allowed] : may) {
     const StoreRules rules = store_rules(profile(name));
     for (const float x : {0x1p-24f, 0x1.8p-20f, 0x1.ff8p-15f}) {  // the last is the largest subnormal half

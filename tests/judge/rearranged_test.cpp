@@ -12,6 +12,7 @@
 #include "judge/mini_port.h"
 #include "judge/profiles.h"
 #include "judge/reference_outputs.h"
+#include "judge/rearranging.h"
 #include "judge/support.h"
 #include "puddle/uniforms.h"
 
@@ -21,7 +22,7 @@ namespace {
 using capture::Array;
 using capture::PassCase;
 
-const std::vector<std::string> rearranging{"vulkan", "d3d", "webgpu", "metal"};
+const std::vector<std::string> rearranging = test::rearranging_profiles();
 
 PassCase case_of(const char* pack_name, const char* pass) {
   const capture::Pack pack(test::pack_folder(pack_name));

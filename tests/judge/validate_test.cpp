@@ -364,6 +364,50 @@ TEST_F(Files, EachIsReadOnce) {
   EXPECT_EQ(shown->port.levels.at(0).size(), std::size_t{35} * 21 * 4);
 }
 
+// A port that ran under another API than the profile's is judged, and the report says so.
+TEST_F(Files, AnotherApiThanTheProfilesIsANote) {
+  const auto notes = [&](const std::string& api, const std::string& profile) {
+    put(folder / "port.json", R"({"api": ")" + api + "\"}");
+    ValidateOptions options;
+    options.profile = profile;
+    options.only = {"display"};
+    options.executor = &test_executor();
+    return validate(port.pack, folder.path(), options).notes;
+  };
+  for (const auto& [api, profile] :
+       {std::pair{"Vulkan 1.3", "vulkan"}, {"GLES 3.2", "gles"}, {"OpenCL", "ieee"}, {"CPU", "vulkan"}, {"", "d3d"}})
+    EXPECT_THAT(notes(api, profile), testing::IsEmpty()) << api << ' ' << profile;
+  EXPECT_THAT(notes("OpenGL ES 3.2", "vulkan"),
+              testing::ElementsAre("port.json names OpenGL ES, whose profile is gles; this is judged under vulkan"));
+}
+
+// A wave with its two heights in files of their own, and an encoding of no buffer.
+TEST_F(Files, AnEncodingIsReadAndItsBufferMustExist) {
+  for (const capture::PackCase& entry : port.pack.cases) {
+    if (entry.pass != "wave_step") continue;
+    const Array both = port.pack.read(entry).outputs.at(0).array;
+    const std::filesystem::path run = folder.path() / entry.id;
+    std::filesystem::remove(run / "out.wave.npy");
+    for (const std::size_t channel : {0, 1}) {
+      Array one = both;
+      one.format = Format::r16f;
+      std::vector<std::byte> bytes;
+      for (std::size_t at = 2 * channel; at < both.levels[0].size(); at += 4)
+        bytes.insert(bytes.end(), both.levels[0].begin() + static_cast<std::ptrdiff_t>(at),
+                     both.levels[0].begin() + static_cast<std::ptrdiff_t>(at) + 2);
+      one.levels = {capture::Bytes(bytes)};
+      put_array(run, channel == 0 ? "out.newest" : "out.previous", one);
+    }
+  }
+  put(folder / "port.json", R"({"encodings": {"wave": ["newest.x", "previous.x"]}})");
+  EXPECT_EQ(statuses(judged({"wave_step"})), "wave_step PASS\n") << why(judged({"wave_step"}));
+  put(folder / "port.json", R"({"encodings": {"wave": ["previous.x", "newest.x"]}})");
+  EXPECT_EQ(judged({"wave_step"}).status, Status::fail);
+  put(folder / "port.json", R"({"encodings": {"wav": ["x", "y"]}})");
+  EXPECT_THAT(error_of([&] { judged({"wave_step"}); }),
+              AllOf(StartsWith("3 "), HasSubstr("encodings: expected a buffer of puddle, found 'wav'; did you mean 'wave'?")));
+}
+
 // A folder in the place of a file is the port's, as a missing file is.
 TEST_F(Files, AFolderInThePlaceOfAFileIsRefusedAsAMissingOne) {
   std::filesystem::remove(file("puddle.shade/0011.0/out.colour.npy"));

@@ -201,7 +201,8 @@ TEST_F(Judging, ErrorsSayWhatWasExpected) {
   refuses([&] { cases.give(0, "picture", nullptr, 132, 21); }, "data: expected an address, found NULL");
   cases.give(0, "picture", a.bytes.data(), 132, 21);
   refuses([&] { cases.judge(executor, {.profile = "vulcan"}); },
-          "--profile: expected one of cuda, d3d, ieee, metal, vulkan, webgpu, found 'vulcan'; did you mean 'vulkan'?");
+          "--profile: expected one of cuda, d3d, gles, ieee, metal, opencl, opengl, vulkan, webgl, webgpu, found 'vulcan'; did you mean "
+          "'vulkan'?");
   Simulation other(small("edge_splash", "corrected"), executor);
   refuses([&] { cases.add_next_frame(other); },
           "cases: expected those of a simulation of edge_splash corrected, found those of puddle corrected");

@@ -59,6 +59,39 @@ TEST(Document, TheWriterInCSharp) {
   EXPECT_EQ((10 + static_cast<unsigned char>(file.at(8)) + 256 * static_cast<unsigned char>(file.at(9))) % 64, 0);  // as the others pad
 }
 
+// npy.js, which the document names.
+TEST(Document, TheWriterInJavaScript) {
+  if (run("node --version") != 0) GTEST_SKIP() << "no node here";
+  Dump dump;
+  const std::string folder = dump.path().string();
+  dump.file("main.mjs", "import {writeFileSync} from 'fs';\nimport {npyFile} from '" + rainref::test::source_folder() +
+                            "/examples/ports/wgsl/npy.js';\nwriteFileSync(process.argv[2], npyFile(\"'<f2'\", [2, 3, 2], Buffer.from('" +
+                            texels + "')));\n");
+  ASSERT_EQ(run("node " + folder + "/main.mjs " + folder + "/out.b.npy"), 0);
+  EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
+}
+
+// The example client in Godot has them word by word.
+TEST(Document, TheExampleClientHasTheFunctionsInGdscript) {
+  EXPECT_THAT(contents(std::filesystem::path(rainref::test::source_folder()) / "examples/clients/godot/main.gd"),
+              ::testing::HasSubstr(block("gdscript")));
+}
+// A flat pack of one case, run by a port that copies.
+TEST(Document, TheFunctionsInGdscript) {
+  if (run("command -v godot3-server") != 0) GTEST_SKIP() << "no Godot here (Debian: godot3-server)";
+  Dump dump;
+  const std::string folder = dump.path().string();
+  dump.file("in.b.bin", texels)
+      .file("flat.json", R"({"cases": [{"inputs": [{"file": "in.b.bin", "bytes": 24}],
+                                        "outputs": [{"file": "port/out.b.bin", "format": "rg16f", "width": 3, "height": 2}]}]})")
+      .file("main.gd", "extends SceneTree\n\n" + block("gdscript") + "\nfunc _init():\n\tvar folder := \"" + folder +
+                           "\"\n\tvar case: Dictionary = load_flat(folder)[\"cases\"][0]\n"
+                           "\tsave_image(folder, case[\"outputs\"][0], load_bytes(folder, case[\"inputs\"][0]))\n\tquit()\n");
+  ASSERT_EQ(run("HOME=" + folder + " timeout 60 godot3-server -s " + folder + "/main.gd"), 0);
+  for (const char* name : {"out.b.bin", "out.b.json"}) std::filesystem::rename(dump.path() / "port" / name, dump.path() / name);
+  EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
+}
+
 TEST(Document, ItsJsonIsAccepted) {
   const std::string text = contents(document);
   std::vector<std::string> blocks;

@@ -1,6 +1,9 @@
 // port.json is read key by key; what is not understood is refused.
 #include "port_dump/port_info.h"
 
+#include <fmt/format.h>
+
+#include "port_dump/apis.h"
 #include "port_dump/support.h"
 
 namespace rainref::port_dump {
@@ -63,6 +66,41 @@ TEST(PortInfo, Refusals) {
   EXPECT_THAT(refusal(R"({"notes": )" + std::string(100000, '{')), HasSubstr("not JSON"));
   EXPECT_THAT(refusal(std::string(2000000, ' ')), HasSubstr("expected at most"));
   EXPECT_THAT(refusal("{\"" + std::string(100, 'x') + "\": 1}"), HasSubstr("an unknown key of 100 bytes"));
+}
+
+// Versions, spellings and what follows do not matter; a name as a whole does.
+TEST(PortInfo, AnApiIsKnownByItsNames) {
+  for (const auto& [text, name] : {std::pair{"Vulkan 1.3", "Vulkan"},
+                                   {"vulkan1.4, by MoltenVK", "Vulkan"},
+                                   {"WebGPU", "WebGPU"},
+                                   {"D3D12", "Direct3D"},
+                                   {"DirectX 11", "Direct3D"},
+                                   {"DX12 (SM 6.6)", "Direct3D"},
+                                   {"CUDA 12.4", "CUDA"},
+                                   {"Metal 3", "Metal"},
+                                   {"OpenGL 4.6 core", "OpenGL"},
+                                   {"GL 3.3", "OpenGL"},
+                                   {"OpenGL ES 3.2", "OpenGL ES"},
+                                   {"OpenGLES3", "OpenGL ES"},
+                                   {"gles 3.0", "OpenGL ES"},
+                                   {"WebGL2", "WebGL"},
+                                   {"OpenCL 3.0, pocl", "OpenCL"},
+                                   {"CPU", "CPU"}}) {
+    ASSERT_TRUE(api_of(text)) << text;
+    EXPECT_EQ(api_of(text)->name, name) << text;
+    EXPECT_EQ(refusal(fmt::format(R"({{"api": "{}"}})", text)), "none");
+  }
+  EXPECT_EQ(parse_port_info(R"({"api": ""})", "'p'").api, "");
+  for (const Api& api : apis()) EXPECT_EQ(api_of(api.name), &api) << api.name;
+}
+TEST(PortInfo, AnUnknownApiIsRefusedWithTheList) {
+  EXPECT_EQ(
+      refusal(R"({"api": "Vulcan 1.3"})"),
+      "3 'port.json': api: expected one of Vulkan, WebGPU, Direct3D, CUDA, Metal, OpenGL, OpenGL ES, WebGL, OpenCL, CPU, with or without "
+      "a version, found 'Vulcan 1.3'; did you mean 'Vulkan'?");
+  EXPECT_THAT(refusal(R"({"api": "glsl"})"), HasSubstr("found 'glsl'"));
+  EXPECT_THAT(refusal(R"({"api": "my engine on Vulkan"})"), HasSubstr("found 'my engine on Vulkan'"));
+  EXPECT_THAT(refusal(R"({"api": ")" + std::string(1000, 'x') + R"("})"), HasSubstr("found '" + std::string(64, 'x') + "'"));
 }
 
 TEST(PortInfo, EveryTruncationIsRefused) {

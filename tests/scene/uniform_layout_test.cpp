@@ -8,6 +8,7 @@
 
 #include "base/shell.h"
 #include "base/temporary_folder.h"
+#include "scene/binding_layout.h"
 #include "scene/example_effect.h"
 
 namespace rainref::scene {
@@ -220,7 +221,7 @@ TEST(Layout, Wgsl) {
 
 TEST(Layout, ListsAreBoundWhereThePassHasThem) {
   EXPECT_THAT(record_layout(drop(), Language::c), testing::HasSubstr("} Drop;\n"));
-  const ListBinding read{"count_thresholds", "CountThreshold", false, 2, 1}, written{"drops_out", "Drop", true, 3, 0};
+  const ListBinding read{"count_thresholds", "CountThreshold", false, {2, 1}}, written{"drops_out", "Drop", true, {3, 0}, 1};
   EXPECT_EQ(list_layout(read, Language::glsl),
             "layout(std430, binding = 2) readonly buffer CountThresholdsBuffer { CountThreshold count_thresholds[]; };\n");
   EXPECT_EQ(list_layout(read, Language::hlsl), "StructuredBuffer<CountThreshold> count_thresholds : register(t1);\n");
@@ -231,7 +232,8 @@ TEST(Layout, ListsAreBoundWhereThePassHasThem) {
   Drop drops_out[];
 };
 )");
-  EXPECT_EQ(list_layout(written, Language::hlsl), "RWStructuredBuffer<Drop> drops_out : register(u0);\n");
+  EXPECT_EQ(list_layout(written, Language::hlsl),
+            "RWStructuredBuffer<Drop> drops_out : register(u0);\nRWStructuredBuffer<uint> drops_out_count : register(u1);\n");
   EXPECT_EQ(list_layout(written, Language::wgsl), R"(struct DropsOutBuffer {
   count : u32,
   padding_0 : u32,
@@ -253,11 +255,11 @@ TEST(Layout, RefusesABlockThatIsNotTheSameEverywhere) {
 }
 
 TEST(Layout, LanguagesHaveNames) {
-  for (const char* language : {"c", "glsl", "hlsl", "wgsl", "cuda"}) {
+  for (const char* language : {"c", "glsl", "hlsl", "wgsl", "cuda", "glsl330", "gdshader"}) {
     EXPECT_STREQ(name(language_from_name(language)), language);
   }
   EXPECT_EQ(error_of([] { language_from_name("wglsl"); }),
-            "2 layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', found 'wglsl'; did you mean 'glsl'?");
+            "2 layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', 'glsl330', 'gdshader', found 'wglsl'; did you mean 'glsl'?");
 }
 
 }  // namespace

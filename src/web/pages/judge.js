@@ -12,7 +12,7 @@ import {Outcome} from "./outcome.js";
 
 const $ = id => document.getElementById(id);
 const everyPass = "*";  // the choice of all passes
-const profileNames = ["webgpu", "vulkan", "d3d", "metal", "cuda", "ieee"];
+const profileNames = ["webgpu", "vulkan", "d3d", "metal", "cuda", "opengl", "gles", "webgl", "opencl", "ieee"];
 const engine = new Engine("judge_operations.js");
 const outcome = new Outcome($("verdict"), $("outcome"), $("report"));
 
@@ -219,7 +219,8 @@ async function takePort(one) {
     notes.push(`it is of ${effect}: look whether the pack above is the one that it ran`);
   }
   const api = one.files.has("port.json") ? String((await jsonOf(one, "port.json")).api ?? "") : "";
-  const profile = [["webgpu", /webgpu/i], ["vulkan", /vulkan/i], ["d3d", /direct3d|d3d|directx/i], ["metal", /metal/i], ["cuda", /cuda/i]].find(([, word]) => word.test(api))?.[0];
+  const profile = [["webgpu", /webgpu/i], ["vulkan", /vulkan/i], ["d3d", /direct3d|d3d|directx/i], ["metal", /metal/i], ["cuda", /cuda/i],
+    ["webgl", /webgl/i], ["opencl", /opencl/i], ["gles", /opengl ?es|gles/i], ["opengl", /opengl/i]].find(([, word]) => word.test(api))?.[0];
   if (!hasChosenProfile) $("profile").value = profile ?? "vulkan";
   if (!hasChosenProfile) notes.push(`profile ${$("profile").value}${profile ? ", as its port.json says" : ""}`);
   $("folder-state").textContent = `${one.name}: ${one.files.size} files${notes.length ? `; ${notes.join("; ")}` : ""}.`;

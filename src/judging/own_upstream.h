@@ -1,0 +1,18 @@
+// Finds out whether a failing pass was made from what the port itself gave for its inputs, as a shader does that computes two passes at
+// once.
+#pragma once
+
+#include <optional>
+
+#include "capture/pack_read.h"
+#include "judge/judge_pass.h"
+#include "judge/port_files.h"
+
+namespace rainref::judging {
+
+/// The cause "made from the port's own X, not the pack's": X are inputs that another pass of the same step or frame gives and that the port
+/// has dumped with other values. The run is judged once more with these. Nothing if the port has no such dumps, or if they explain less
+/// than half of the failing texels; likely if they explain nine in ten. `port`: the folder that is judged.
+std::optional<judge::Cause> made_from_own(const judge::FailedRun& failed, const capture::Pack& pack, judge::PortFiles& port);
+
+}  // namespace rainref::judging
