@@ -1,14 +1,16 @@
 // `rainref import`: a file of a debugger or an engine becomes a port's dump.
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/atomic_file.h"
 #include "base/folders.h"
+#include "base/number_text.h"
 #include "capture/npy_write.h"
 #include "capture/pack_read.h"
 #include "cli/commands.h"
@@ -51,11 +53,11 @@ Destination destination(const capture::Pack& pack, const std::string& place) {
   const PackCase& at = named(pack.cases, id, "a case of the pack", [](const PackCase& c) { return c.id; });
   std::string buffer = file.substr(4);
   int level = 0;
-  if (const std::size_t dot = buffer.rfind(".L"); dot != std::string::npos) {
-    const char* const end = buffer.data() + buffer.size();
-    if (const auto [stop, error] = std::from_chars(buffer.data() + dot + 2, end, level); error == std::errc() && stop == end)
+  if (const std::size_t dot = buffer.rfind(".L"); dot != std::string::npos)
+    if (const std::optional<int> given = whole_from<int>(std::string_view(buffer).substr(dot + 2))) {
+      level = *given;
       buffer.resize(dot);
-  }
+    }
   const PackOutput& output = named(at.outputs, buffer, fmt::format("an output of {}", id), [](const PackOutput& o) { return o.name; });
   if (output.shape.is_records)
     throw Error(ExitCode::usage, fmt::format("--as: {} is a list; save it as .npy, or as .bin with .json beside it", buffer));

@@ -87,7 +87,7 @@ TEST(Document, TheFunctionsInGdscript) {
       .file("main.gd", "extends SceneTree\n\n" + block("gdscript") + "\nfunc _init():\n\tvar folder := \"" + folder +
                            "\"\n\tvar case: Dictionary = load_flat(folder)[\"cases\"][0]\n"
                            "\tsave_image(folder, case[\"outputs\"][0], load_bytes(folder, case[\"inputs\"][0]))\n\tquit()\n");
-  ASSERT_EQ(run("HOME=" + folder + " timeout 60 godot3-server -s " + folder + "/main.gd"), 0);
+  ASSERT_EQ(run("cd '" + folder + "' && HOME=" + folder + " timeout 60 godot3-server -s main.gd"), 0);
   for (const char* name : {"out.b.bin", "out.b.json"}) std::filesystem::rename(dump.path() / "port" / name, dump.path() / name);
   EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
 }
