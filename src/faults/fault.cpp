@@ -184,6 +184,13 @@ Fault replaced(What what, float value, float by, bool is_asked_by_diagnosis_alon
   d.behaviour = perturbed::replacing(value, by);
   return d;
 }
+perturbed::Behaviour without_mistake(const Fault& d, Texel at) {
+  perturbed::Behaviour with, out;
+  std::vector<float> unused;
+  if (d.at_texel) d.at_texel(at, with, unused);
+  out.known = with.known;
+  return out;
+}
 void tell_places_by(Fault& d, std::shared_ptr<const std::vector<float>> known) {
   d.at_texel = [known = std::move(known)](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = known.get(); };
 }
@@ -233,15 +240,10 @@ void FaultyPass::trace(Texel at, perturbed::Trace& right, perturbed::Trace& wron
   evaluated(at, &wrong, false);
 }
 std::vector<perturbed::Perturbed> FaultyPass::evaluated(Texel at, perturbed::Trace* trace, bool is_right) const {
-  perturbed::Behaviour behaviour = fault_.behaviour;
+  perturbed::Behaviour behaviour = is_right ? without_mistake(fault_, at) : fault_.behaviour;
   std::vector<float> loads;
   behaviour.trace = trace;
   if (is_right) {
-    if (fault_.at_texel) fault_.at_texel(at, behaviour, loads);
-    const std::vector<float>* const known = behaviour.known;
-    behaviour = {};
-    behaviour.known = known;
-    behaviour.trace = trace;
     const perturbed::Scope scope(behaviour);
     std::vector<perturbed::Perturbed> values(slots_.size());
     model_.evaluate(at.x, at.y, values.data());

@@ -57,6 +57,8 @@ struct Fault : What {
 };
 /// Replaces every number of this value by another one.
 Fault replaced(What what, float value, float by, bool is_asked_by_diagnosis_alone = true);
+/// No mistake, but places told apart as `d` tells them at a texel.
+perturbed::Behaviour without_mistake(const Fault& d, Texel at);
 /// Sets the numbers that distinguish the places of a fault.
 void tell_places_by(Fault& d, std::shared_ptr<const std::vector<float>> known);
 

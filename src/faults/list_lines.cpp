@@ -39,13 +39,8 @@ void ListReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
     }
     const capture::KeyedModel *right = one->model->keyed(name), *wrong = of_altered ? of_altered->keyed(name) : right;
     Followed followed;
-    // Without the mistake, but with places told apart as in it.
     Fault none;
-    std::vector<float> unused;
-    if (d.at_texel) d.at_texel({-1, -1}, none.behaviour, unused);
-    const std::vector<float>* const known = none.behaviour.known;
-    none.behaviour = {};
-    none.behaviour.known = known;
+    none.behaviour = without_mistake(d, {-1, -1});
     const auto with = wrong ? evaluated(d, *wrong, &followed.wrong) : std::nullopt;
     if (!with || with->size() != one->right.size() || is_near(*with, one->right, words_)) continue;
     evaluated(none, *right, &followed.right);

@@ -24,7 +24,10 @@ class LineSearch : ComparedSteps {
     int node, user;
   };
   std::vector<Met> unvouched(int from, int changed = 0) const;
-  FoundLine line_at(int node) const { return {blamed(node), blamed(node)}; }
+  FoundLine line_at(int node) const {
+    const std::uint32_t at = blamed(node);
+    return {at, at};
+  }
   std::vector<FoundLine> walked_back(int changed, int from, bool is_late) const;
   std::vector<FoundLine> of_outputs() const;
   std::vector<FoundLine> of_decision(const Operands& compared) const;

@@ -53,4 +53,5 @@ void TexelReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
 } catch (const Error&) {
   out.clear();  // the program uses something unsupported: a note says so
 }
+
 }  // namespace rainref::faults

@@ -181,7 +181,7 @@ TEST(ShaderLine, LiesBehindTheOperandThatLacksAStep) {
   });
   const auto lines = lines_of_mistake(all);
   ASSERT_FALSE(lines.empty());
-  EXPECT_LE(lines[0].at, 14u);
+  EXPECT_EQ(lines[0].at, 14u);
   EXPECT_EQ(lines[0].until, 19u);
 }
 TEST(ShaderLine, OfAHelperThatIsWrongInMostCallsIsInTheHelper) {
