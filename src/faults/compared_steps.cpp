@@ -13,18 +13,18 @@ ComparedSteps::ComparedSteps(const std::vector<Followed>& invocations, bool is_i
     if (!p.calls.empty() && is_origin(p)) origins_.insert(p.calls);
 }
 
-bool ComparedSteps::is_vouched(const PortStep& p) const {
-  for (std::size_t k = 0; k < p.values.size(); ++k) {
-    if (p.values[k].empty()) continue;
+bool ComparedSteps::is_of_reference(const Values& of_port) const {
+  for (std::size_t k = 0; k < of_port.size(); ++k) {
+    if (of_port[k].empty()) continue;
     std::vector<int> near;
-    for (const float v : p.values[k])
+    for (const float v : of_port[k])
       for (const int n : reference.by_right.near(k, v)) near.push_back(n);
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     if (near.empty()) continue;
     return std::any_of(near.begin(), near.end(), [&](int n) {
       const Values& right = reference.right[static_cast<std::size_t>(n)];
-      return is_met_by(p.values, right) || (tells(right) && is_met_by(right, p.values));
+      return is_met_by(of_port, right) || (tells(right) && is_met_by(right, of_port));
     });
   }
   return false;
@@ -56,6 +56,11 @@ bool ComparedSteps::is_origin(const PortStep& p) const {
   return !is_right(p) && std::all_of(p.of.begin(), p.of.end(), [&](int of) { return is_right(port[of]); });
 }
 
+bool ComparedSteps::is_first_wrong(const PortStep& p) const {
+  const auto is_good = [&](const PortStep& o) { return o.is_given() || o.is_position || is_of_reference(o.first); };
+  return !is_good(p) && std::all_of(p.first_of.begin(), p.first_of.end(), [&](int of) { return is_good(port[of]); });
+}
+
 std::uint32_t ComparedSteps::blamed(int node) const {
   const PortStep& p = port[node];
   std::uint32_t at = p.instruction;
@@ -75,6 +80,12 @@ std::uint32_t ComparedSteps::blamed(int node) const {
     at = p.calls[level - 1];
   }
   return at;
+}
+
+bool ComparedSteps::has_one_call(const PortStep& p) const {
+  return !p.calls.empty() && std::none_of(port.steps.begin(), port.steps.end(), [&](const PortStep& o) {
+    return o.instruction == p.instruction && o.part == p.part && o.calls != p.calls;
+  });
 }
 
 bool ComparedSteps::is_old_in_most_calls(const PortStep& p) const {

@@ -68,8 +68,9 @@ std::optional<Cause> decided(const TexelReplay& run, const TexelReplay* other) {
     best->inside += there->inside;
     best->of += there->of;
   }
-  add_lines(run, nullptr, *best, {*best}, {});
-  return *best;
+  std::vector<Tried> found{*best};
+  add_lines(run, nullptr, found, found, {});
+  return found.front();
 }
 
 std::optional<Cause> read_beyond_end(const FailedRun& f, std::size_t output) {

@@ -46,7 +46,10 @@ std::vector<Cause> causes_of_lists(const FailedRun& f, const SearchLimit& limit)
     }
     run.limit(limit);
     if (other) other->limit(limit);
-    for (Cause& c : diagnosed(run, other && other->fails() ? &*other : nullptr)) found.push_back(std::move(c));
+    std::vector<Cause> causes = diagnosed(run, other && other->fails() ? &*other : nullptr);
+    if (causes.empty())
+      if (std::optional<Cause> unknown = unknown_cause(run, true)) causes.push_back(*std::move(unknown));
+    for (Cause& c : causes) found.push_back(std::move(c));
   }
   return found;
 }
@@ -95,6 +98,8 @@ std::vector<Cause> causes_of_texels(const FailedRun& f, const SearchLimit& limit
     best.insert(best.begin(), std::move(*formula));
     if (best.size() > 3) best.pop_back();
   }
+  if (best.empty())
+    if (std::optional<Cause> unknown = unknown_cause(run, false)) best.push_back(*std::move(unknown));
   return best;
 }
 

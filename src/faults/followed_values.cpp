@@ -223,13 +223,20 @@ PortValues::PortValues(const std::vector<Followed>& invocations) : by_value(invo
       for (std::int32_t call = step.call; call >= 0; call = trace.calls[static_cast<std::size_t>(call)].caller)
         calls.push_back(trace.calls[static_cast<std::size_t>(call)].instruction);
       std::reverse(calls.begin(), calls.end());
-      const int row = rows.at({step.instruction, step.part, calls}, {n.op, step.instruction, step.part, calls, Values(count)});
+      const int row =
+          rows.at({step.instruction, step.part, calls}, {n.op, step.instruction, step.part, calls, Values(count), Values(count)});
       number.push_back(row);
       PortStep& made = rows.rows[static_cast<std::size_t>(row)];
+      const bool is_first = made.values[k].empty();
       made.values[k].push_back(n.value);
+      if (is_first) made.first[k].push_back(n.value);
       if (n.op == Op::comparison) add(made.compared, k, n, count);
-      for (const std::int32_t operand : n.of)
-        if (operand >= 0 && number[static_cast<std::size_t>(operand)] != row) made.of.push_back(number[static_cast<std::size_t>(operand)]);
+      for (const std::int32_t operand : n.of) {
+        if (operand < 0) continue;
+        const int of = number[static_cast<std::size_t>(operand)];
+        if (is_first) made.first_of.push_back(of);
+        if (of != row) made.of.push_back(of);
+      }
     }
     for (const int output : invocations[k].outputs)
       if (const std::int32_t node = trace.outputs[static_cast<std::size_t>(output)]; node >= 0)

@@ -71,8 +71,10 @@ struct PortStep {
   std::uint32_t instruction, part;
   std::vector<std::uint32_t> calls;  ///< call instructions, from the entry point on
   Values values;
-  std::vector<int> of = {};  ///< steps whose values are operands
-  Operands compared = {};    ///< of a comparison
+  Values first;                    ///< the first of them, as executed
+  std::vector<int> of = {};        ///< steps whose values are operands
+  std::vector<int> first_of = {};  ///< and those of the first values
+  Operands compared = {};          ///< of a comparison
 
   int users = 0;             ///< number of steps that it is an operand of
   bool is_position = false;  ///< it is the invocation's own index, unchanged

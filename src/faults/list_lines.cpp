@@ -24,6 +24,13 @@ bool is_near(const std::vector<std::byte>& a, const std::vector<std::byte>& b, c
   });
 }
 
+/// True if one of the lists has this record alone.
+bool stores(const std::vector<Array>& lists, const std::vector<std::byte>& record, const std::vector<Word>& words) {
+  return std::any_of(lists.begin(), lists.end(), [&](const Array& list) {
+    return list.is_records && list.record.size == record.size() && list.width == 1 && is_near(list.levels.at(0), record, words);
+  });
+}
+
 }  // namespace
 
 void ListReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
@@ -44,17 +51,29 @@ void ListReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
     const auto with = wrong ? evaluated(d, *wrong, &followed.wrong) : std::nullopt;
     if (!with || with->size() != one->right.size() || is_near(*with, one->right, words_)) continue;
     evaluated(none, *right, &followed.right);
-    const std::vector<Array> stored = program_->trace(one->c, followed.port);
     // The record must be the mistake's, independent of the device.
-    const bool is_same = std::any_of(stored.begin(), stored.end(), [&](const Array& list) {
-      return list.is_records && list.record.size == with->size() && list.width == 1 && is_near(list.levels.at(0), *with, words_);
-    });
-    if (!is_same) continue;
+    if (!stores(program_->trace(one->c, followed.port), *with, words_)) continue;
     for (std::size_t k = 0; k < followed.port.outputs.size(); ++k) followed.outputs.push_back(static_cast<int>(k));
     out.push_back(std::move(followed));
   }
 } catch (const Error&) {
   out.clear();  // the program uses something unsupported
+}
+
+void ListReplay::follow_right(std::vector<Followed>& failing, std::vector<Followed>&) const try {
+  if (!program_) return;
+  Fault none;
+  none.behaviour = without_mistake(none, {-1, -1});
+  for (const std::shared_ptr<Alone>& one : alone_) {
+    const capture::KeyedModel* const keyed = one->model->keyed(c_.outputs[output_].name);
+    Followed followed;
+    if (!keyed || !evaluated(none, *keyed, &followed.right) || stores(program_->trace(one->c, followed.port), one->right, words_)) continue;
+    followed.wrong = followed.right;
+    for (std::size_t k = 0; k < followed.port.outputs.size(); ++k) followed.outputs.push_back(static_cast<int>(k));
+    failing.push_back(std::move(followed));
+  }
+} catch (const Error&) {
+  failing.clear();
 }
 
 }  // namespace rainref::faults

@@ -38,6 +38,7 @@ class ListReplay : public Replay {
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
   void follow(const Fault& d, std::vector<Followed>& out) const override;
+  void follow_right(std::vector<Followed>& failing, std::vector<Followed>& passing) const override;
   /// Sets the port's own program. It must outlive the replay.
   void take(const capture::TracedListProgram& program) { source_ = program_ = &program; }
 

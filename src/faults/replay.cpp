@@ -237,29 +237,65 @@ std::vector<Tried> tried(const Replay& replay, const parallel::Executor& executo
   return out;
 }
 
-void add_lines(const Replay& run, const Replay* other, Tried& best, const std::vector<Tried>& causes, const std::set<std::string>& alike) {
+namespace {
+constexpr std::size_t most_lines = 3;
+/// Adds a line of the port's shader to those of a cause.
+void add_line(Cause& to, const Replay& run, const FoundLine& found) {
+  if (const std::optional<judge::ShaderLine> line = run.line(found);
+      line && to.lines.size() < most_lines && std::find(to.lines.begin(), to.lines.end(), *line) == to.lines.end())
+    to.lines.push_back(*line);
+}
+/// Where the port's shader departs from the reference.
+std::vector<FoundLine> departures_of(const Replay& run) {
+  std::vector<Followed> failing, passing;
+  run.follow_right(failing, passing);
+  return failing.empty() ? std::vector<FoundLine>() : departures(failing, passing);
+}
+}  // namespace
+
+std::optional<Cause> unknown_cause(const Replay& run, bool of_records) {
+  What unknown;
+  unknown.kind = Kind::unknown;
+  Tried out(std::move(unknown), {"", "", 0, 0, 0, of_records});
+  for (const FoundLine& found : departures_of(run)) add_line(out, run, found);
+  return out.lines.empty() ? std::nullopt : std::optional<Cause>(out);
+}
+
+void add_lines(const Replay& run, const Replay* other, std::vector<Tried>& best, const std::vector<Tried>& causes,
+               const std::set<std::string>& alike) {
   constexpr std::size_t most_causes = 8;
-  if (best.inside * 3 < best.of) return;
+  Tried& first = best.front();
+  const auto add_all = [&](const std::vector<FoundLine>& all) {
+    for (const FoundLine& found : all) add_line(first, run, found);
+  };
+  std::vector<FoundLine> functions_and_calls;
+  const auto add_lines_of = [&](const Tried& c) {
+    std::vector<Followed> followed;
+    run.follow(*c.fault, followed);
+    if (other && c.other_fault && !followed.empty()) other->follow(*c.other_fault, followed);
+    if (followed.empty()) return;
+    const FoundLines found = lines_of_mistake(followed, c.what.is_of_function());
+    add_all(found.lines);
+    functions_and_calls.insert(functions_and_calls.end(), found.function_and_call.begin(), found.function_and_call.end());
+  };
+  const auto explains_much = [](const Tried& c) { return c.inside * 3 >= c.of; };
   std::vector<const Tried*> asked;
   for (const Tried& c : causes)
-    if (c.fault && (c.name == best.name || alike.contains(c.name)) && c.inside * 3 >= c.of) asked.push_back(&c);
+    if (c.fault && (c.name == first.name || alike.contains(c.name)) && explains_much(first) && explains_much(c)) asked.push_back(&c);
   std::stable_sort(asked.begin(), asked.end(), [&](const Tried* a, const Tried* b) {
-    if ((a->name == best.name) != (b->name == best.name)) return a->name == best.name;
+    if ((a->name == first.name) != (b->name == first.name)) return a->name == first.name;
     return far_fetched(*a) < far_fetched(*b);
   });
   asked.resize(std::min(asked.size(), most_causes));
-  constexpr std::size_t most_lines = 3;
   for (const Tried* c : asked) {
-    if (best.lines.size() >= most_lines) break;
-    std::vector<Followed> followed;
-    run.follow(*c->fault, followed);
-    if (other && c->other_fault && !followed.empty()) other->follow(*c->other_fault, followed);
-    if (followed.empty()) continue;
-    for (const FoundLine& found : lines_of_mistake(followed, c->what.is_of_function()))
-      if (const std::optional<judge::ShaderLine> line = run.line(found);
-          line && std::find(best.lines.begin(), best.lines.end(), *line) == best.lines.end())
-        best.lines.push_back(*line);
+    if (first.lines.size() >= most_lines) break;
+    add_lines_of(*c);
   }
+  if (first.is_likely) return;
+  for (std::size_t k = 1; k < best.size() && first.lines.size() < most_lines; ++k)
+    if (best[k].fault && explains_much(best[k])) add_lines_of(best[k]);
+  add_all(functions_and_calls);
+  if (first.lines.size() < most_lines) add_all(departures_of(run));
 }
 
 std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
@@ -317,7 +353,7 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
     for (const Tried& c : causes)
       if (alike.contains(c.name) || far_fetched(c) > far_fetched(best.front())) same.erase(c.name);
     const std::string own = best.front().sentence;
-    add_lines(run, other, best.front(), causes, alike);
+    add_lines(run, other, best, causes, alike);
     say_one_of(best.front(), causes, alike);
     say_one_of(best.front(), causes, same, 2, as_much, own);
     return said();
@@ -335,7 +371,7 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other, bool is_plain) {
   if ((is_fitted(best.front()) || best.front().what.is_odd_number()) && best.front().explained * 50 < best.front().of * 49)
     best.front().is_likely = false;
   // Causes that could not be tested elsewhere are not reported as giving the same values.
-  add_lines(run, other, best.front(), causes, there.alike);
+  add_lines(run, other, best, causes, there.alike);
   if (best.front().is_likely)
     say_one_of(best.front(), causes, there.alike);
   else

@@ -57,6 +57,8 @@ class Replay {
 
   /// Appends some invocations in which a mistake reproduces the port's bits, traced in the port's shader too; none if there is no shader.
   virtual void follow(const Fault&, std::vector<Followed>&) const {}
+  /// Appends invocations of the port's shader without any mistake: some where it gives wrong values, and some that passed.
+  virtual void follow_right(std::vector<Followed>& /*failing*/, std::vector<Followed>& /*passing*/) const {}
   /// A line of that shader; nothing if it has no line information.
   std::optional<judge::ShaderLine> line(const FoundLine& found) const;
 
@@ -101,9 +103,14 @@ inline const capture::PassModel& no_model() {
   return none;
 }
 
-/// Adds the lines of the port's shader for the best cause and for those of `causes` that give the same bits (`alike`: their names). No
-/// lines if the cause leaves most failures unexplained, or if the shader itself gives other values.
-void add_lines(const Replay& run, const Replay* other, Tried& best, const std::vector<Tried>& causes, const std::set<std::string>& alike);
+/// Adds lines of the port's shader to the first of the best causes: its own and those of causes that give the same bits (`alike`: their
+/// names). If it is not likely, further places follow: those of the other best causes, the function or its call, and where the port departs
+/// from the reference. At most three in all.
+void add_lines(const Replay& run, const Replay* other, std::vector<Tried>& best, const std::vector<Tried>& causes,
+               const std::set<std::string>& alike);
+
+/// The cause of a run for which none was found: lines of the port's shader where it departs from the reference. Nothing if there are none.
+std::optional<judge::Cause> unknown_cause(const Replay& run, bool of_records);
 
 /// Returns the causes of a run, best first. `other`: another failing run of the pass, or null; a cause must explain both. A cause is likely
 /// if no rival, a different mistake at another place, explains as much; none is likely if time ran out before all were tried. `is_plain`:

@@ -16,7 +16,8 @@ using perturbed::Op;
 class LineSearch : ComparedSteps {
  public:
   using ComparedSteps::ComparedSteps;
-  std::vector<FoundLine> found() const;
+  FoundLines found() const;
+  std::vector<FoundLine> departures(const LineSearch& passing) const;
 
  private:
   /// A step, and its user.
@@ -28,11 +29,17 @@ class LineSearch : ComparedSteps {
     const std::uint32_t at = blamed(node);
     return {at, at};
   }
-  std::vector<FoundLine> walked_back(int changed, int from, bool is_late) const;
+  /// Lines, with the function and the call of the step that they were found by.
+  FoundLines with_call(int node, std::vector<FoundLine> lines) const {
+    const PortStep& p = port[node];
+    if (p.calls.empty()) return {std::move(lines), {}};
+    return {std::move(lines), {{p.instruction, p.instruction}, {p.calls.back(), p.calls.back()}}};
+  }
+  FoundLines walked_back(int changed, int from, bool is_late) const;
   std::vector<FoundLine> of_outputs() const;
-  std::vector<FoundLine> of_decision(const Operands& compared) const;
+  FoundLines of_decision(const Operands& compared) const;
   std::vector<FoundLine> of_remains() const;
-  std::vector<FoundLine> of_operands(const ChangedValues& wrong) const;
+  FoundLines of_operands(const ChangedValues& wrong) const;
 };
 
 /// Walks back from a step through all steps that the reference lacks; returns these with their users.
@@ -54,7 +61,7 @@ std::vector<LineSearch::Met> LineSearch::unvouched(int from, int changed) const 
 
 /// Walks back from a value of the port that equals the mistake's and that the reference lacks, through steps that the reference also lacks
 /// and earlier values of the mistake.
-std::vector<FoundLine> LineSearch::walked_back(int changed, int from, bool is_late) const {
+FoundLines LineSearch::walked_back(int changed, int from, bool is_late) const {
   Met best{from, from};
   int best_time = changed, first = from;
   bool is_old = false, is_place = false;
@@ -81,21 +88,25 @@ std::vector<FoundLine> LineSearch::walked_back(int changed, int from, bool is_la
     const PortStep &kept = port[best.node], &user = port[best.user];
     const bool is_remains = reference.changed[static_cast<std::size_t>(best_time)].is_left_out();
     const std::uint32_t made = port[first_copy(best.node, is_remains)].instruction;
-    if (is_place) return {{made, user.calls.empty() ? user.instruction : user.calls.front()}, begins};
-    if (kept.of.empty()) return {line_at(best.user), begins};
+    if (is_place) return with_call(best.node, {{made, user.calls.empty() ? user.instruction : user.calls.front()}, begins});
+    if (kept.of.empty()) return with_call(best.user, {line_at(best.user), begins});
     const bool leaves = kept.calls.size() > user.calls.size();
-    if (leaves && (in_function || is_old_in_most_calls(kept))) return {{kept.instruction, kept.instruction}, begins};
+    if (leaves && (in_function || is_old_in_most_calls(kept))) return with_call(best.node, {{kept.instruction, kept.instruction}, begins});
     const std::uint32_t at = leaves ? kept.calls[user.calls.size()] : made;
-    return {{at, kept.calls.size() < user.calls.size() ? at : user.instruction}, begins};
+    return with_call(best.node, {{at, kept.calls.size() < user.calls.size() ? at : user.instruction}, begins});
   }
   if (best.node == from)
     if (const int other = other_operand(from, reference.changed[static_cast<std::size_t>(changed)]); other >= 0)
-      return {{port[first_copy(other, false)].instruction, blamed(from)}, begins};
+      return with_call(from, {{port[first_copy(other, false)].instruction, blamed(from)}, begins});
   // A texel is wrong if its position is. If the port has the mistake's operation in another form, the mistake begins there.
   const Op op = port[best.node].op;
   const bool is_of_place = op == Op::lookup || op == Op::load || op == Op::fetch;
-  if (!in_function && (is_of_place || (is_late && best.node == from))) return {begins, line_at(best.node)};
-  return {line_at(first_constant(best.node)), begins};
+  // If a function that only reads is called in one place, what it is given is more likely wrong.
+  if (!in_function && op != Op::lookup && is_of_place && has_one_call(port[best.node]))
+    return with_call(best.node, {{port[best.node].calls.back(), port[best.node].calls.back()}, line_at(best.node)});
+  if (!in_function && (is_of_place || (is_late && best.node == from))) return with_call(best.node, {begins, line_at(best.node)});
+  const int constant = first_constant(best.node);
+  return with_call(constant, {line_at(constant), begins});
 }
 
 /// If no value of the mistake occurs before the stores: returns the first operand of a stored value that the reference lacks; if there is
@@ -116,12 +127,12 @@ std::vector<FoundLine> LineSearch::of_outputs() const {
 
 /// The port's comparison with these operands, whatever it does with the outcome; the number in it that the reference lacks, if there is
 /// one.
-std::vector<FoundLine> LineSearch::of_decision(const Operands& compared) const {
+FoundLines LineSearch::of_decision(const Operands& compared) const {
   for (std::size_t k = 0; k < port.steps.size(); ++k) {
     const PortStep& p = port.steps[k];
     if (p.op != Op::comparison || !is_same_comparison(compared, p.compared)) continue;
-    const std::uint32_t at = port[first_constant(static_cast<int>(k))].instruction;
-    return {{at, at}};
+    const int constant = first_constant(static_cast<int>(k));
+    return with_call(constant, {{port[constant].instruction, port[constant].instruction}});
   }
   return {};
 }
@@ -138,7 +149,7 @@ std::vector<FoundLine> LineSearch::of_remains() const {
 }
 
 /// The port's operation that makes the mistake's values of the mistake's operands, where the reference makes them of others.
-std::vector<FoundLine> LineSearch::of_operands(const ChangedValues& wrong) const {
+FoundLines LineSearch::of_operands(const ChangedValues& wrong) const {
   Operands telling;
   std::copy_if(wrong.operands.begin(), wrong.operands.end(), std::back_inserter(telling), tells);
   if (telling.empty() || wrong.is_left_out() || reference.has(wrong.values, telling)) return {};
@@ -149,12 +160,12 @@ std::vector<FoundLine> LineSearch::of_operands(const ChangedValues& wrong) const
     };
     if (!p.is_given() && p.op != Op::comparison && is_within(wrong.values, p.values) &&
         std::all_of(telling.begin(), telling.end(), is_operand))
-      return {line_at(static_cast<int>(k))};
+      return with_call(static_cast<int>(k), {line_at(static_cast<int>(k))});
   }
   return {};
 }
 
-std::vector<FoundLine> LineSearch::found() const {
+FoundLines LineSearch::found() const {
   const Values* remains = nullptr;  // if a step is left out
   bool is_late = false;             // a new value of the mistake is not in the port, whose text has another form there
   for (std::size_t n = 0; n < reference.changed.size(); ++n) {
@@ -165,9 +176,9 @@ std::vector<FoundLine> LineSearch::found() const {
     const auto is_of_remains = [&](const Values& operand) { return is_within(*remains, operand); };
     const bool is_near = !remains || std::any_of(c.operands.begin(), c.operands.end(), is_of_remains);
     if (!remains && !c.decision.empty())
-      if (auto lines = of_decision(c.decision); !lines.empty()) return lines;
+      if (FoundLines found = of_decision(c.decision); !found.lines.empty()) return found;
     if (!varies(wrong) || reference.has(wrong)) {
-      if (auto lines = is_near ? of_operands(c) : std::vector<FoundLine>(); !lines.empty()) return lines;
+      if (FoundLines found = is_near ? of_operands(c) : FoundLines(); !found.lines.empty()) return found;
       continue;
     }
     const auto there = std::find_if(wrong.begin(), wrong.end(), [](const auto& one) { return !one.empty(); });
@@ -179,12 +190,32 @@ std::vector<FoundLine> LineSearch::found() const {
   std::vector<FoundLine> lines = of_remains();
   for (const FoundLine& line : of_outputs()) lines.push_back(line);
   lines.resize(std::min<std::size_t>(lines.size(), 2));
-  return lines;
+  return {std::move(lines), {}};
+}
+
+std::vector<FoundLine> LineSearch::departures(const LineSearch& passing) const {
+  std::set<int> origins;
+  for (const int output : port.outputs)
+    for (const Met& at : unvouched(output))
+      if (is_first_wrong(port[at.node])) origins.insert(at.node);
+  std::set<std::pair<std::uint32_t, std::vector<std::uint32_t>>> of_passing;
+  for (const PortStep& p : passing.port.steps)
+    if (passing.is_first_wrong(p)) of_passing.insert({p.instruction, p.calls});
+  const auto is_form = [&](int node) { return of_passing.contains({port[node].instruction, port[node].calls}); };
+  std::vector<FoundLine> out;
+  for (const bool form : {false, true})
+    for (const int node : origins)
+      if (is_form(node) == form) out.push_back(line_at(node));
+  return out;
 }
 
 }  // namespace
 
-std::vector<FoundLine> lines_of_mistake(const std::vector<Followed>& invocations, bool in_function) {
+std::vector<FoundLine> departures(const std::vector<Followed>& failing, const std::vector<Followed>& passing) {
+  return LineSearch(failing, false).departures(LineSearch(passing, false));
+}
+
+FoundLines lines_of_mistake(const std::vector<Followed>& invocations, bool in_function) {
   return LineSearch(invocations, in_function).found();
 }
 

@@ -40,6 +40,7 @@ class TexelReplay : public Replay {
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
   void follow(const Fault& d, std::vector<Followed>& out) const override;
+  void follow_right(std::vector<Followed>& failing, std::vector<Followed>& passing) const override;
   /// Sets the port's own program for this run. It must outlive the replay.
   void take(const capture::TracedProgram& program) { source_ = program_ = &program; }
   /// Mistakes that need no search, and equally plain mistakes in finished buffers.

@@ -230,10 +230,18 @@ std::string coverage_text(const judge::PassCoverage& c, std::size_t shown) {
   return out + (c.never.size() > shown ? fmt::format(" and {} more", c.never.size() - shown) : "");
 }
 
-const char* cause_word(const Cause& c) { return c.is_likely ? "likely cause" : "may be"; }
+namespace {
+/// False for what stands in place of a cause that was not found.
+bool is_found(const Cause& c) { return c.of > 0; }
+}  // namespace
+std::string cause_words(const Cause& c) {
+  return is_found(c) ? fmt::format("{}: {}: {}", c.is_likely ? "likely cause" : "may be", c.name, c.sentence)
+                     : fmt::format("{}: {}", c.name, c.sentence);
+}
 std::string cause_text(const Cause& c, std::string_view which) {
-  return fmt::format("{}: {}: {} (gives {} of {} {} {} bit for bit, comes near {})", cause_word(c), c.name, c.sentence, c.explained, c.of,
-                     which, element_word(c), c.inside);
+  if (!is_found(c)) return cause_words(c);
+  return fmt::format("{} (gives {} of {} {} {} bit for bit, comes near {})", cause_words(c), c.explained, c.of, which, element_word(c),
+                     c.inside);
 }
 std::vector<std::string> line_texts(const Cause& c) {
   std::vector<std::string> out;
@@ -253,7 +261,9 @@ std::string outside_text(const PassJudgement& p) {
 bool is_broken(const PassJudgement& p) {
   return std::any_of(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.broken; });
 }
-bool has_unknown_cause(const PassJudgement& p) { return p.causes_sought && p.causes.empty() && figures_of(p).outside > 0 && !is_broken(p); }
+bool has_unknown_cause(const PassJudgement& p) {
+  return p.causes_sought && (p.causes.empty() || !is_found(p.causes.front())) && figures_of(p).outside > 0 && !is_broken(p);
+}
 
 bool fails_by_sample(const PassJudgement& p) {
   return std::any_of(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.is_of_sample; });

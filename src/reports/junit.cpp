@@ -51,7 +51,7 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
   }
   if (o.failing > static_cast<std::int64_t>(shown_failures))
     out += fmt::format("({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown_failures));
-  if (has_unknown_cause(p)) out += "cause unknown\n";
+  if (has_unknown_cause(p) && p.causes.empty()) out += "cause unknown\n";
   if (!p.where.empty()) out += fmt::format("where: {}\n", p.where);
   for (const Cause& c : p.causes) out += cause_text(c) + "\n" + lines_of(c);
   return out;
@@ -62,7 +62,7 @@ std::string failing_message(const PassJudgement& p, const OutputJudgement& o) {
   std::string out = fmt::format("{} of {} {} outside", o.failing, o.elements, element_word(o));
   if (!p.causes.empty()) {
     const Cause& c = p.causes.front();
-    out += fmt::format("; {}: {}: {}", cause_word(c), c.name, c.sentence);
+    out += "; " + cause_words(c);
     if (const std::vector<std::string> lines = line_texts(c); !lines.empty()) out += "; " + lines.front();
   } else if (has_unknown_cause(p)) {
     out += "; cause unknown";

@@ -172,7 +172,7 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
     }
   }
   if (skipped > 0) out += fmt::format("  ({} more failures not shown)\n", skipped);
-  if (has_unknown_cause(p)) out += "  cause unknown\n";
+  if (has_unknown_cause(p) && p.causes.empty()) out += "  cause unknown\n";
   if (!p.where.empty()) out += wrapped(fmt::format("  where: {}", p.where), 4);
   for (const Cause& c : p.causes) {
     out += wrapped("  " + cause_text(c), 4);

@@ -52,7 +52,7 @@ TEST(ShaderLine, IsTheFirstValueThatTheMistakeMakes) {
     const int wrong = add(f.port, 13, Op::sum, a + b, {na, nb});
     add(f.port, 14, Op::sum, a + b + c, {wrong, nc});
   });
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 13u);
   EXPECT_EQ(lines[0].until, 13u);
@@ -67,7 +67,7 @@ TEST(ShaderLine, IsFoundWhereThePortSumsInAnotherOrder) {
     const int wrong = add(f.port, 14, Op::sum, b + a, {nb, twice});
     add(f.port, 15, Op::sum, c + (b + a), {nc, wrong});
   });
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 14u);
 }
@@ -78,7 +78,7 @@ TEST(ShaderLine, LiesBetweenTwoWhereAStepIsLeftOut) {
     const int copy = add(f.port, 13, Op::stored, a, {na});
     add(f.port, 17, Op::sum, a + c, {copy, nc});
   });
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 13u);
   EXPECT_EQ(lines[0].until, 17u);
@@ -95,7 +95,7 @@ TEST(ShaderLine, OfAConstantIsWhereItIsSet) {
     const int set = add(f.port, 7, Op::stored, 3.0f, {given});
     add(f.port, 9, Op::product, 3.0f * a, {set, na});
   });
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 7u);
 }
@@ -122,7 +122,7 @@ TEST(ShaderLine, OfAConditionTheOtherWayIsItsComparison) {
       f.port.outputs = {add(f.port, 18, Op::stored, b <= a ? a * b : c, {taken})};
       f.outputs = {0};
     });
-    const auto lines = lines_of_mistake(all);
+    const auto lines = lines_of_mistake(all).lines;
     ASSERT_FALSE(lines.empty()) << is_choice;
     EXPECT_EQ(lines[0].at, 15u) << is_choice;
     EXPECT_EQ(lines[0].until, 15u) << is_choice;
@@ -144,7 +144,7 @@ TEST(ShaderLine, OfARoundingIsKnownByWhatIsRounded) {
     f.port.outputs = {add(f.port, 20, Op::product, std::floor(x) * b, {nb, whole, copy})};
     f.outputs = {0};
   });
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 13u);
 }
@@ -162,7 +162,7 @@ TEST(ShaderLine, LiesBehindWhatRemainsWhereNothingElseIsNew) {
     f.port.outputs = {add(f.port, 20, Op::stored, a - b, {difference})};
     f.outputs = {0};
   });
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 12u);
   EXPECT_EQ(lines[0].until, 20u);
@@ -179,7 +179,7 @@ TEST(ShaderLine, LiesBehindTheOperandThatLacksAStep) {
     const int copy = add(f.port, 14, Op::stored, c, {nc}), product = add(f.port, 15, Op::product, a * b, {na, nb});
     add(f.port, 19, Op::sum, a * b + c, {product, copy});
   });
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 14u);
   EXPECT_EQ(lines[0].until, 19u);
@@ -201,7 +201,7 @@ TEST(ShaderLine, OfAHelperThatIsWrongInMostCallsIsInTheHelper) {
       add(f.port, 30 + static_cast<std::uint32_t>(call), Op::sum, x + a * x, {nx, read});
     }
   });
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 5u);
 }
@@ -212,7 +212,7 @@ TEST(ShaderLine, IsNotSaidOfAPortThatDoesSomethingElse) {
     const int other = add(f.port, 13, Op::quotient, a / b, {na, nb});
     add(f.port, 14, Op::sum, a / b + c, {other, nc});
   });
-  EXPECT_TRUE(lines_of_mistake(all).empty());
+  EXPECT_TRUE(lines_of_mistake(all).lines.empty());
 }
 TEST(ShaderLine, IsNotSaidOfAPortThatIsRight) {
   const auto all = followed([](Followed& f, float a, float b, float c) {
@@ -221,7 +221,7 @@ TEST(ShaderLine, IsNotSaidOfAPortThatIsRight) {
     const int right = add(f.port, 13, Op::product, a * b, {na, nb});
     add(f.port, 14, Op::sum, a * b + c, {right, nc});
   });
-  EXPECT_TRUE(lines_of_mistake(all).empty());
+  EXPECT_TRUE(lines_of_mistake(all).lines.empty());
 }
 TEST(ShaderLine, NeedsValuesThatVary) {
   // All of it is the same in every invocation: it says nothing that the port has the mistake's values too.
@@ -230,7 +230,7 @@ TEST(ShaderLine, NeedsValuesThatVary) {
     const int five = add(f.port, 10, Op::load, 5);
     add(f.port, 14, Op::sum, 9, {five});
   });
-  EXPECT_TRUE(lines_of_mistake(all).empty());
+  EXPECT_TRUE(lines_of_mistake(all).lines.empty());
 }
 TEST(ShaderLine, TakesInvocationsInWhichTheStepIsNotReached) {
   auto all = followed([](Followed& f, float a, float b, float c) {
@@ -243,9 +243,92 @@ TEST(ShaderLine, TakesInvocationsInWhichTheStepIsNotReached) {
   all[0].wrong.nodes.resize(3);
   all[0].port.values.nodes.resize(3);
   all[0].port.steps.resize(3);
-  const auto lines = lines_of_mistake(all);
+  const auto lines = lines_of_mistake(all).lines;
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0].at, 13u);
+}
+
+TEST(ShaderLine, OfAHelperThatOnlyReadsIsItsOneCall) {
+  // A helper, called in one place, reads a in place of b: nothing else in it can be wrong.
+  const auto all = followed([](Followed& f, float a, float b, float c) {
+    for (Trace* t : {&f.right, &f.wrong}) {
+      const int read = add(*t, Op::fetch, t == &f.right ? b : a), nc = add(*t, Op::load, c);
+      add(*t, Op::sum, (t == &f.right ? b : a) + c, {read, nc});
+    }
+    f.port.calls = {{30, -1}};
+    const int read = add(f.port, 5, Op::fetch, a, {}, 0), nc = add(f.port, 29, Op::load, c);
+    add(f.port, 31, Op::sum, a + c, {read, nc});
+  });
+  const FoundLines found = lines_of_mistake(all);
+  ASSERT_EQ(found.lines.size(), 2u);
+  EXPECT_EQ(found.lines[0].at, 30u);
+  EXPECT_EQ(found.lines[1].at, 5u);
+  EXPECT_EQ(found.function_and_call, (std::vector<FoundLine>{{5, 5}, {30, 30}}));
+}
+
+/// A reference without a mistake: a b + c.
+void add_right(Followed& f, float a, float b, float c) { add_reference(f, a, b, c, a * b); }
+/// A port that makes `first` + c of a and b, with the first operation at `instruction`.
+void add_port(Followed& f, std::uint32_t instruction, float a, float b, float c, float first) {
+  const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b), nc = add(f.port, 12, Op::load, c);
+  const int made = add(f.port, instruction, Op::product, first, {na, nb});
+  f.port.outputs = {add(f.port, 40, Op::sum, first + c, {made, nc})};
+  f.outputs = {0};
+}
+TEST(ShaderDepartures, BeginWhereAllOperandsAreRight) {
+  const auto failing = followed([](Followed& f, float a, float b, float c) {
+    add_right(f, a, b, c);
+    add_port(f, 13, a, b, c, a / b);
+  });
+  EXPECT_EQ(departures(failing, {}), (std::vector<FoundLine>{{13, 13}}));
+}
+TEST(ShaderDepartures, AreNoneInAPortThatIsRight) {
+  const auto failing = followed([](Followed& f, float a, float b, float c) {
+    add_right(f, a, b, c);
+    add_port(f, 13, a, b, c, a * b);
+  });
+  EXPECT_EQ(departures(failing, {}), std::vector<FoundLine>());
+}
+TEST(ShaderDepartures, OfALoopBeginInItsFirstRound) {
+  // x becomes x + a b, three times; the port adds a / b. From the second round on both operands are wrong.
+  const auto failing = followed([](Followed& f, float a, float b, float c) {
+    for (Trace* t : {&f.right, &f.wrong}) {
+      const int na = add(*t, Op::load, a), nb = add(*t, Op::load, b);
+      int x = add(*t, Op::load, c);
+      const std::uint32_t product = 100, sum = 101;
+      for (int round = 0; round < 3; ++round) {
+        const int p = add(*t, Op::product, a * b + static_cast<float>(round) * c, {na, nb, x});
+        t->nodes[static_cast<std::size_t>(p)].shape = product;
+        x = add(*t, Op::sum, c + static_cast<float>(round + 1) * a * b, {x, p});
+        t->nodes[static_cast<std::size_t>(x)].shape = sum;
+      }
+    }
+    const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b);
+    int x = add(f.port, 12, Op::load, c);
+    for (int round = 0; round < 3; ++round) {
+      const int p = add(f.port, 20, Op::quotient, a / b + static_cast<float>(round) * b, {na, nb, x});
+      x = add(f.port, 21, Op::sum, c + static_cast<float>(round + 1) * a / b, {x, p});
+    }
+    f.port.outputs = {x};
+    f.outputs = {0};
+  });
+  EXPECT_EQ(departures(failing, {}), (std::vector<FoundLine>{{20, 20}}));
+}
+TEST(ShaderDepartures, OfAnotherFormComeLast) {
+  // At 13 the port has another form than the reference, also where it passed; at 14 it is wrong.
+  const auto with = [](bool is_wrong) {
+    return followed([&](Followed& f, float a, float b, float c) {
+      add_right(f, a, b, c);
+      const int na = add(f.port, 10, Op::load, a), nb = add(f.port, 11, Op::load, b), nc = add(f.port, 12, Op::load, c);
+      const int half = add(f.port, 13, Op::product, a / 2, {na});
+      const float first = is_wrong ? b / 3 : b;
+      const int other = add(f.port, 14, Op::product, first, {nb});
+      const int product = add(f.port, 15, Op::product, 2 * (a / 2) * first, {half, other});
+      f.port.outputs = {add(f.port, 40, Op::sum, 2 * (a / 2) * first + c, {product, nc})};
+      f.outputs = {0};
+    });
+  };
+  EXPECT_EQ(departures(with(true), with(false)), (std::vector<FoundLine>{{14, 14}, {13, 13}}));
 }
 
 }  // namespace

@@ -122,6 +122,14 @@ TEST(ReportText, ManyFailingOutputsAreCounted) {
   EXPECT_THAT(text, HasSubstr("  (5 more failures not shown)\n  cause unknown\n"));
 }
 
+TEST(ReportText, AnUnknownCauseMayHaveLines) {
+  PortJudgement j = example_judgement();
+  judge::Cause& cause = j.passes[3].causes[0];
+  cause = {"cause unknown", "no tried mistake accounts for half of the failures"};
+  cause.lines = {{"a.comp", 7, "x = y;"}};
+  EXPECT_THAT(report_text(j), HasSubstr("  cause unknown: no tried mistake accounts for half of the failures\na.comp:7: x = y;\n"));
+}
+
 TEST(ReportText, WhatIsBrokenSaysWhy) {
   PortJudgement j = example_judgement();
   PassJudgement& wave = j.passes[0];

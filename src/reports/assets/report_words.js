@@ -63,7 +63,7 @@ function firstBadWords(report, bad, allowed) {
   return [linkTo(bad.pass), " is the first bad pass: ",
     isBroken(bad) || f.outside === 0 ? `${bad.reason}.` : [`${f.failing} of ${f.invocations} invocations (${share(f.failing, f.invocations)}) stored what `, allowed, " does not allow."],
     worst && worstWords(bad, worst), where && ` Where: ${where}.`,
-    cause ? [cause.is_likely ? " Likely cause: " : " The cause may be ", element("b", {}, cause.name),
+    cause && !bad.cause_is_unknown ? [cause.is_likely ? " Likely cause: " : " The cause may be ", element("b", {}, cause.name),
       `, ${cause.sentence} (gives ${cause.explained} of ${cause.of} failing ${cause.counted} bit for bit, comes near ${cause.inside}).`]
       : bad.cause_is_unknown && " The cause is unknown.",
     others.length > 0 && [" Also fail: ", joined(others.map(p => linkTo(p.pass))), "."]];
