@@ -11,9 +11,31 @@ namespace rainref::faults {
 using judge::Slot;
 
 namespace {
-/// Codes by which two implementations may differ.
-std::int64_t few_codes(const Slot& s) { return s.kind == FormatInfo::float32 ? 64 : 1; }
+/// True if two stored values are further apart than two implementations may be.
+bool is_far(const Slot& s, const std::byte* a, const std::byte* b) {
+  const std::int64_t few = s.kind == FormatInfo::float32 ? 64 : 1;
+  return std::abs(enclosed::ordered_code(s.kind, a) - enclosed::ordered_code(s.kind, b)) > few;
+}
 }  // namespace
+
+StoredTexel TexelReplay::of_program(Texel at) const {
+  std::vector<scalar::Scalar<float>> values(slots_.size());
+  program_->evaluate(at.x, at.y, values.data());
+  StoredTexel out(slots_.size());
+  for (std::size_t v = 0; v < slots_.size(); ++v)
+    if (!probed_.model.is_free(static_cast<int>(v)))
+      judge::store_value(slots_[v], values[v].v, judge::rounding_of(slots_[v], mode_), out[v].data());
+  return out;
+}
+std::vector<int> TexelReplay::changed_outputs(Texel at, const StoredTexel& stored) const {
+  std::vector<int> out;
+  for (std::size_t v = 0; v < slots_.size(); ++v) {
+    const Slot& s = slots_[v];
+    if (probed_.model.is_free(static_cast<int>(v))) continue;
+    if (is_far(s, stored[v].data(), s.at(reference_[static_cast<std::size_t>(s.output)], at.x, at.y))) out.push_back(static_cast<int>(v));
+  }
+  return out;
+}
 
 void TexelReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
   constexpr std::size_t most_tried = 48, most = 12;
@@ -26,26 +48,16 @@ void TexelReplay::follow(const Fault& d, std::vector<Followed>& out) const try {
     std::vector<int> outputs;
   };
   std::vector<Agreed> agreed;
-  StoredTexel stored(slots_.size()), of_port(slots_.size());
-  std::vector<scalar::Scalar<float>> values(slots_.size());
+  StoredTexel stored;
   const std::vector<Texel> tried = spread(failing_, most_tried);
   for (const Texel at : tried) {
     faulty.store(at, stored);
-    program_->evaluate(at.x, at.y, values.data());
-    Agreed one{at, {}};
+    const StoredTexel port = of_program(at);
     bool is_same = true;
-    for (std::size_t v = 0; v < slots_.size(); ++v) {
-      const Slot& s = slots_[v];
-      if (probed_.model.is_free(static_cast<int>(v))) continue;
-      judge::store_value(s, values[v].v, judge::rounding_of(s, mode_), of_port[v].data());
-      const auto code = [&](const std::byte* bytes) { return enclosed::ordered_code(s.kind, bytes); };
-      const std::int64_t with = code(stored[v].data()), given = code(of_port[v].data());
-      const std::int64_t right = code(s.at(reference_[static_cast<std::size_t>(s.output)], at.x, at.y));
-      const std::int64_t few = few_codes(s);
-      is_same &= std::abs(with - given) <= few;
-      if (std::abs(with - right) > few) one.outputs.push_back(static_cast<int>(v));
-    }
-    if (is_same && !one.outputs.empty()) agreed.push_back(std::move(one));
+    for (std::size_t v = 0; v < slots_.size(); ++v)
+      is_same &= probed_.model.is_free(static_cast<int>(v)) || !is_far(slots_[v], stored[v].data(), port[v].data());
+    std::vector<int> outputs = changed_outputs(at, stored);
+    if (is_same && !outputs.empty()) agreed.push_back({at, std::move(outputs)});
   }
   if (agreed.size() * 3 < tried.size()) return;
   for (std::size_t k = 0; k < std::min(most, agreed.size()); ++k) {
@@ -70,19 +82,8 @@ void TexelReplay::follow_right(std::vector<Followed>& failing, std::vector<Follo
     program_->trace(at.x, at.y, one.port);
     return one;
   };
-  std::vector<scalar::Scalar<float>> values(slots_.size());
-  StoredTexel of_port(slots_.size());
   for (const Texel at : spread(failing_, most)) {
-    program_->evaluate(at.x, at.y, values.data());
-    std::vector<int> outputs;
-    for (std::size_t v = 0; v < slots_.size(); ++v) {
-      const Slot& s = slots_[v];
-      if (probed_.model.is_free(static_cast<int>(v))) continue;
-      judge::store_value(s, values[v].v, judge::rounding_of(s, mode_), of_port[v].data());
-      const auto code = [&](const std::byte* bytes) { return enclosed::ordered_code(s.kind, bytes); };
-      const std::byte* const meant = s.at(reference_[static_cast<std::size_t>(s.output)], at.x, at.y);
-      if (std::abs(code(of_port[v].data()) - code(meant)) > few_codes(s)) outputs.push_back(static_cast<int>(v));
-    }
+    std::vector<int> outputs = changed_outputs(at, of_program(at));
     if (outputs.empty()) continue;
     failing.push_back(trace(at));
     failing.back().outputs = std::move(outputs);

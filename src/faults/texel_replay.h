@@ -55,6 +55,9 @@ class TexelReplay : public Replay {
 
  private:
   Tried cause(const Fault& given) const;
+  /// What the port's program stores at a texel, and the slots in which stored values are not the reference's.
+  StoredTexel of_program(Texel at) const;
+  std::vector<int> changed_outputs(Texel at, const StoredTexel& stored) const;
 
   Probed probed_;
   const capture::PassCase* before_;
