@@ -10,7 +10,7 @@ using perturbed::Op;
 ComparedSteps::ComparedSteps(const std::vector<Followed>& invocations, bool is_in_function)
     : reference(invocations), port(invocations), in_function(is_in_function) {
   for (const PortStep& p : port.steps)
-    if (!p.calls.empty() && is_origin(p)) origins_.insert(p.calls);
+    if (!p.calls.empty() && begins_wrong(p, &PortStep::values, &PortStep::of)) origins_.insert(p.calls);
 }
 
 bool ComparedSteps::is_of_reference(const Values& of_port) const {
@@ -50,15 +50,10 @@ int ComparedSteps::first_constant(int from) const {
   }
 }
 
-/// True if it is wrong although all that it is made of is right.
-bool ComparedSteps::is_origin(const PortStep& p) const {
-  const auto is_right = [&](const PortStep& o) { return o.is_given() || o.is_position || is_vouched(o); };
-  return !is_right(p) && std::all_of(p.of.begin(), p.of.end(), [&](int of) { return is_right(port[of]); });
-}
-
-bool ComparedSteps::is_first_wrong(const PortStep& p) const {
-  const auto is_good = [&](const PortStep& o) { return o.is_given() || o.is_position || is_of_reference(o.first); };
-  return !is_good(p) && std::all_of(p.first_of.begin(), p.first_of.end(), [&](int of) { return is_good(port[of]); });
+/// True if these values are wrong although those operands of them are right.
+bool ComparedSteps::begins_wrong(const PortStep& p, Values PortStep::*values, std::vector<int> PortStep::*operands) const {
+  const auto is_right = [&](const PortStep& o) { return o.is_given() || o.is_position || is_of_reference(o.*values); };
+  return !is_right(p) && std::all_of((p.*operands).begin(), (p.*operands).end(), [&](int of) { return is_right(port[of]); });
 }
 
 std::uint32_t ComparedSteps::blamed(int node) const {

@@ -28,7 +28,7 @@ struct ComparedSteps {
   int first_copy(int node, bool whatever_use) const;
   /// True if its first value is wrong although all that it is made of is right. In a loop that takes its own results, later operands are
   /// wrong too.
-  bool is_first_wrong(const PortStep& p) const;
+  bool is_first_wrong(const PortStep& p) const { return begins_wrong(p, &PortStep::first, &PortStep::first_of); }
   /// The operand that the port takes where the operation of the reference has another one, if that is the one difference; else -1.
   int other_operand(int node, const ChangedValues& meant) const;
 
@@ -38,7 +38,7 @@ struct ComparedSteps {
 
  private:
   bool is_of_reference(const Values& of_port) const;
-  bool is_origin(const PortStep& p) const;
+  bool begins_wrong(const PortStep& p, Values PortStep::*values, std::vector<int> PortStep::*operands) const;
 
   std::set<std::vector<std::uint32_t>> origins_;  ///< calls in which something goes wrong
 };

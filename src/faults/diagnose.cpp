@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -107,18 +108,24 @@ std::vector<Cause> causes_of(const FailedRun& failed, const SearchLimit& limit) 
   const capture::PassCase& c = failed.run.c;
   if (!judge::keyed_outputs(c).empty()) {
     std::vector<Cause> causes = causes_of_lists(failed, limit);
-    if (!causes.empty() || !failed.bind || !judge::is_enveloped(c)) return causes;
+    if (std::any_of(causes.begin(), causes.end(), std::mem_fn(&Cause::is_found)) || !failed.bind || !judge::is_enveloped(c)) return causes;
   }
   return judge::is_enveloped(c) ? causes_of_texels(failed, limit) : causes_of_bits(failed, limit);
 }
 
 }  // namespace
 
+void keep_found(std::vector<Cause>& causes) {
+  if (std::any_of(causes.begin(), causes.end(), std::mem_fn(&Cause::is_found)))
+    std::erase_if(causes, std::not_fn(std::mem_fn(&Cause::is_found)));
+}
+
 judge::Explanation diagnose(const FailedRun& failed) { return diagnose_within(SearchLimit(0), failed); }
 judge::Explanation diagnose_within(const SearchLimit& limit, const FailedRun& failed) {
   if (failed.is_warned) return {judge::is_enveloped(failed.run.c) ? causes_of_texels(failed, limit) : std::vector<Cause>(), ""};
   judge::Explanation why{causes_of(failed, limit), where_it_fails(failed)};
   if (std::optional<Cause> none = not_numbers(failed)) why.causes.push_back(*std::move(none));
+  keep_found(why.causes);
   return why;
 }
 

@@ -18,6 +18,9 @@ judge::Explanation diagnose(const judge::FailedRun& failed);
 /// The same with a time limit. If time runs out, returns the best causes so far, none of them likely.
 judge::Explanation diagnose_within(const SearchLimit& limit, const judge::FailedRun& failed);
 
+/// Removes entries that only have lines (judge::Cause::is_found) if a cause was found.
+void keep_found(std::vector<judge::Cause>& causes);
+
 /// "only channel y of wave; only within 4 texels of a record of drops", or "". where.cpp states the rule.
 std::string where_it_fails(const judge::FailedRun& failed);
 

@@ -150,8 +150,10 @@ struct Cause {
   std::int64_t inside = 0;     ///< failing texels that it comes near: within the usual width of the envelope
   bool of_records = false;     ///< counts ids of a list that are missing, extra or wrong, not texels
   bool is_likely = false;      ///< it explains nearly all of them; otherwise it is only possible
-  /// Location in the port's shader, if that is available: one line, or several if causes with the same bits have several.
+  /// Location in the port's shader, if that is available; the best line first.
   std::vector<ShaderLine> lines = {};
+  /// False for an entry that only has lines, because no cause was found. It stands alone.
+  bool is_found() const { return of > 0; }
 };
 /// Causes of a pass's failures, and their location.
 struct Explanation {

@@ -39,6 +39,7 @@ class JudgeCall {
       if (own && own->is_likely) return judge::Explanation{{std::move(*own)}, ""};
       judge::Explanation why = judging::explain(failed, programs, limit);
       if (own) why.causes.push_back(std::move(*own));
+      faults::keep_found(why.causes);
       if (limit.was_met() && (cut_short_.empty() || cut_short_.back() != failed.pass.name)) cut_short_.push_back(failed.pass.name);
       return why;
     };

@@ -230,16 +230,12 @@ std::string coverage_text(const judge::PassCoverage& c, std::size_t shown) {
   return out + (c.never.size() > shown ? fmt::format(" and {} more", c.never.size() - shown) : "");
 }
 
-namespace {
-/// False for what stands in place of a cause that was not found.
-bool is_found(const Cause& c) { return c.of > 0; }
-}  // namespace
 std::string cause_words(const Cause& c) {
-  return is_found(c) ? fmt::format("{}: {}: {}", c.is_likely ? "likely cause" : "may be", c.name, c.sentence)
-                     : fmt::format("{}: {}", c.name, c.sentence);
+  return c.is_found() ? fmt::format("{}: {}: {}", c.is_likely ? "likely cause" : "may be", c.name, c.sentence)
+                      : fmt::format("{}: {}", c.name, c.sentence);
 }
 std::string cause_text(const Cause& c, std::string_view which) {
-  if (!is_found(c)) return cause_words(c);
+  if (!c.is_found()) return cause_words(c);
   return fmt::format("{} (gives {} of {} {} {} bit for bit, comes near {})", cause_words(c), c.explained, c.of, which, element_word(c),
                      c.inside);
 }
@@ -262,7 +258,7 @@ bool is_broken(const PassJudgement& p) {
   return std::any_of(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.broken; });
 }
 bool has_unknown_cause(const PassJudgement& p) {
-  return p.causes_sought && (p.causes.empty() || !is_found(p.causes.front())) && figures_of(p).outside > 0 && !is_broken(p);
+  return p.causes_sought && (p.causes.empty() || !p.causes.front().is_found()) && figures_of(p).outside > 0 && !is_broken(p);
 }
 
 bool fails_by_sample(const PassJudgement& p) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "faults/diagnose.h"
 #include "faults/generators.h"
 #include "judge/mini_port.h"
 
@@ -46,6 +47,19 @@ TEST(ListCauses, AnEmptyListIsNoLikelyCause) {
   EXPECT_EQ(j.status, Status::fail);
   ASSERT_FALSE(j.causes.empty());
   for (const Cause& c : j.causes) EXPECT_FALSE(c.is_likely && c.name == "drops not written") << c.sentence;
+}
+
+// What only has lines would otherwise stand before "not a number" or "made from the port's own", and a report says that the cause is
+// unknown.
+TEST(UnknownCause, GivesWayToAFoundOne) {
+  const Cause lines{"cause unknown", ""}, nan{"not a number", "", 0, 4};
+  std::vector<Cause> causes{lines, nan};
+  keep_found(causes);
+  ASSERT_EQ(causes.size(), 1u);
+  EXPECT_EQ(causes[0].name, "not a number");
+  causes = {lines};
+  keep_found(causes);
+  EXPECT_EQ(causes.size(), 1u);
 }
 
 }  // namespace
