@@ -51,10 +51,11 @@ void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
 void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most,
                      const std::vector<Probe>& all);
 struct Solvable;
+struct Workers;
 /// Substitutions that explain all of a few texels. First solves for an operand, a result or the components of a vector: the numbers that
 /// would give what the port stored, if any. Then compares these with values of the invocation, uniforms and small numbers.
 void add_solved_substitutions(std::vector<Fault>& out, const Probed& p, const std::vector<Solvable>& texels,
-                              const std::vector<float>& known);
+                              const std::vector<float>& known, const Workers& workers);
 
 // ---- mistakes that need no search: they reproduce the port's values or do not. `port`: the stored outputs, in the order of the case's
 // outputs

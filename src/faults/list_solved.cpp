@@ -82,7 +82,7 @@ std::vector<Fault> ListReplay::solved() {
     };
   }
   std::vector<Fault> out;
-  add_solved_substitutions(out, {pass_, c_, evaluations_->bind, *model_}, texels, known);
+  add_solved_substitutions(out, {pass_, c_, evaluations_->bind, *model_}, texels, known, {executor_, [this] { return is_time_over(); }});
   return out;
 }
 

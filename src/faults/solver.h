@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "faults/probe.h"
+#include "rainref/executor.h"
 
 namespace rainref::faults {
 
@@ -14,6 +15,12 @@ struct Solvable {
   std::vector<float> port;
   std::vector<double> leeway;
   std::function<std::vector<float>()> evaluate;  ///< slots under the active behaviour; if their count differs: impossible
+};
+
+/// Threads for a search, and its time limit.
+struct Workers {
+  const parallel::Executor& executor;
+  std::function<bool()> is_time_over;  ///< thread-safe
 };
 
 /// Replacement numbers that give what the port stored, and the derivatives of the slots.

@@ -42,35 +42,66 @@ std::vector<float> other_numbers(float v) {
   return out;
 }
 
+/// What was found, each with its effort: how many editing steps lead to it.
+using Found = std::vector<std::pair<int, Fault>>;
+void sort_by_effort(Found& found) {
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
 class Search {
  public:
-  Search(const Probed& p, const std::vector<Solvable>& texels, const std::vector<float>& known)
-      : texels_(texels), first_(texels[0].probe), known_(std::make_shared<const std::vector<float>>(known)) {
+  Search(const Probed& p, const std::vector<Solvable>& texels, const std::vector<float>& known, const Workers& workers)
+      : p_(p), workers_(workers), texels_(texels), first_(texels[0].probe), known_(std::make_shared<const std::vector<float>>(known)) {
     for (const Solvable& t : texels) solvers_.emplace_back(t, *known_);
     for (const std::size_t n : {1u, 2u, 3u}) numbers_[n] = numbers_of(p, n);
     most_verified_ = std::clamp<std::size_t>(most_steps / 1000 / std::max<std::size_t>(first_.trace.nodes.size(), 1), 60, 400);
-    p_ = &p;
     groups_ = vectors_in(first_);
+    // Threads read the texts that a probe caches.
+    for (std::int32_t at = 0; at < std::ssize(first_.trace.nodes); ++at) static_cast<void>(words_for(first_, at));
   }
   void run(std::vector<Fault>& out) {
-    std::vector<std::pair<Target, Solution>> solved;
-    for (const Target& t : targets_of(first_)) {
+    const std::vector<Target> targets = targets_of(first_);
+    std::vector<std::vector<Solution>> solved(targets.size());
+    each(targets.size(), [&](std::size_t k, Found& found) {
+      const Target& t = targets[k];
       std::vector<float> now;
       for (std::size_t c = 0; c < t.nodes.size(); ++c) now.push_back(t.now(first_, c));
-      for (Solution& s : solvers_[0].solutions(t.places(first_), now)) {
-        other_values(t, s);
-        solved.emplace_back(t, std::move(s));
-      }
-    }
+      solved[k] = solvers_[0].solutions(t.places(first_), now);
+      for (const Solution& s : solved[k]) other_values(t, s, found);
+    });
     other_taps();
     if (found_.empty()) slot_by_slot();
     if (found_.empty()) everywhere();
-    for (const auto& [t, s] : solved) number(t, s);
-    std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    each(targets.size(), [&](std::size_t k, Found& found) {
+      for (const Solution& s : solved[k]) number(targets[k], s, found);
+    });
+    sort_by_effort(found_);
     for (std::size_t k = 0; k < std::min(found_.size(), most_found); ++k) out.push_back(std::move(found_[k].second));
   }
 
  private:
+  /// Calls body(k, found) for k in [0, count), in parallel; what is found stands in the order of k.
+  template <class Body>
+  void each(std::size_t count, const Body& body) {
+    std::vector<Found> found(count);
+    workers_.executor.for_range(static_cast<std::int64_t>(count), 1, [&](std::int64_t begin, std::int64_t end) {
+      for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+        if (!workers_.is_time_over()) body(k, found[k]);
+    });
+    for (Found& one : found) std::move(one.begin(), one.end(), std::back_inserter(found_));
+  }
+  /// A mistake that is kept if it suits.
+  struct Candidate {
+    int effort;
+    std::vector<Substitution> places;
+    What what;
+  };
+  void keep_suitable(const std::vector<Candidate>& all) {
+    each(all.size(), [&](std::size_t k, Found& found) {
+      if (suits(all[k].places)) keep(all[k].effort, all[k].places, all[k].what, found);
+    });
+  }
+
   /// True if it gives the stored values at these texels, except at one in eight, where a mistake may change the path through the pass.
   bool suits(const std::vector<Substitution>& places) const {
     std::size_t misses = 0;
@@ -78,16 +109,16 @@ class Search {
       if (!at.is_near(places) && ++misses * 8 > solvers_.size()) return false;
     return true;
   }
-  void keep(int effort, std::vector<Substitution> places, What what) {
+  void keep(int effort, std::vector<Substitution> places, What what, Found& found) const {
     if (gaps_in_name(what) > 0) effort += 2;  // an expression that cannot be written in full is less likely
     if (places.size() > 1) what.reach = places.size() > 2 ? Reach::all : Reach::both;
     Fault d(std::move(what));
     d.substitutions = std::move(places);
     tell_places_by(d, known_);
-    found_.emplace_back(effort, std::move(d));
+    found.emplace_back(effort, std::move(d));
   }
 
-  void other_values(const Target& t, const Solution& solution) {
+  void other_values(const Target& t, const Solution& solution, Found& found) const {
     std::vector<Substitution> places = t.places(first_);
     const std::size_t n = t.nodes.size();
     const std::vector<std::int32_t> meant = t.values(first_);
@@ -117,7 +148,7 @@ class Search {
         ++verified[is_number];
         if (!suits(places)) continue;
         done.insert({s.text, change});
-        keep(s.effort + effort_of(change), places, wrong_value(t, wrong));
+        keep(s.effort + effort_of(change), places, wrong_value(t, wrong), found);
       }
     }
   }
@@ -134,17 +165,20 @@ class Search {
     for (std::size_t k = 0; k < right.size(); ++k)
       if (!(std::abs(static_cast<double>(right[k]) - texels_[0].port[k]) <= texels_[0].leeway[k])) failing.push_back(k);
     if (failing.size() < 2 || failing.size() > 3) return;
-    std::vector<std::vector<std::pair<int, Fault>>> of_slots;
+    std::vector<Found> of_slots;
     for (const std::size_t slot : failing) {
       std::vector<Solvable> alone = texels_;
       for (Solvable& t : alone)
         for (const std::size_t other : failing)
           if (other != slot) t.leeway[other] = HUGE_VAL;
-      Search search(*p_, alone, *known_);
-      for (const Target& t : targets_of(first_))
-        if (t.nodes.size() == 1)
-          for (const Solution& s : search.solvers_[0].solutions(t.places(first_), {t.now(first_, 0)})) search.other_values(t, s);
-      std::stable_sort(search.found_.begin(), search.found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      Search search(p_, alone, *known_, workers_);
+      const std::vector<Target> targets = targets_of(first_);
+      search.each(targets.size(), [&](std::size_t k, Found& found) {
+        const Target& t = targets[k];
+        if (t.nodes.size() > 1) return;
+        for (const Solution& s : search.solvers_[0].solutions(t.places(first_), {t.now(first_, 0)})) search.other_values(t, s, found);
+      });
+      sort_by_effort(search.found_);
       constexpr std::size_t most = 80;
       if (search.found_.size() > most) search.found_.erase(search.found_.begin() + most, search.found_.end());
       of_slots.push_back(std::move(search.found_));
@@ -158,7 +192,7 @@ class Search {
         if (like == of_slots[k].end()) break;
         places.push_back(like->second.substitutions[0]);
       }
-      if (places.size() == of_slots.size() && suits(places)) keep(effort, places, one);
+      if (places.size() == of_slots.size() && suits(places)) keep(effort, places, one, found_);
     }
   }
 
@@ -183,46 +217,55 @@ class Search {
     const std::size_t most_asked = nodes > 1000 ? 1 : 4;
     std::vector<std::vector<float>> right;
     for (std::size_t k = 0; k < std::min(most_asked, solvers_.size()); ++k) right.push_back(solvers_[k].values({}));
-    const std::vector<Source> none;
-    for (const Target& t : all) {
-      std::vector<Substitution> places = t.places(first_);
-      for (Substitution& place : places) place.occurrence = -1;
-      bool counts = false;
-      for (std::size_t k = 0; k < right.size() && !counts; ++k)
+    std::vector<char> counts(all.size());
+    each(all.size(), [&](std::size_t k, Found&) {
+      std::vector<Substitution> places = places_everywhere(all[k]);
+      for (std::size_t asked = 0; asked < right.size() && !counts[k]; ++asked)
         for (const float number : {0.11f, -7.0f, 1.3f}) {
-          for (Substitution& place : places) place.how = Put::plus, place.back = 0, place.number = number;
-          counts = counts || moves_all_that_fails(texels_[k], right[k], solvers_[k].values(places));
+          for (Substitution& place : places) place.how = Put::plus, place.number = number;
+          counts[k] = counts[k] || moves_all_that_fails(texels_[asked], right[asked], solvers_[asked].values(places));
         }
-      if (!counts) continue;
-      const std::int32_t value = t.value_at(first_, 0);
-      const std::string own = words_for(first_, value);
-      for (Substitution& place : places) place.how = Put::instead;
-      for (const Source& s : numbers_.at(t.nodes.size())) {
-        if (left == 0 || s.effort > 0 || s.text == own) continue;
-        take(first_, s, t, places);
-        --left;
-        if (suits(places)) keep(s.effort, places, wrong_value(t, s.text));
+    });
+    std::vector<Candidate> candidates;
+    for (std::size_t k = 0; k < all.size() && left > 0; ++k)
+      if (counts[k]) add_candidates(all[k], left, candidates);
+    keep_suitable(candidates);
+  }
+  std::vector<Substitution> places_everywhere(const Target& t) const {
+    std::vector<Substitution> places = t.places(first_);
+    for (Substitution& place : places) place.occurrence = -1;
+    return places;
+  }
+  /// At most `left`, which then is how many more may be added.
+  void add_candidates(const Target& t, std::size_t& left, std::vector<Candidate>& out) const {
+    std::vector<Substitution> places = places_everywhere(t);
+    const std::int32_t value = t.value_at(first_, 0);
+    const std::string own = words_for(first_, value);
+    const auto add = [&](int effort, What what) {
+      if (left == 0) return;
+      --left;
+      out.push_back({effort, places, std::move(what)});
+    };
+    for (const Source& s : numbers_.at(t.nodes.size())) {
+      if (s.effort > 0 || s.text == own) continue;
+      take(first_, s, t, places);
+      add(s.effort, wrong_value(t, s.text));
+    }
+    // Another literal or uniform only there.
+    if (value >= 0 && node_of(first_, value).op == Op::constant)
+      for (const float number : other_numbers(node_of(first_, value).value)) {
+        for (Substitution& place : places) place.back = 0, place.ahead = -1, place.number = number;
+        add(6, {Kind::another_value_there, {words_for(first_, t.nodes[0]), own, fmt::format("{:.6g}", number)}});
       }
-      // Another literal or uniform only there.
-      if (value >= 0 && node_of(first_, value).op == Op::constant)
-        for (const float number : other_numbers(node_of(first_, value).value)) {
-          for (Substitution& place : places) place.back = 0, place.ahead = -1, place.number = number;
-          if (left == 0) break;
-          --left;
-          if (suits(places))
-            keep(6, places, {Kind::another_value_there, {words_for(first_, t.nodes[0]), own, fmt::format("{:.6g}", number)}});
-        }
-      std::size_t tried = 0;
-      for (const Source& s : sources_for(first_, t, groups_, none)) {
-        if (left < 2 || ++tried > 200) break;
-        if (s.text == "..." || s.text == own || (value >= 0 && !s.nodes.empty() && s.nodes[0] == value)) continue;
-        take(first_, s, t, places);
-        for (const Change change : {Change::none, Change::smoothed}) {
-          if (change == Change::smoothed && tried > 30) break;
-          for (Substitution& place : places) place.change = change;
-          --left;
-          if (suits(places)) keep(s.effort, places, wrong_value(t, changed_text(change, s.text)));
-        }
+    std::size_t tried = 0;
+    for (const Source& s : sources_for(first_, t, groups_, {})) {
+      if (left < 2 || ++tried > 200) break;
+      if (s.text == "..." || s.text == own || (value >= 0 && !s.nodes.empty() && s.nodes[0] == value)) continue;
+      take(first_, s, t, places);
+      for (const Change change : {Change::none, Change::smoothed}) {
+        if (change == Change::smoothed && tried > 30) break;
+        for (Substitution& place : places) place.change = change;
+        add(s.effort, wrong_value(t, changed_text(change, s.text)));
       }
     }
   }
@@ -241,6 +284,7 @@ class Search {
   void other_taps() {
     constexpr std::size_t most = 24;
     std::size_t left = std::min<std::size_t>(2000, most_steps / std::max<std::size_t>(first_.trace.nodes.size(), 1));
+    std::vector<Candidate> candidates;
     std::vector<std::int32_t> taps;
     for (std::int32_t at = 0; at < static_cast<std::int32_t>(first_.trace.nodes.size()) && taps.size() < most; ++at)
       if (node_of(first_, at).op == Op::coordinate && first_.trace.met.at(node_of(first_, at).shape) <= 12) taps.push_back(at);
@@ -255,11 +299,10 @@ class Search {
         std::vector<Substitution> places = t.places(first_);
         take(first_, s, t, places);
         --left;
-        if (!suits(places)) continue;
-        const std::string right = words_for(first_, t.value_at(first_, 0));
-        keep(s.effort, places, {Kind::wrong_column_or_row, {"", s.text, right}});
+        candidates.push_back({s.effort, places, {Kind::wrong_column_or_row, {"", s.text, words_for(first_, t.value_at(first_, 0))}}});
       }
     }
+    keep_suitable(candidates);
   }
   /// The first place with a node's shape.
   std::int32_t first_of(std::int32_t node) const {
@@ -269,7 +312,7 @@ class Search {
   }
 
   /// Replaces the operand by a number, or adds a number as a factor or term if the operand is not one.
-  void number(const Target& t, const Solution& solution) {
+  void number(const Target& t, const Solution& solution, Found& found) const {
     const std::int32_t value = t.value_at(first_, 0);
     const bool is_constant = value >= 0 && node_of(first_, value).op == Op::constant;
     const std::size_t n = t.nodes.size();
@@ -294,32 +337,33 @@ class Search {
       }
       const std::string right = words_for(first_, value), where = words_for(first_, t.nodes[0]);
       const Kind kind = how == Put::instead ? Kind::another_value_about : how == Put::times ? Kind::another_share : Kind::another_summand;
-      keep(20, places, {kind, {where, right, fmt::format("{:.5g}", places[0].number)}});
+      keep(20, places, {kind, {where, right, fmt::format("{:.5g}", places[0].number)}}, found);
     }
   }
 
   std::size_t most_verified_ = 60;  ///< candidates of a target that fit the first texel; more for a short pass
-  const Probed* p_ = nullptr;
+  const Probed& p_;
+  const Workers& workers_;
   const std::vector<Solvable>& texels_;
   const Probe& first_;
   std::shared_ptr<const std::vector<float>> known_;
   std::vector<Solver> solvers_;
   std::map<std::size_t, std::vector<Source>> numbers_;
   std::vector<std::vector<std::int32_t>> groups_;
-  std::vector<std::pair<int, Fault>> found_;
+  Found found_;
 };
 
 }  // namespace
 
 void add_solved_substitutions(std::vector<Fault>& out, const Probed& p, const std::vector<Solvable>& texels,
-                              const std::vector<float>& known) {
+                              const std::vector<float>& known, const Workers& workers) {
   // If the unchanged pass comes near, any change without effect would explain the texel.
   std::vector<Solvable> failing;
   for (const Solvable& t : texels)
     if (!Solver(t, known).is_near(std::vector<perturbed::Substitution>())) failing.push_back(t);
   // One texel with few stored numbers fits too many candidates.
   if (failing.empty() || (failing.size() < 2 && failing[0].port.size() < 6)) return;
-  Search(p, failing, known).run(out);
+  Search(p, failing, known, workers).run(out);
 }
 
 }  // namespace rainref::faults

@@ -238,7 +238,7 @@ std::vector<Fault> TexelReplay::solved() {
   const std::size_t step = std::max<std::size_t>(1, failing_.size() / most);
   for (std::size_t k = step / 2; !texels.empty() && k < failing_.size(); k += step) add(probes_[0], k);
   std::vector<Fault> out;
-  add_solved_substitutions(out, probed_, texels, known_);
+  add_solved_substitutions(out, probed_, texels, known_, {executor_, [this] { return is_time_over(); }});
   return out;
 }
 std::vector<Fault> TexelReplay::decidable() const {

@@ -59,7 +59,8 @@ class MadeUp {
     const capture::PackPass pass{};
     const capture::PassCase c{};
     const capture::ListPass no_model("", nullptr);
-    add_solved_substitutions(out, {pass, c, nullptr, no_model}, texels_, literals_);
+    const parallel::Executor executor(3);
+    add_solved_substitutions(out, {pass, c, nullptr, no_model}, texels_, literals_, {executor, [] { return false; }});
     return out;
   }
   std::string first() const {
