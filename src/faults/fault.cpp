@@ -232,7 +232,7 @@ void FaultyPass::store(Texel at, StoredTexel& out) const {
 }
 
 std::vector<perturbed::Perturbed> FaultyPass::values(Texel at) const {
-  perturbed::Trace trace;
+  static thread_local perturbed::Trace trace;  // its memory is kept, because thousands of faults come here at many texels each
   return evaluated(at, fault_.rewrites ? &trace : nullptr, false);
 }
 void FaultyPass::trace(Texel at, perturbed::Trace& right, perturbed::Trace& wrong) const {
@@ -257,7 +257,7 @@ std::vector<perturbed::Perturbed> FaultyPass::evaluated(Texel at, perturbed::Tra
   const perturbed::Scope scope(behaviour);
   std::vector<perturbed::Perturbed> values(slots_.size());
   const auto evaluate = [&] {
-    if (trace) *trace = {};
+    if (trace) trace->clear();
     (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());
   };
   substitutions.look_ahead(evaluate);

@@ -23,10 +23,8 @@ std::optional<float> at_end(const std::array<std::int8_t, 6>& path, const std::a
   return value;
 }
 std::optional<float> met(const FormulaStep& step, const Trace& trace, std::size_t before) {
-  std::int32_t back = step.back;
-  for (std::size_t n = before; n-- > 0;)
-    if (trace.nodes[n].shape == step.shape && --back == 0) return trace.nodes[n].value;
-  return {};
+  const float* const value = trace.value_met(step.shape, step.back, before);
+  return value ? std::optional(*value) : std::nullopt;
 }
 
 }  // namespace

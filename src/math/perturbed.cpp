@@ -10,6 +10,7 @@
 namespace rainref::perturbed {
 
 constinit thread_local Behaviour detail::current;
+constinit thread_local bool detail::is_nearest = true;
 constinit thread_local bool detail::is_plain = true;
 constinit thread_local bool detail::is_reference = true;
 
@@ -60,11 +61,13 @@ bool within(float r, double exact, double bound, const Accuracy& a) {
   const bool changes_sign = a.absolute == 0 && r != 0 && (r < 0) != (exact < 0);
   return magnitude(r - exact) <= bound && !changes_sign;
 }
-/// A function's value at x with a random error within the accuracy; `nearest` without variations.
-Perturbed erring(float nearest, double exact, Accuracy Profile::*accuracy, double x = 0) {
+/// A function's value at x with a random error within the accuracy; `nearest` without variations, which need no exact_value().
+template <class Exact>
+Perturbed erring(float nearest, const Exact& exact_value, Accuracy Profile::*accuracy, double x = 0) {
   if (!current.variations) return finish(nearest, 0);
   const Accuracy& a = current.variations->rules.*accuracy;
   if (a.is_zero()) return finish(nearest, 0);
+  const double exact = exact_value();
   const double bound = bound_of(exact, a, x);
   float r = static_cast<float>(exact + bound * swing());
   if (!within(r, exact, bound, a)) r = beside(r, r < exact);
@@ -80,8 +83,8 @@ Scope::Scope(const Behaviour& b) : saved_(current) { set(b); }
 Scope::~Scope() { set(saved_); }
 void Scope::set(const Behaviour& b) {
   current = b;
-  detail::is_plain = !b.variations && !b.follows() && b.fault != Fault::fused && b.fault != Fault::flushed &&
-                     b.fault != Fault::half_intermediates && b.fault != Fault::strict_for_weak && b.fault != Fault::weak_for_strict &&
+  detail::is_nearest = !b.variations && b.fault != Fault::fused && b.fault != Fault::flushed && b.fault != Fault::half_intermediates;
+  detail::is_plain = detail::is_nearest && !b.follows() && b.fault != Fault::strict_for_weak && b.fault != Fault::weak_for_strict &&
                      b.fault != Fault::minimum_missing && b.fault != Fault::maximum_missing && b.fault != Fault::abs_missing;
   is_reference = detail::is_plain && b.fault == Fault::none && !b.constants && !b.loads && !b.coverage && b.column_offset == 0 &&
                  !b.is_column_mirrored;
@@ -147,10 +150,12 @@ Perturbed abs(const Perturbed& a) {
 }
 Perturbed Perturbed::negation(const Perturbed& a) { return Perturbed::met(Op::negation, a.opposite(), a); }
 Perturbed Perturbed::sum(const Perturbed& a, const Perturbed& b) {
+  if (detail::is_nearest) return met(Op::sum, of(a.v + b.v), a, b);
   return Perturbed::made(
       Op::sum, [&] { return Perturbed::add(a, b); }, a, b);
 }
 Perturbed Perturbed::difference(const Perturbed& a, const Perturbed& b) {
+  if (detail::is_nearest) return met(Op::difference, of(a.v - b.v), a, b);
   return Perturbed::made(
       Op::difference, [&] { return Perturbed::add(a, b.opposite()); }, a, b);
 }
@@ -169,6 +174,7 @@ Perturbed Perturbed::add(const Perturbed& a, const Perturbed& b) {
   return finish(s, (a.v - (s - t)) + (b.v - t));
 }
 Perturbed Perturbed::product(const Perturbed& a, const Perturbed& b) {
+  if (detail::is_nearest) return met(Op::product, of(a.v * b.v), a, b);
   const auto result = [&] {
     const float p = a.v * b.v;
     Perturbed r = finish(p, static_cast<double>(a.v) * b.v - p);
@@ -196,7 +202,8 @@ Perturbed divided(const Perturbed& a, const Perturbed& b) {
     const Accuracy& allowed = current.variations->rules.division;
     if (const float r = a.v * (1.0f / b.v); within(r, exact_quotient, bound_of(exact_quotient, allowed, 0), allowed)) return finish(r, 0);
   }
-  return erring(a.v / b.v, exact_quotient, &Profile::division);
+  return erring(
+      a.v / b.v, [&] { return exact_quotient; }, &Profile::division);
 }
 }  // namespace
 Perturbed Perturbed::quotient(const Perturbed& a, const Perturbed& b) {
@@ -207,11 +214,13 @@ Perturbed Perturbed::load_unorm(Unorm8 code) {
   if (is_reference) return of(scalar::to_float(code));
   // 0 and 1 are exact on every device.
   if (code.code == 0 || code.code == 255) return of(scalar::to_float(code));
-  return erring(scalar::to_float(code), code.code / 255.0, &Profile::unorm_load);
+  return erring(
+      scalar::to_float(code), [&] { return code.code / 255.0; }, &Profile::unorm_load);
 }
 Perturbed inverse_sqrt(const Perturbed& a) {
   const double root = 1 / __builtin_sqrt(exact(a));
-  return erring(static_cast<float>(root), root, &Profile::inverse_sqrt);
+  return erring(
+      static_cast<float>(root), [&] { return root; }, &Profile::inverse_sqrt);
 }
 Perturbed sqrt(const Perturbed& a) {
   if (is_reference) return Perturbed::of(sqrt(reference(a)).v);
@@ -221,7 +230,8 @@ Perturbed sqrt(const Perturbed& a) {
     if (is(Fault::root_by_inverse)) return a.v > 0 ? finish(1.0f / (1.0f / __builtin_sqrtf(a.v)), 0) : a;
     if (a.v == 0) return a;
     if (current.variations && current.variations->rules.sqrt_is_inherited) return Perturbed::of(1.0f) / inverse_sqrt(a);
-    return erring(__builtin_sqrtf(a.v), __builtin_sqrt(exact(a)), &Profile::sqrt);
+    return erring(
+        __builtin_sqrtf(a.v), [&] { return __builtin_sqrt(exact(a)); }, &Profile::sqrt);
   };
   return Perturbed::made(Op::root, result, a);
 }
@@ -262,7 +272,8 @@ Perturbed exp(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::exp_base_two)) return finish(exp2(reference(a)).v, 0);
-    return erring(exp(reference(a)).v, exp_real(Real64(exact(a))).v, &Profile::exp, exact(a));
+    return erring(
+        exp(reference(a)).v, [&] { return exp_real(Real64(exact(a))).v; }, &Profile::exp, exact(a));
   };
   return Perturbed::made(Op::exponential, result, a);
 }
@@ -271,7 +282,8 @@ Perturbed exp2(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::exp2_base_e)) return finish(exp(reference(a)).v, 0);
-    return erring(exp2(reference(a)).v, exp2_real(Real64(exact(a))).v, &Profile::exp2, exact(a));
+    return erring(
+        exp2(reference(a)).v, [&] { return exp2_real(Real64(exact(a))).v; }, &Profile::exp2, exact(a));
   };
   return Perturbed::made(Op::exponential2, result, a);
 }
@@ -280,11 +292,13 @@ bool near_one(const Perturbed& a) { return a.v >= 0.5f && a.v <= 2.0f; }
 /// For variations only: a GPU's pow may be made of it.
 Perturbed log2(const Perturbed& a) {
   const double y = coefficients::log2_e * log_real(Real64(exact(a))).v;
-  return erring(static_cast<float>(y), y, near_one(a) ? &Profile::log2_near_one : &Profile::log2);
+  return erring(
+      static_cast<float>(y), [&] { return y; }, near_one(a) ? &Profile::log2_near_one : &Profile::log2);
 }
 constexpr double degree = 0x1.1df46a2529d39p-6;  // pi / 180
 /// sin or cos, `exact` at x.
-Perturbed wave(float nearest, double exact, double x) {
+template <class Exact>
+Perturbed wave(float nearest, const Exact& exact_value, double x) {
   if (!current.variations) return finish(nearest, 0);
   const Profile& p = current.variations->rules;
   Accuracy a = p.sin_cos;
@@ -292,7 +306,7 @@ Perturbed wave(float nearest, double exact, double x) {
     if (p.sin_cos_beyond == 0) return Perturbed::of(static_cast<float>(swing()));
     a.absolute = std::max(a.absolute, p.sin_cos_beyond * magnitude(x));
   }
-  const double bound = bound_of(exact, a, x);
+  const double exact = exact_value(), bound = bound_of(exact, a, x);
   const float r = static_cast<float>(std::clamp(exact + bound * swing(), -1.0, 1.0));
   return finish(within(r, exact, bound, a) ? r : nearest, 0);
 }
@@ -301,7 +315,8 @@ Perturbed log(const Perturbed& a) {
   if (is_reference) return Perturbed::of(log(reference(a)).v);
   const auto result = [&] {
     const Unseen parts;
-    return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
+    return erring(
+        log(reference(a)).v, [&] { return log_real(Real64(exact(a))).v; }, near_one(a) ? &Profile::log_near_one : &Profile::log);
   };
   return Perturbed::made(Op::logarithm, result, a);
 }
@@ -312,7 +327,8 @@ Perturbed pow(const Perturbed& a, const Perturbed& b) {
     if (is(Fault::pow_squared)) return a * a;
     if (current.variations && a.v > 0 && current.variations->rules.pow_is_inherited) return exp2(b * log2(a));
     const float nearest = pow(reference(a), reference(b)).v;
-    return a.v > 0 ? erring(nearest, pow_real(Real64(exact(a)), Real64(exact(b))).v, &Profile::pow) : finish(nearest, 0);
+    const auto real = [&] { return pow_real(Real64(exact(a)), Real64(exact(b))).v; };
+    return a.v > 0 ? erring(nearest, real, &Profile::pow) : finish(nearest, 0);
   };
   return Perturbed::made(Op::power, result, a, b);
 }
@@ -321,7 +337,8 @@ Perturbed sin(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
-    return wave(sin(Reference(static_cast<float>(x))).v, sin_real(Real64(x)).v, x);
+    return wave(
+        sin(Reference(static_cast<float>(x))).v, [&] { return sin_real(Real64(x)).v; }, x);
   };
   return Perturbed::made(Op::sine, result, a);
 }
@@ -330,7 +347,8 @@ Perturbed cos(const Perturbed& a) {
   const auto result = [&] {
     const Unseen parts;
     const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
-    return wave(cos(Reference(static_cast<float>(x))).v, cos_real(Real64(x)).v, x);
+    return wave(
+        cos(Reference(static_cast<float>(x))).v, [&] { return cos_real(Real64(x)).v; }, x);
   };
   return Perturbed::made(Op::cosine, result, a);
 }
@@ -344,7 +362,8 @@ Perturbed atan2(const Perturbed& given_y, const Perturbed& x) {
       return Perturbed::of(static_cast<float>(pi * swing()));
     // Some devices lose the sign of a zero.
     if (current.variations && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
-    return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
+    return erring(
+        atan2(reference(y), reference(x)).v, [&] { return atan2_real(Real64(exact(y)), Real64(exact(x))).v; }, &Profile::atan2);
   };
   return Perturbed::made(Op::angle, result, y, x);
 }

@@ -109,7 +109,8 @@ struct Behaviour {
   int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up; 0: no tendency
   std::vector<float>* constants = nullptr;  ///< collects every literal and uniform met
 
-  // One mistake at one place, or at places that belong together: the coordinates of a lookup, the components of a vector.
+  // One mistake at one place, or at places that belong together: the coordinates of a lookup, the components of a vector. The first without
+  // a fault ends the list; either all or none of the others are by_sequence.
   std::array<Place, 4> places{};
   const std::vector<float>* known = nullptr;  ///< sorted: constants that distinguish places; all other constants are treated as equal
   Trace* trace = nullptr;                     ///< collects the operations
@@ -128,7 +129,9 @@ struct Behaviour {
 };
 namespace detail {
 extern constinit thread_local Behaviour current;
-/// True if sums, products, comparisons and extrema are the reference's and nothing observes them, which holds for most invocations.
+/// True if sums and products are the reference's.
+extern constinit thread_local bool is_nearest;
+/// True if comparisons and extrema are too and nothing observes any of them, which holds for most invocations.
 extern constinit thread_local bool is_plain;
 /// True if everything is the reference's except lookups, which use Behaviour::filter.
 extern constinit thread_local bool is_reference;
@@ -251,13 +254,15 @@ class Perturbed {
   /// The result of an operation of the pass text: unchanged, or as the mistake at this place changes it.
   template <class... Operands>
   static Perturbed met(Op op, const Perturbed& result, const Operands&... of) {
-    return behaviour().follows() ? follow(op, result, {&of...}) : result;
+    Perturbed r = result;
+    if (behaviour().follows()) follow(op, r, {&of...});
+    return r;
   }
   /// The same for the value of `result`, constructed in place, because a copy would wait until all of it is written.
   template <class Result, class... Operands>
   static Perturbed made(Op op, const Result& result, const Operands&... of) {
     Perturbed r = result();
-    if (behaviour().follows()) r = follow(op, r, {&of...});
+    if (behaviour().follows()) follow(op, r, {&of...});
     return r;
   }
   static bool met(bool result, const Perturbed& a, const Perturbed& b) { return behaviour().follows() ? follow(result, a, b) : result; }
@@ -302,7 +307,8 @@ class Perturbed {
   static Perturbed fetched(float texel) { return detail::is_reference ? of(texel) : fetch_of(texel); }
   static Perturbed fetch_of(float texel);
   void leaf(Op op, std::uint32_t shape);
-  static Perturbed follow(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of);
+  /// Changes the result of an operation in place.
+  static void follow(Op op, Perturbed& result, std::initializer_list<const Perturbed*> of);
   static bool follow(bool result, const Perturbed& a, const Perturbed& b);
   static Perturbed with_fault(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of, PlaceFault fault);
   Perturbed opposite() const;

@@ -1,6 +1,7 @@
 #include "math/places.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "math/formula.h"
 #include "math/half.h"
@@ -10,8 +11,8 @@
 namespace rainref::perturbed {
 namespace {
 
-thread_local int unseen = 0;
-thread_local Rewrites rewrites;
+constinit thread_local int unseen = 0;
+constinit thread_local Rewrites rewrites;
 
 /// Murmur3's finalizer (Appleby) over a running sum.
 constexpr std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
@@ -248,6 +249,57 @@ float put(float right, float value, Put how) {
   return right;
 }
 
+std::size_t ShapeCounts::place_of(std::uint32_t shape) const {
+  const std::size_t last = entries_.size() - 1;
+  std::size_t at = shape & last;
+  while (entries_[at].round == round_ && entries_[at].shape != shape) at = (at + 1) & last;
+  return at;
+}
+std::int32_t ShapeCounts::add(std::uint32_t shape, std::int32_t node) {
+  std::size_t at = place_of(shape);
+  if (entries_[at].round == round_) {
+    ++entries_[at].count;
+    return std::exchange(entries_[at].last, node);
+  }
+  if (2 * ++used_ > entries_.size()) {
+    std::vector<Entry> old(2 * entries_.size());
+    std::swap(old, entries_);
+    for (const Entry& e : old)
+      if (e.round == round_) entries_[place_of(e.shape)] = e;
+    at = place_of(shape);
+  }
+  entries_[at] = {shape, round_, 1, node};
+  return -1;
+}
+std::int32_t ShapeCounts::at(std::uint32_t shape) const {
+  const Entry& e = entries_[place_of(shape)];
+  return e.round == round_ ? e.count : 0;
+}
+std::int32_t ShapeCounts::last(std::uint32_t shape) const {
+  const Entry& e = entries_[place_of(shape)];
+  return e.round == round_ ? e.last : -1;
+}
+void ShapeCounts::clear() {
+  used_ = 0;
+  if (++round_ == 0) {
+    entries_.assign(entries_.size(), Entry());
+    round_ = 1;
+  }
+}
+
+std::int32_t Trace::add(Node node) {
+  const auto number = static_cast<std::int32_t>(nodes.size());
+  node.alike = met.add(node.shape, number);
+  node.occurrence = node.alike < 0 ? 0 : nodes[static_cast<std::size_t>(node.alike)].occurrence + 1;
+  nodes.push_back(node);
+  return number;
+}
+const float* Trace::value_met(std::uint32_t shape, std::int32_t back, std::size_t before) const {
+  for (std::int32_t at = met.last(shape); at >= 0; at = nodes[static_cast<std::size_t>(at)].alike)
+    if (static_cast<std::size_t>(at) < before && --back == 0) return &nodes[static_cast<std::size_t>(at)].value;
+  return nullptr;
+}
+
 void Substitutions::start() {
   seen.assign(all.size(), 0);
   met.resize(all.size());
@@ -275,8 +327,7 @@ void Behaviour::begin_invocation() {
   for (Place& place : places) place.seen = 0;
   recent = 0;
   if (!trace || rewrites[0].kind == RewriteKind::none) return;
-  trace->nodes.clear();
-  trace->met.clear();
+  trace->clear();
 }
 
 Unseen::Unseen() { ++unseen; }
@@ -290,16 +341,16 @@ void Perturbed::leaf(Op op, std::uint32_t shape) {
   if (b.trace && b.trace->nodes.empty()) b.recent = 0;
   b.recent = b.recent << 6 | (static_cast<std::uint64_t>(op) + 1);
   if (!b.trace) return;
-  node_ = static_cast<std::int32_t>(b.trace->nodes.size());
-  b.trace->nodes.push_back({op, v, shape_[0], b.trace->met[shape_[0]]++});
+  node_ = b.trace->add({op, v, shape_[0], 0});
 }
 
 namespace {
 
-/// The result of an operation after the substitutions at it, each applied after the previous ones: first to operands, then to the result.
-/// `with` becomes the operands.
-Perturbed substituted(Substitutions& all, Op op, Perturbed r, std::initializer_list<const Perturbed*> of, std::uint32_t shape,
-                      std::array<float, 4>& with) {
+/// Makes the substitutions at an operation with result r, each after the previous ones: first in operands, then in the result. `with`
+/// becomes the operands.
+void substitute(Substitutions& all, Op op, Perturbed& r, std::initializer_list<const Perturbed*> of, std::uint32_t shape,
+                std::array<float, 4>& with) {
+  if (std::none_of(all.all.begin(), all.all.end(), [&](const Substitution& s) { return s.shape == shape; })) return;
   std::array<Perturbed, 4> operands;
   std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
   for (std::size_t s = 0; s < all.all.size(); ++s) {
@@ -317,39 +368,45 @@ Perturbed substituted(Substitutions& all, Op op, Perturbed r, std::initializer_l
     with[static_cast<std::size_t>(other.operand)] = operand.v;
     r = again(op, r, operands);
   }
-  return r;
 }
 
 }  // namespace
 
-Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of) {
-  Perturbed r = result;
-  if (unseen > 0) return r;
+void Perturbed::follow(Op op, Perturbed& r, std::initializer_list<const Perturbed*> of) {
+  if (unseen > 0) return;
   Behaviour& b = behaviour();
   if (b.trace && b.trace->nodes.empty()) b.recent = 0;
   b.recent = b.recent << 6 | (static_cast<std::uint64_t>(op) + 1);
-  // depth[k] covers k operations below this one; the last one covers the previous operations, if they are observed.
-  std::array<std::uint32_t, 5> depth;
-  depth.fill(beginnings[static_cast<std::size_t>(op)]);
-  for (const Perturbed* operand : of)
-    for (std::size_t k = 1; k <= whole_depth; ++k) depth[k] = hashed(depth[k], operand->shape_[k - 1]);
-  const std::uint32_t shape = depth[whole_depth];
-  const auto looks_back = [](const Place& place) { return place.depth == by_sequence; };
-  if (b.trace || std::any_of(b.places.begin(), b.places.end(), looks_back))
+  // Hashes of this operation and one, two and three below it, in registers: this is the innermost part of a search for causes.
+  const std::uint32_t alone = beginnings[static_cast<std::size_t>(op)];
+  std::uint32_t one = alone, two = alone, shape = alone;
+  for (const Perturbed* operand : of) {
+    one = hashed(one, operand->shape_[0]);
+    two = hashed(two, operand->shape_[1]);
+    shape = hashed(shape, operand->shape_[2]);
+  }
+  // By Place::depth; the last one covers the previous operations, if they are observed.
+  std::array<std::uint32_t, 5> depth{alone, one, two, shape, 0};
+  if (b.trace || b.places[0].depth == by_sequence)
     depth[by_sequence] = hashed(static_cast<std::uint32_t>(b.recent), static_cast<std::uint32_t>(b.recent >> 32));
   for (Place& place : b.places) {
-    if (place.fault == PlaceFault::none || place.shape != depth[static_cast<std::size_t>(place.depth)]) continue;
+    if (place.fault == PlaceFault::none) break;
+    if (place.shape != depth[static_cast<std::size_t>(place.depth)]) continue;
     const std::int32_t occurrence = place.seen++;
     if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of, place.fault);
   }
+  if (!b.trace && !b.substitutions) {
+    std::copy_n(depth.begin(), r.shape_.size(), r.shape_.begin());
+    return;
+  }
   std::array<float, 4> with{};
   std::transform(of.begin(), of.end(), with.begin(), [](const Perturbed* operand) { return operand->v; });
-  if (b.substitutions && !b.substitutions->is_looking) r = substituted(*b.substitutions, op, r, of, shape, with);
+  if (b.substitutions && !b.substitutions->is_looking) substitute(*b.substitutions, op, r, of, shape, with);
   for (const Rewrite& rewriting : rewrites) {
     if (!b.trace || rewriting.kind == RewriteKind::none) break;
     const bool is_wild = rewriting.kind == RewriteKind::first_wins;  // it applies to every choice, whatever its shape
     if (is_wild ? op != Op::choice : rewriting.shape != depth[static_cast<std::size_t>(rewriting.depth)]) continue;
-    const std::int32_t occurrence = b.trace->met[shape];
+    const std::int32_t occurrence = b.trace->met.at(shape);
     if (!is_wild && rewriting.occurrence >= 0 &&
         rewriting.occurrence != (rewriting.period > 0 ? occurrence % rewriting.period : occurrence))
       continue;
@@ -361,18 +418,18 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   }
   std::copy_n(depth.begin(), r.shape_.size(), r.shape_.begin());
   if (b.substitutions) b.substitutions->meet(shape, r.v);
-  if (!b.trace) return r;
-  Trace::Node node{op, r.v, shape, b.trace->met[shape]++};
+  if (!b.trace) return;
+  Trace::Node node{op, r.v, shape, 0};
   std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed* operand) { return operand->node_; });
   node.with = with;
   node.shallow = {depth[1], depth[2]};
   node.sequence = depth[by_sequence];
-  r.node_ = static_cast<std::int32_t>(b.trace->nodes.size());
-  b.trace->nodes.push_back(node);
-  return r;
+  r.node_ = b.trace->add(node);
 }
 bool Perturbed::follow(bool result, const Perturbed& a, const Perturbed& b) {
-  return follow(Op::comparison, of(result ? 1.0f : 0.0f), {&a, &b}).v != 0;
+  Perturbed r = of(result ? 1.0f : 0.0f);
+  follow(Op::comparison, r, {&a, &b});
+  return r.v != 0;
 }
 
 Perturbed Perturbed::with_fault(Op op, const Perturbed& r, std::initializer_list<const Perturbed*> operands, PlaceFault fault) {

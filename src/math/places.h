@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <vector>
 
 namespace rainref::perturbed {
@@ -166,6 +165,30 @@ struct Substitutions {
   float value_for(std::size_t k, float meant) const;
 };
 
+/// How often each shape was met, and where last: a hash table that is emptied in constant time, because that is done before each
+/// invocation.
+class ShapeCounts {
+ public:
+  /// Counts a node of a shape; returns the last node of this shape before; -1: none.
+  std::int32_t add(std::uint32_t shape, std::int32_t node);
+  std::int32_t at(std::uint32_t shape) const;
+  /// The last node of a shape; -1: none.
+  std::int32_t last(std::uint32_t shape) const;
+  void clear();
+
+ private:
+  struct Entry {
+    std::uint32_t shape, round;
+    std::int32_t count, last;
+  };
+  /// Where a shape stands, or would stand.
+  std::size_t place_of(std::uint32_t shape) const;
+
+  std::vector<Entry> entries_ = std::vector<Entry>(64);  ///< a power of two, at most half full
+  std::uint32_t round_ = 1;                              ///< entries of other rounds are empty
+  std::size_t used_ = 0;
+};
+
 /// The operations of an invocation, in order.
 struct Trace {
   struct Node {
@@ -177,9 +200,19 @@ struct Trace {
     std::array<float, 4> with{};                     ///< the operands themselves, after substitutions
     std::array<std::uint32_t, 2> shallow{};          ///< shapes one and two operations deep
     std::uint32_t sequence = 0;                      ///< hash of the last operations up to it
+    std::int32_t alike = -1;                         ///< the last node of this shape before it; -1: none
   };
   std::vector<Node> nodes;
-  std::map<std::uint32_t, std::int32_t> met;  ///< count of each shape so far
+  ShapeCounts met;  ///< so far
+
+  void clear() {
+    nodes.clear();
+    met.clear();
+  }
+  /// Appends a node, sets its `occurrence` and `alike`, and returns its number.
+  std::int32_t add(Node node);
+  /// The value of the shape met `back` times ago (1: last) among the first `before` nodes; null: not so often.
+  const float* value_met(std::uint32_t shape, std::int32_t back, std::size_t before) const;
 };
 
 }  // namespace rainref::perturbed

@@ -291,7 +291,10 @@ TEST(ListDiagnosis, PlacesAreCountedAnewInEachRecord) {
   const auto records = static_cast<std::int32_t>(l.reference().width);
   ASSERT_GT(records, 3);
   int most = 0;
-  for (const auto& [shape, count] : probes[0].trace.met) {
+  std::set<std::uint32_t> shapes;
+  for (const perturbed::Trace::Node& n : probes[0].trace.nodes) shapes.insert(n.shape);
+  for (const std::uint32_t shape : shapes) {
+    const std::int32_t count = probes[0].trace.met.at(shape);
     if (count < 2 * records) continue;
     Fault d;
     d.behaviour.places[0] = {shape, 1, perturbed::PlaceFault::doubled};

@@ -192,5 +192,27 @@ TEST(Places, LoadsAndColumnsAreReplaced) {
   EXPECT_EQ(Perturbed::index(3).v, 7);
 }
 
+// 300 shapes that collide in any table of fewer than 2^20 places, each met three times.
+TEST(Trace, CountsShapesAndFindsTheirValues) {
+  Trace t;
+  for (int again = 0; again < 2; ++again) {
+    constexpr std::uint32_t shapes = 300, apart = 1u << 20;
+    for (std::uint32_t k = 0; k < 3 * shapes; ++k) {
+      const std::int32_t node = t.add({Op::sum, static_cast<float>(k), k % shapes * apart, -1});
+      EXPECT_EQ(node, static_cast<std::int32_t>(k));
+      EXPECT_EQ(t.nodes[k].occurrence, static_cast<std::int32_t>(k / shapes));
+      EXPECT_EQ(t.met.at(k % shapes * apart), static_cast<std::int32_t>(k / shapes) + 1);
+    }
+    EXPECT_EQ(t.met.at(1), 0);
+    EXPECT_EQ(t.value_met(1, 1, t.nodes.size()), nullptr);
+    EXPECT_EQ(*t.value_met(7 * apart, 1, t.nodes.size()), 607);
+    EXPECT_EQ(*t.value_met(7 * apart, 3, t.nodes.size()), 7);
+    EXPECT_EQ(t.value_met(7 * apart, 4, t.nodes.size()), nullptr);
+    EXPECT_EQ(*t.value_met(7 * apart, 1, 607), 307);
+    t.clear();
+    EXPECT_EQ(t.met.at(7 * apart), 0);
+  }
+}
+
 }  // namespace
 }  // namespace rainref::perturbed
