@@ -6,8 +6,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "faults/bits_replay.h"
+#include "faults/diagnosis.h"
 #include "faults/list_replay.h"
 #include "faults/texel_replay.h"
 #include "faults/text.h"
@@ -80,37 +82,77 @@ std::vector<Cause> causes_of_bits(const FailedRun& f, const SearchLimit& limit) 
   return found;
 }
 
-std::vector<Cause> causes_of_texels(const FailedRun& f, const SearchLimit& limit) {
-  TexelReplay run = texels_of(f);
+/// A run and the next, with the port's own programs, and a search for their mistake.
+struct TexelSearch {
+  /// `judged`: f, or f.otherwise.
+  TexelSearch(const FailedRun& f, const FailedRun& judged, const SearchLimit& limit) : run(texels_of(judged)) {
+    if (judged.other) other.emplace(texels_of(*judged.other));
+    const bool is_swapped = &judged.run != &f.run;
+    const auto give = [](TexelReplay& to, const FailedRun& of) {
+      if (of.program) to.take(*of.program);
+    };
+    give(run, is_swapped ? *f.other : f);
+    if (other) give(*other, is_swapped ? f : *f.other);
+    run.limit(limit);
+    if (other) other->limit(limit);
+    diagnosis.emplace(run, other && (&f == &judged || other->fails()) ? &*other : nullptr);
+  }
+  TexelSearch(const TexelSearch&) = delete;
+  TexelSearch& operator=(const TexelSearch&) = delete;
+
+  TexelReplay run;
   std::optional<TexelReplay> other;
-  if (f.other) other.emplace(texels_of(*f.other));
-  if (f.program) run.take(*f.program);
-  if (other && f.other->program) other->take(*f.other->program);
-  run.limit(limit);
-  if (other) other->limit(limit);
-  if (std::optional<Cause> sure = decided(run, other ? &*other : nullptr)) return {std::move(*sure)};
-  std::vector<Cause> best = diagnosed(run, other ? &*other : nullptr, f.is_warned);
-  if (f.is_warned) return best;
-  // A cause that reproduces the bits is better than a formula that only allows them.
+  std::optional<Diagnosis> diagnosis;
+};
+
+/// The causes after a search, or a formula that only allows what the port stored: a cause that reproduces the bits is better.
+std::vector<Cause> causes_found(TexelSearch& search, const FailedRun& f, const SearchLimit& limit) {
+  std::vector<Cause> best = search.diagnosis->causes();
   const bool is_exact = !best.empty() && best.front().is_likely && best.front().explained * 10 >= best.front().of * 9;
   if (is_exact || limit.is_over()) return best;
-  if (std::optional<Cause> formula = run.alternative_formula(*f.options.profile)) {
+  if (std::optional<Cause> formula = search.run.alternative_formula(*f.options.profile)) {
     for (Cause& cause : best) cause.is_likely = false;
     best.insert(best.begin(), std::move(*formula));
     if (best.size() > 3) best.pop_back();
   }
-  if (best.empty())
-    if (std::optional<Cause> unknown = unknown_cause(run, false)) best.push_back(*std::move(unknown));
   return best;
 }
 
-std::vector<Cause> causes_of(const FailedRun& failed, const SearchLimit& limit) {
+/// The share of the failures that the first cause explains, with equal weight for bits and nearness; and whether it is likely.
+std::pair<double, bool> worth(const std::vector<Cause>& causes) {
+  if (causes.empty()) return {-1, false};
+  const Cause& first = causes.front();
+  return {static_cast<double>(first.explained + first.inside) / static_cast<double>(std::max<std::int64_t>(first.of, 1)), first.is_likely};
+}
+
+std::vector<Cause> causes_of_texels(const FailedRun& f, const SearchLimit& limit, bool& is_otherwise) {
+  TexelSearch search(f, f, limit);
+  if (std::optional<Cause> sure = decided(search.run, search.other ? &*search.other : nullptr)) return {std::move(*sure)};
+  search.diagnosis->search(f.is_warned);
+  if (f.is_warned) return search.diagnosis->causes();
+  std::vector<Cause> best = causes_found(search, f, limit);
+  // A likely cause that gives nearly all bits tells the rounding too.
+  const bool gives_bits = !best.empty() && best.front().is_likely && best.front().explained * 50 >= best.front().of * 49;
+  if (f.otherwise && !gives_bits && !limit.is_over())
+    if (TexelSearch second(f, *f.otherwise, limit); second.run.fails()) {
+      second.diagnosis->search_among(*search.diagnosis, &f.run != &f.otherwise->run);
+      if (std::vector<Cause> causes = causes_found(second, *f.otherwise, limit); worth(causes) > worth(best)) {
+        is_otherwise = true;
+        return causes;
+      }
+    }
+  if (best.empty())
+    if (std::optional<Cause> unknown = unknown_cause(search.run, false)) best.push_back(*std::move(unknown));
+  return best;
+}
+
+std::vector<Cause> causes_of(const FailedRun& failed, const SearchLimit& limit, bool& is_otherwise) {
   const capture::PassCase& c = failed.run.c;
   if (!judge::keyed_outputs(c).empty()) {
     std::vector<Cause> causes = causes_of_lists(failed, limit);
     if (std::any_of(causes.begin(), causes.end(), std::mem_fn(&Cause::is_found)) || !failed.bind || !judge::is_enveloped(c)) return causes;
   }
-  return judge::is_enveloped(c) ? causes_of_texels(failed, limit) : causes_of_bits(failed, limit);
+  return judge::is_enveloped(c) ? causes_of_texels(failed, limit, is_otherwise) : causes_of_bits(failed, limit);
 }
 
 }  // namespace
@@ -122,8 +164,13 @@ void keep_found(std::vector<Cause>& causes) {
 
 judge::Explanation diagnose(const FailedRun& failed) { return diagnose_within(SearchLimit(0), failed); }
 judge::Explanation diagnose_within(const SearchLimit& limit, const FailedRun& failed) {
-  if (failed.is_warned) return {judge::is_enveloped(failed.run.c) ? causes_of_texels(failed, limit) : std::vector<Cause>(), ""};
-  judge::Explanation why{causes_of(failed, limit), where_it_fails(failed)};
+  judge::Explanation why;
+  if (failed.is_warned) {
+    if (judge::is_enveloped(failed.run.c)) why.causes = causes_of_texels(failed, limit, why.is_otherwise);
+    return why;
+  }
+  why.causes = causes_of(failed, limit, why.is_otherwise);
+  why.where = where_it_fails(failed);
   if (std::optional<Cause> none = not_numbers(failed)) why.causes.push_back(*std::move(none));
   keep_found(why.causes);
   return why;

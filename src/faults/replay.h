@@ -112,11 +112,6 @@ void add_lines(const Replay& run, const Replay* other, std::vector<Tried>& best,
 /// The cause of a run for which none was found: lines of the port's shader where it departs from the reference. Nothing if there are none.
 std::optional<judge::Cause> unknown_cause(const Replay& run, bool of_records);
 
-/// Returns the causes of a run, best first. `other`: another failing run of the pass, or null; a cause must explain both. A cause is likely
-/// if no rival, a different mistake at another place, explains as much; none is likely if time ran out before all were tried. `is_plain`:
-/// try plain mistakes only.
-std::vector<judge::Cause> diagnosed(Replay& run, Replay* other, bool is_plain = false);
-
 /// The case with other uniforms, texels and records, changed by about a quarter.
 capture::PassCase varied(const capture::PackPass& pass, const capture::PassCase& c);
 

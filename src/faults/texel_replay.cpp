@@ -192,6 +192,8 @@ TexelReplay::TexelReplay(const capture::PackPass& pass, const capture::PassCase&
   few_passing_ = spread(passing, judge::enough_failing);
   many_passing_ = spread(passing, 20000);
   leeway_ = leeway_of(slots_, c, model, reference_, port, judgement, profile, failing_);
+  constexpr std::size_t long_pass = 1500;
+  if (!failing_.empty() && trace_of(model, failing_.front()).nodes.size() > long_pass) patience_ = 4;
   passing_per_failing_ = static_cast<double>(passing.size()) / static_cast<double>(std::max<std::size_t>(failing.size(), 1));
 }
 
@@ -275,7 +277,7 @@ Tried TexelReplay::cause(const Fault& given) const {
   const std::size_t few = std::min<std::size_t>(failing_.size(), 24);
   std::size_t matching = 0;
   for (std::size_t k = 0; k < few && matching * 6 < few; ++k) {
-    if (k == (d.is_one_of_many ? 5u : 12u) && matching == 0) return cause;
+    if (matching == 0 && k >= (d.is_one_of_many ? std::min(patience_, 5u) : patience_)) return cause;
     const std::size_t number = few == 24 ? k * 7 % few : k;
     matching += match_at(number * failing_.size() / few).close;
   }

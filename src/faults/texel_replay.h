@@ -31,6 +31,7 @@ class TexelReplay : public Replay {
   TexelReplay(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, judge::Bind bind,
               const capture::PassModel& model, const std::vector<capture::Array>& port, const judge::CaseJudgement& judgement,
               const enclosed::Profile& profile, judge::HalfMode mode, const parallel::Executor& executor);
+  bool fails() const { return !failing_.empty(); }
   std::vector<Fault> plain() override;
   std::vector<Fault> deeper() override { return std::move(orders_); }
   std::vector<Fault> solved() override;
@@ -70,6 +71,7 @@ class TexelReplay : public Replay {
   Leeway leeway_;
   double passing_per_failing_ = 0;
   bool is_wide_ = false;
+  unsigned patience_ = 8;  ///< a mistake that comes near at none of so many texels is given up; fewer for a long pass
   const capture::TracedProgram* program_ = nullptr;
   Constants constants_;
   std::vector<Fault> orders_;  ///< for deeper()

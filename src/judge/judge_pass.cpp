@@ -86,34 +86,35 @@ Asked asked(const PassTask& task, std::size_t k) {
   return a;
 }
 
-/// Diagnoses the run with the most failures, which is most informative, together with the next.
-Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options, double share = 1,
-                      bool is_warned = false) {
+/// Diagnoses the run with the most failures, which is most informative, together with the next. `otherwise`: the pass judged by the other
+/// rounding of halves, if nothing else tells the port's; or null.
+Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options, bool is_warned = false,
+                      const PassJudgement* otherwise = nullptr) {
   std::vector<std::size_t> failing;
   for (std::size_t k = 0; k < judged.cases.size(); ++k)
     if (judged.cases[k].failing > 0) failing.push_back(k);
   std::stable_sort(failing.begin(), failing.end(),
                    [&](std::size_t a, std::size_t b) { return judged.cases[a].failing > judged.cases[b].failing; });
   if (failing.empty()) return {};
-  const Asked worst = asked(task, failing[0]);
-  const auto failed = [&](const Asked& a, std::size_t k, const FailedRun* other) -> FailedRun {
-    return {*task.pass,
-            a.run,
-            a.before ? &a.before->c : nullptr,
-            task.bind,
-            a.model.get(),
-            judged.cases[k],
-            judged,
-            judged.half_mode,
-            options,
-            other,
-            share,
-            is_warned};
+  failing.resize(std::min<std::size_t>(failing.size(), 2));
+  std::vector<std::unique_ptr<const Asked>> runs;  // a model refers to its run, which must stay where it is
+  for (const std::size_t k : failing) runs.emplace_back(new Asked(asked(task, k)));
+  // From the second run to the first, which refers to it. The other rounding may have more failures in the second.
+  const auto failed_by = [&](const PassJudgement& by, std::vector<FailedRun>& all) {
+    const bool is_swapped = runs.size() == 2 && by.cases[failing[1]].failing > by.cases[failing[0]].failing;
+    for (std::size_t k = runs.size(); k-- > 0;) {
+      const std::size_t n = is_swapped ? 1 - k : k;
+      const Asked& a = *runs[n];
+      const PassCase* const before = a.before ? &a.before->c : nullptr;
+      all.push_back({*task.pass, a.run, before, task.bind, a.model.get(), by.cases[failing[n]], by, by.half_mode, options,
+                     all.empty() ? nullptr : &all.back(), is_warned});
+    }
   };
-  if (failing.size() == 1) return task.runs.explain(failed(worst, failing[0], nullptr));
-  const Asked next = asked(task, failing[1]);
-  const FailedRun other = failed(next, failing[1], nullptr);
-  return task.runs.explain(failed(worst, failing[0], &other));
+  std::vector<FailedRun> all, by_other;
+  all.reserve(runs.size()), by_other.reserve(runs.size());
+  failed_by(judged, all);
+  if (otherwise) failed_by(*otherwise, by_other), all.back().otherwise = &by_other.back();
+  return task.runs.explain(all.back());
 }
 
 /// The same judgement with warned elements counted as failing.
@@ -136,17 +137,11 @@ std::vector<Cause> causes_of_warning(const PassTask& task, const PassJudgement& 
   // What a known device would do defines what is near, except for rearrangements, which only the profile allows.
   const bool is_rearranged = std::any_of(judged.cases.begin(), judged.cases.end(), [](const CaseJudgement& c) { return c.rearranged > 0; });
   if (options.typical && !is_rearranged) how.profile = options.typical;
-  std::vector<Cause> causes = explained(task, as_failing(judged), how, 1, true).causes;
+  std::vector<Cause> causes = explained(task, as_failing(judged), how, true).causes;
   std::erase_if(causes, [](const Cause& c) { return !c.is_likely; });
   return causes;
 }
 
-/// The share of the failures that the first cause explains, with equal weight for bits and nearness; and whether it is likely.
-std::pair<double, bool> worth(const Explanation& why) {
-  if (why.causes.empty()) return {-1, false};
-  const Cause& first = why.causes.front();
-  return {static_cast<double>(first.explained + first.inside) / static_cast<double>(std::max<std::int64_t>(first.of, 1)), first.is_likely};
-}
 /// If nothing else tells the port's rounding of halves, diagnoses under each, and sets `judged` to the one with the better result. `cases`:
 /// every run under each rounding.
 Explanation explained_by_each(const PassTask& task, std::vector<ModeJudgements> cases, PassJudgement& judged, const JudgeOptions& options) {
@@ -159,10 +154,9 @@ Explanation explained_by_each(const PassTask& task, std::vector<ModeJudgements> 
     other.cases.push_back(std::move(c.judgements[mode]));
   }
   conclude(other, *options.profile);
-  Explanation why = explained(task, judged, options, 0.5), second = explained(task, other, options, 0.5);
-  if (worth(second) <= worth(why)) return why;
-  judged = std::move(other);
-  return second;
+  Explanation why = explained(task, judged, options, false, &other);
+  if (why.is_otherwise) judged = std::move(other);
+  return why;
 }
 
 /// A null port that passes all of these runs, which must be settled; "": none.

@@ -41,9 +41,10 @@ struct FailedRun {
   HalfMode half_mode;           ///< the rounding that the pass was judged by
   const JudgeOptions& options;
   const FailedRun* other = nullptr;  ///< the next most informative failing run; null: none
-  double share = 1;                  ///< share of the pass's time limit; a pass may be diagnosed under each rounding of halves
   /// The elements give a WARN, not a FAIL; `judgement` counts them as failing. Only plain mistakes are tried, which limits the time.
   bool is_warned = false;
+  /// The same run, judged by the other rounding of halves, if nothing else tells the port's; null: it is known.
+  const FailedRun* otherwise = nullptr;
   const capture::TracedProgram* program = nullptr;           ///< the port's own, on this run; null: not available
   const capture::TracedListProgram* list_program = nullptr;  ///< the same of a pass that writes lists
 };

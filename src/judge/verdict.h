@@ -159,6 +159,7 @@ struct Cause {
 struct Explanation {
   std::vector<Cause> causes;  ///< best first; empty: unknown
   std::string where = "";     ///< "only channel y of wave": common property of the failures; "": none
+  bool is_otherwise = false;  ///< of FailedRun::otherwise
 };
 
 /// What the pack's runs exercise of a pass text; independent of the port.

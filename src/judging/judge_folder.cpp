@@ -30,7 +30,7 @@ class JudgeCall {
     if (!o.seeks_causes) return;
     options.explain = [this, &o](const judge::FailedRun& failed) {
       if (o.at_cause) o.at_cause(failed.pass.name);
-      const faults::SearchLimit limit(o.causes_within * failed.share);
+      const faults::SearchLimit limit(o.causes_within);
       std::optional<judge::Cause> own;
       if (pack && !failed.is_warned) {
         judge::PortFiles port(folder, pack->effect, pack->variant, options.buffers);

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "faults/diagnosis.h"
 #include "judge/evaluations.h"
 #include "judge/support.h"
 #include "random/draws.h"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "faults/bits_replay.h"
+#include "faults/diagnosis.h"
 #include "faults/draw_faults.h"
 #include "faults/place_faults.h"
 #include "judge/evaluations.h"

@@ -1,5 +1,5 @@
 // Which of several causes is believed, and when the first is called likely.
-#include "faults/replay.h"
+#include "faults/diagnosis.h"
 
 #include <cstring>
 #include <map>
@@ -42,6 +42,7 @@ class Told : public Replay {
         if (const auto at = stage->find(name_of(d)); at != stage->end()) {
           const auto left = misfits.find(name_of(d));
           out.push_back({d, {"", "", at->second, 100, at->second, false, true}, left == misfits.end() ? 0 : left->second});
+          out.back().fault = &d;
         }
     return out;
   }
@@ -177,6 +178,25 @@ TEST(Replay, AnotherRunThatNothingExplainsDecidesNothing) {
   other.first = {{"a", 0}};
   EXPECT_EQ(diagnosed(run, &other)[0].of, 100);
   EXPECT_TRUE(diagnosed(run, &other)[0].is_likely);
+}
+
+// The same failures judged by another rounding: what explains nothing under one is not tried under the other.
+TEST(Replay, ASecondRoundingIsSearchedAmongWhatExplainsSomethingByTheFirst) {
+  Told run, by_other;
+  run.first = {{"a", 40}, {"b", 0}};
+  run.second = {{"c", 60}, {"d", 5}};
+  by_other.first = {{"a", 90}, {"b", 100}};
+  by_other.second = {{"c", 100}, {"d", 100}};
+  run.numbers = by_other.numbers = {{"", {0}}, {"a", {1}}, {"b", {2}}, {"c", {3}}, {"d", {4}}};
+  Diagnosis first(run, nullptr);
+  first.search();
+  Diagnosis second(by_other, nullptr);
+  second.search_among(first);
+  const std::vector<Cause> causes = second.causes();
+  ASSERT_FALSE(causes.empty());
+  EXPECT_EQ(causes[0].name, "c");
+  for (const Cause& c : causes) EXPECT_TRUE(c.name == "a" || c.name == "c") << c.name;
+  EXPECT_EQ(by_other.asked_for_more, 0);
 }
 
 TEST(Replay, AVariedCaseHasOtherNumbers) {
