@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "capture/pass_model.h"
-#include "math/places.h"
+#include "math/trace.h"
 
 namespace rainref::capture {
 

@@ -95,7 +95,7 @@ struct TexelSearch {
     if (other) give(*other, is_swapped ? f : *f.other);
     run.limit(limit);
     if (other) other->limit(limit);
-    diagnosis.emplace(run, other && (&f == &judged || other->fails()) ? &*other : nullptr);
+    diagnosis.emplace(run, other && other->fails() ? &*other : nullptr);
   }
   TexelSearch(const TexelSearch&) = delete;
   TexelSearch& operator=(const TexelSearch&) = delete;
@@ -118,11 +118,9 @@ std::vector<Cause> causes_found(TexelSearch& search, const FailedRun& f, const S
   return best;
 }
 
-/// The share of the failures that the first cause explains, with equal weight for bits and nearness; and whether it is likely.
+/// How good the causes of a search are: the score of the first, and whether it is likely.
 std::pair<double, bool> worth(const std::vector<Cause>& causes) {
-  if (causes.empty()) return {-1, false};
-  const Cause& first = causes.front();
-  return {static_cast<double>(first.explained + first.inside) / static_cast<double>(std::max<std::int64_t>(first.of, 1)), first.is_likely};
+  return causes.empty() ? std::pair(-1.0, false) : std::pair(score(causes.front()), causes.front().is_likely);
 }
 
 std::vector<Cause> causes_of_texels(const FailedRun& f, const SearchLimit& limit, bool& is_otherwise) {
@@ -209,9 +207,6 @@ std::vector<Tried> best_causes(std::vector<Tried> causes) {
   std::erase_if(causes, [](const Cause& c) { return c.inside * 2 < c.of && c.explained * 4 < c.of; });
   if (causes.empty()) return {};
   // Bits count twice, because they are also near. Causes within 2 % of the best explain equally much.
-  const auto score = [](const Cause& c) {
-    return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1));
-  };
   // A number can be fitted to many failures: it is accepted only if no named mistake comes near all of them.
   const auto is_full = [](const Tried& c) { return c.inside * 50 >= c.of * 49 && c.misfit <= 0.1; };
   if (std::any_of(causes.begin(), causes.end(), [&](const Tried& c) { return !is_fitted(c) && is_full(c); }))

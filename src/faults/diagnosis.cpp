@@ -13,7 +13,6 @@ namespace {
 
 using judge::Cause;
 
-double score(const Cause& c) { return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1)); }
 bool is_explained(const std::vector<Tried>& causes) {
   // A cause that is fitted to lost records, or that says that nothing was done, may have its reason in the text. So may an unset number,
   // for which a few records are weak evidence.
@@ -57,7 +56,7 @@ std::vector<Fault> faults_in(Replay& other, const std::vector<Tried>& causes) {
   double best = 0;
   for (const Tried& c : causes) best = std::max(best, score(c));
   for (const Tried& c : causes) {
-    // What explains far less than the best is not tried where it would have to explain as much.
+    // A cause that explains far less than the best here is not tried there.
     if ((c.inside * 2 < c.of && c.explained * 4 < c.of) || score(c) < 0.6 * best) continue;
     names.insert(c.name);
     is_any_fitted |= is_fitted(c);

@@ -1,6 +1,8 @@
 // Repeats a failing run with mistakes, to find those that reproduce what the port stored.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -31,6 +33,11 @@ struct Tried : judge::Cause {
 
 /// Number of places that speak against a mistake: failing ones that it does not explain, and passing ones that it would break.
 inline double against(const Tried& c) { return static_cast<double>(c.of - c.inside + c.bad); }
+
+/// The share of the failures that it explains, with equal weight for bits and nearness: 0 to 2.
+inline double score(const judge::Cause& c) {
+  return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1));
+}
 
 class Replay {
  public:

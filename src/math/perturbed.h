@@ -13,7 +13,7 @@
 
 #include "math/coverage.h"
 #include "math/fixed_point_filter.h"
-#include "math/places.h"
+#include "math/trace.h"
 #include "math/scalar.h"
 #include "math/profile.h"
 
@@ -109,8 +109,8 @@ struct Behaviour {
   int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up; 0: no tendency
   std::vector<float>* constants = nullptr;  ///< collects every literal and uniform met
 
-  // One mistake at one place, or at places that belong together: the coordinates of a lookup, the components of a vector. The first without
-  // a fault ends the list; either all or none of the others are by_sequence.
+  // One mistake at one place, or at places that belong together: the coordinates of a lookup, the components of a vector. A place without a
+  // fault ends the list. If the first place is by_sequence, so are the others.
   std::array<Place, 4> places{};
   const std::vector<float>* known = nullptr;  ///< sorted: constants that distinguish places; all other constants are treated as equal
   Trace* trace = nullptr;                     ///< collects the operations

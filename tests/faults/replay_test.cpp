@@ -198,6 +198,24 @@ TEST(Replay, ASecondRoundingIsSearchedAmongWhatExplainsSomethingByTheFirst) {
   for (const Cause& c : causes) EXPECT_TRUE(c.name == "a" || c.name == "c") << c.name;
   EXPECT_EQ(by_other.asked_for_more, 0);
 }
+// The rounding may make the other run the one with most failures: its mistakes of the same names are tried.
+TEST(Replay, ASecondRoundingMayBeginWithTheOtherRun) {
+  Told run, other;
+  run.first = {{"a", 60}, {"b", 0}};
+  other.first = {{"a", 70}, {"b", 100}};
+  run.numbers = other.numbers = {{"", {0}}, {"a", {1}}, {"b", {2}}};
+  Diagnosis first(run, &other);
+  first.search();
+  run.first = {{"a", 100}, {"b", 100}};
+  other.first = {{"a", 90}, {"b", 100}};
+  Diagnosis second(other, &run);
+  second.search_among(first, true);
+  const std::vector<Cause> causes = second.causes();
+  ASSERT_EQ(causes.size(), 1u);
+  EXPECT_EQ(causes[0].name, "a");
+  EXPECT_EQ(causes[0].explained, 190);
+  EXPECT_EQ(causes[0].of, 200);
+}
 
 TEST(Replay, AVariedCaseHasOtherNumbers) {
   capture::PackPass pass;
