@@ -123,8 +123,16 @@ Perturbed Perturbed::fetch_of(float texel) {
   if (current.follows()) f.leaf(Op::fetch, 0);
   return f;
 }
+Perturbed Perturbed::alone() const {
+  Perturbed a;
+  a.v = v;
+  a.factor_ = factor_;
+  a.other_ = other_;
+  a.product_ = product_;
+  return a;
+}
 Perturbed Perturbed::opposite() const {
-  Perturbed o = *this;
+  Perturbed o = alone();
   o.v = -o.v;
   o.factor_ = -o.factor_;
   return o;
@@ -136,28 +144,33 @@ bool Perturbed::is_at_most(const Perturbed& a, const Perturbed& b) {
   return Perturbed::met(is(Fault::strict_for_weak) ? a.v < b.v : a.v <= b.v, a, b);
 }
 Perturbed Perturbed::choice(bool m, const Perturbed& a, const Perturbed& b) {
-  return Perturbed::met(Op::choice, m ? a : b, a, b, Perturbed::of(m ? 1.0f : 0.0f));
+  return Perturbed::made(
+      Op::choice, [&] { return (m ? a : b).alone(); }, a, b, Perturbed::of(m ? 1.0f : 0.0f));
 }
 Perturbed Perturbed::minimum(const Perturbed& a, const Perturbed& b) {
-  return Perturbed::met(Op::minimum, Perturbed::of(is(Fault::minimum_missing) || !(b.v < a.v) ? a.v : b.v), a, b);
+  return Perturbed::made(
+      Op::minimum, [&] { return Perturbed::of(is(Fault::minimum_missing) || !(b.v < a.v) ? a.v : b.v); }, a, b);
 }
 Perturbed Perturbed::maximum(const Perturbed& a, const Perturbed& b) {
-  return Perturbed::met(Op::maximum, Perturbed::of(is(Fault::maximum_missing) || !(a.v < b.v) ? a.v : b.v), a, b);
+  return Perturbed::made(
+      Op::maximum, [&] { return Perturbed::of(is(Fault::maximum_missing) || !(a.v < b.v) ? a.v : b.v); }, a, b);
 }
 Perturbed abs(const Perturbed& a) {
   if (detail::is_plain) return Perturbed::of(a.v < 0 ? -a.v : a.v);
-  return Perturbed::met(Op::magnitude, a.v < 0 && !is(Fault::abs_missing) ? a.opposite() : a, a);
-}
-Perturbed Perturbed::negation(const Perturbed& a) { return Perturbed::met(Op::negation, a.opposite(), a); }
-Perturbed Perturbed::sum(const Perturbed& a, const Perturbed& b) {
-  if (detail::is_nearest) return met(Op::sum, of(a.v + b.v), a, b);
   return Perturbed::made(
-      Op::sum, [&] { return Perturbed::add(a, b); }, a, b);
+      Op::magnitude, [&] { return a.v < 0 && !is(Fault::abs_missing) ? a.opposite() : a.alone(); }, a);
+}
+Perturbed Perturbed::negation(const Perturbed& a) {
+  return Perturbed::made(
+      Op::negation, [&] { return a.opposite(); }, a);
+}
+Perturbed Perturbed::sum(const Perturbed& a, const Perturbed& b) {
+  return Perturbed::made(
+      Op::sum, [&] { return detail::is_nearest ? of(a.v + b.v) : Perturbed::add(a, b); }, a, b);
 }
 Perturbed Perturbed::difference(const Perturbed& a, const Perturbed& b) {
-  if (detail::is_nearest) return met(Op::difference, of(a.v - b.v), a, b);
   return Perturbed::made(
-      Op::difference, [&] { return Perturbed::add(a, b.opposite()); }, a, b);
+      Op::difference, [&] { return detail::is_nearest ? of(a.v - b.v) : Perturbed::add(a, b.opposite()); }, a, b);
 }
 
 Perturbed Perturbed::add(const Perturbed& a, const Perturbed& b) {
@@ -174,8 +187,8 @@ Perturbed Perturbed::add(const Perturbed& a, const Perturbed& b) {
   return finish(s, (a.v - (s - t)) + (b.v - t));
 }
 Perturbed Perturbed::product(const Perturbed& a, const Perturbed& b) {
-  if (detail::is_nearest) return met(Op::product, of(a.v * b.v), a, b);
   const auto result = [&] {
+    if (detail::is_nearest) return of(a.v * b.v);
     const float p = a.v * b.v;
     Perturbed r = finish(p, static_cast<double>(a.v) * b.v - p);
     r.factor_ = a.v;

@@ -311,6 +311,8 @@ class Perturbed {
   static void follow(Op op, Perturbed& result, std::initializer_list<const Perturbed*> of);
   static bool follow(bool result, const Perturbed& a, const Perturbed& b);
   static Perturbed with_fault(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of, PlaceFault fault);
+  /// Its number without its origin. Copied part by part: a copy of the whole would wait until all of it is written.
+  Perturbed alone() const;
   Perturbed opposite() const;
 
   // A product that the next addition may fuse: v = factor_ times other_, rounded.

@@ -42,12 +42,16 @@ void ShapeCounts::clear() {
   }
 }
 
-std::int32_t Trace::add(Node node) {
-  const auto number = static_cast<std::int32_t>(nodes.size());
-  node.alike = met.add(node.shape, number);
-  node.occurrence = node.alike < 0 ? 0 : nodes[static_cast<std::size_t>(node.alike)].occurrence + 1;
-  nodes.push_back(node);
-  return number;
+Trace::Node& Trace::add(Op op, float value, std::uint32_t shape) {
+  const std::int32_t alike = met.add(shape, static_cast<std::int32_t>(nodes.size()));
+  const std::int32_t occurrence = alike < 0 ? 0 : nodes[static_cast<std::size_t>(alike)].occurrence + 1;
+  Node& node = nodes.emplace_back();
+  node.op = op;
+  node.value = value;
+  node.shape = shape;
+  node.occurrence = occurrence;
+  node.alike = alike;
+  return node;
 }
 const float* Trace::value_met(std::uint32_t shape, std::int32_t back, std::size_t before) const {
   for (std::int32_t at = met.last(shape); at >= 0; at = nodes[static_cast<std::size_t>(at)].alike)

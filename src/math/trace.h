@@ -37,10 +37,10 @@ class ShapeCounts {
 /// The operations of an invocation, in order.
 struct Trace {
   struct Node {
-    Op op;
-    float value;
-    std::uint32_t shape;
-    std::int32_t occurrence;
+    Op op = Op::constant;
+    float value = 0;
+    std::uint32_t shape = 0;
+    std::int32_t occurrence = 0;
     std::array<std::int32_t, 4> of{-1, -1, -1, -1};  ///< nodes; -1: none, or a number of unknown origin
     std::array<float, 4> with{};                     ///< the operands themselves, after substitutions
     std::array<std::uint32_t, 2> shallow{};          ///< shapes one and two operations deep
@@ -54,8 +54,8 @@ struct Trace {
     nodes.clear();
     met.clear();
   }
-  /// Appends a node, sets its `occurrence` and `alike`, and returns its number.
-  std::int32_t add(Node node);
+  /// Appends a node, sets its `occurrence` and `alike`, and returns it.
+  Node& add(Op op, float value, std::uint32_t shape);
   /// The value of the shape met `back` times ago (1: last) among the first `before` nodes; null: not so often.
   const float* value_met(std::uint32_t shape, std::int32_t back, std::size_t before) const;
 };
