@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "capture/bytes.h"
+#include "math/uncertain.h"
 #include "rainref/image.h"
 #include "scene/uniform_block.h"
 
@@ -20,6 +22,8 @@ struct Array {
   scene::UniformBlock record;
   int width = 0, height = 0;
   std::vector<Bytes> levels;
+  /// Intervals of the values of level 0, decoded, for an input that is not known exactly; null: it is.
+  std::shared_ptr<const enclosed::Uncertain> uncertain = nullptr;
 
   int level_width(int level) const { return width >> level > 1 ? width >> level : 1; }
   int level_height(int level) const { return height >> level > 1 ? height >> level : 1; }

@@ -110,11 +110,21 @@ std::vector<float> decoded(const Array& image, int level) {
   return out;
 }
 
+void require_certain(const CaseInput& input) {
+  if (input.array.uncertain)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("in.{}: the pass reads it at other places than its own texel, so it cannot be judged without the values that the "
+                    "port computed: expected files of the pass that gives it, found none",
+                    input.name));
+}
+
 std::shared_ptr<const std::vector<float>> shared_decoded(const Array& image) {
   return values_of(shared_texels(image, 1, 0, info(image.format).channels));
 }
 
 BoundTexture::BoundTexture(const CaseInput& input, int first, int count) {
+  require_certain(input);
   const Array& a = input.array;
   const int channels = info(a.format).channels, taken = count > 0 ? count : channels - first;
   view_.channels = taken;

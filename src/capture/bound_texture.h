@@ -15,6 +15,9 @@ namespace rainref::capture {
 /// rounded; uint32 rounded to float.
 std::vector<float> decoded(const Array& image, int level = 0);
 
+/// Throws Error(usage) if the values of an input are known only as intervals, because the pass does not load them at its own texel.
+void require_certain(const CaseInput& input);
+
 /// Decodes level 0. Copies of a large image share the values: a search for causes binds one case hundreds of times.
 std::shared_ptr<const std::vector<float>> shared_decoded(const Array& image);
 

@@ -62,14 +62,15 @@ struct ValidateRequest {
   std::filesystem::path shadow;  ///< dumps of a port's own run, judged in place of `port`; "": a pack is judged
   SceneOptions scene;            ///< with `shadow`: the scene that the port ran; empty: a manifest is beside the dumps
   std::string profile = "vulkan";
-  std::vector<std::string> only;  ///< only these passes; empty: all
-  bool partial = false;           ///< a pass without files of the port is not judged, and its files are not reported as missing
-  std::filesystem::path spirv;    ///< a folder with bindings.json: executes the port's own shaders to find out who is wrong; "": no
-  bool no_causes = false;         ///< no search for causes
-  double causes_within = 0;       ///< time limit in seconds for the causes of a pass; 0: none
-  std::string exec;               ///< the port's own command, run first; "": `port` already holds its outputs
-  double timeout_s = 600;         ///< for each run of the command
-  int repeat = 1;                 ///< number of runs of the command
+  std::vector<std::string> only;   ///< only these passes; empty: all
+  std::vector<std::string> fused;  ///< passes that one shader computes: "ground_noise+shade"
+  bool partial = false;            ///< a pass without files of the port is not judged, and its files are not reported as missing
+  std::filesystem::path spirv;     ///< a folder with bindings.json: executes the port's own shaders to find out who is wrong; "": no
+  bool no_causes = false;          ///< no search for causes
+  double causes_within = 0;        ///< time limit in seconds for the causes of a pass; 0: none
+  std::string exec;                ///< the port's own command, run first; "": `port` already holds its outputs
+  double timeout_s = 600;          ///< for each run of the command
+  int repeat = 1;                  ///< number of runs of the command
   bool allow_untested = false;
   bool strict = false;        ///< each WARN fails
   bool exhaustive = false;    ///< computes every envelope

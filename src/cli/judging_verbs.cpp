@@ -71,6 +71,11 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
       ->type_name("DIR");
   add_profile(verb, f.request.profile);
   add_only(verb, f.request.only, "Judge these passes alone");
+  verb.add_option(
+          "--fused", f.request.fused,
+          "Passes that one shader of the port computes, such as ground_noise+shade: the last is judged from what the others may give")
+      ->type_name("PASS+PASS")
+      ->allow_extra_args(false);
   verb.add_flag("--partial", f.request.partial, "A port in progress: passes that it has no files of are NOT JUDGED, and not missing");
   verb.add_flag("--no-causes", f.request.no_causes, "Do not look for what went wrong, which may take longer than judging");
   verb.add_option("--causes-within", f.causes_within,
@@ -97,8 +102,11 @@ bool changes_scene(const ValidateFlags& f) { return f.scene.size || !f.scene.set
 /// A port's own run: PACK is the scene that it ran, or empty.
 void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
   require_text(*f.shadow, "--shadow", "a folder");
-  if (f.exec || f.spirv || !f.port.empty())
-    throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", f.exec ? "--exec" : f.spirv ? "--spirv" : "--port"));
+  if (f.exec || f.spirv || !f.request.fused.empty() || !f.port.empty())
+    throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", f.exec                     ? "--exec"
+                                                                              : f.spirv                  ? "--spirv"
+                                                                              : !f.request.fused.empty() ? "--fused"
+                                                                                                         : "--port"));
   if (f.pack.empty() && changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
   if (std::error_code ignored; std::filesystem::is_directory(f.pack, ignored)) {
     throw Error(ExitCode::usage, fmt::format("--shadow: expected the scene that the port ran, found the folder '{}'; a manifest.json "

@@ -52,6 +52,7 @@ judging::FolderOptions folder_options(const ValidateRequest& request, const para
   options.profile = request.profile;
   options.only = request.only;
   options.partial = request.partial;
+  options.fused = request.fused;
   options.foreign_host = request.foreign_host;
   options.executor = &executor;
   options.strict = request.strict;

@@ -93,4 +93,15 @@ void require_apart(const fs::path& pack, const fs::path& port, ExitCode code) {
                   port.string(), pack.string()));
 }
 
+bool PortFiles::has_output(const std::string& run) const {
+  const std::filesystem::path of_pass = (folder_ / run).parent_path();
+  std::error_code error;
+  if (!std::filesystem::exists(of_pass, error)) return false;
+  for (std::filesystem::recursive_directory_iterator i(of_pass, error), end; !error && i != end; i.increment(error)) {
+    if (i->path().filename().string().starts_with("out")) return true;
+    if (i.depth() > 0) i.disable_recursion_pending();
+  }
+  return static_cast<bool>(error);  // an unreadable folder is rejected later, by name
+}
+
 }  // namespace rainref::judge

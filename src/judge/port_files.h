@@ -60,6 +60,9 @@ class PortFiles {
   const port_dump::PortInfo& info() const { return info_; }
   /// Reads a buffer like port_dump::read_port_buffer; `run` is the folder of the run.
   capture::Array read(const std::filesystem::path& run, const std::string& stem, const capture::Array& expected);
+  /// True if the port has anything like an output of the pass of this run, in whatever run: a wrong name does not mean that nothing was
+  /// intended.
+  bool has_output(const std::string& run) const;
   /// Notes for the reader of a report about accepted files, each once.
   const std::vector<std::string>& notes() const { return notes_; }
 

@@ -8,6 +8,7 @@
 #include "judge/check_pack.h"
 #include "judge/conclude.h"
 #include "judge/evaluations.h"
+#include "judge/fused.h"
 #include "judge/judge_pass.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
@@ -32,24 +33,13 @@ bool stores_halves(const PackCase& c) {
                      [](const capture::PackOutput& o) { return !o.shape.is_records && info(o.shape.format).kind == FormatInfo::float16; });
 }
 
-/// True if a pass's folder has anything like an output, in whatever run: a wrong name does not mean that nothing was intended.
-bool has_output(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (!std::filesystem::exists(folder, error)) return false;
-  for (std::filesystem::recursive_directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
-    if (i->path().filename().string().starts_with("out")) return true;
-    if (i.depth() > 0) i.disable_recursion_pending();
-  }
-  return static_cast<bool>(error);  // an unreadable folder is rejected later, by name
-}
-
 /// Passes whose outputs are judged and that have no file of the port.
 std::set<std::string> passes_without_files(const Pack& pack, const PortFiles& port) {
   std::set<std::string> judged, found;
   for (const PackCase& c : pack.cases) {
     if (!is_judged(c)) continue;
     judged.insert(c.pass);
-    if (!found.contains(c.pass) && has_output((port.folder() / c.id).parent_path())) found.insert(c.pass);
+    if (!found.contains(c.pass) && port.has_output(c.id)) found.insert(c.pass);
   }
   for (const std::string& pass : found) judged.erase(pass);
   return judged;
@@ -68,7 +58,7 @@ void require_any_folder(const Pack& pack, const ValidateOptions& options, const 
 }
 
 /// Reads a case with the port's outputs, and collects errors of its files.
-PortRun read_run(const Pack& pack, const PackCase& entry, PortFiles& port, FileFaults& faults) {
+PortRun read_run(const Pack& pack, const PackCase& entry, const FusedInputs& fused, PortFiles& port, FileFaults& faults) {
   PortRun run;
   run.c = read_case(pack, entry);
   for (std::size_t o = 0; o < entry.outputs.size(); ++o) {
@@ -89,17 +79,28 @@ PortRun read_run(const Pack& pack, const PackCase& entry, PortFiles& port, FileF
   if (const std::string unusable = unusable_text(faults.all(), entry.id); !unusable.empty()) {
     run.has_no_files = true;
     run.untested = fmt::format("{}: missing, or cannot be used", unusable);
+  } else {
+    fused.replace(entry, run.c, port);
   }
   return run;
 }
 
-PassJudgement without_files(const PackPass& pass) {
+/// `last`: the pass in whose shader the port computes it, or "".
+PassJudgement without_files(const PackPass& pass, const std::string& last) {
   PassJudgement out;
   out.pass = pass.name;
   out.formula = pass.formula;
   out.status = Status::not_judged;
-  out.reason = "the port has no files of this pass";
+  out.reason = last.empty() ? "the port has no files of this pass" : fmt::format("the port computes it in the shader of {}", last);
   return out;
+}
+
+/// Says what a pass was judged from, if the port computes `from` in the same shader.
+std::string fused_note(const Pack& pack, const PortFiles& port, const std::string& pass, const std::string& from) {
+  const bool is_given =
+      std::any_of(pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) { return c.pass == from && port.has_output(c.id); });
+  return is_given ? fmt::format("{} is judged from the port's own outputs of {}, which is in the same shader", pass, from)
+                  : fmt::format("{} is judged from all that {} may give, which is in the same shader and has no files", pass, from);
 }
 
 }  // namespace
@@ -138,7 +139,11 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   const std::shared_ptr<ReadBuffers> buffers = options.buffers ? options.buffers : std::make_shared<ReadBuffers>();
   PortFiles port(folder, pack.effect, pack.variant, buffers);
   PortFiles other_files(folder, pack.effect, pack.variant, buffers);  // errors in a voter's files are reported when it is judged
-  const std::set<std::string> absent = options.partial ? passes_without_files(pack, port) : std::set<std::string>();
+  std::vector<FusedPasses> groups;
+  for (const std::string& text : options.fused) groups.push_back(fused_passes(text, pack));
+  const FusedInputs fused(pack, groups, chosen, *options.executor);
+  std::set<std::string> absent = passes_without_files(pack, port);
+  if (!options.partial) std::erase_if(absent, [&](const std::string& pass) { return fused.last_of(pass).empty(); });
   require_any_folder(pack, options, absent, port);
 
   PortJudgement result = unjudged(pack, options.profile);
@@ -166,7 +171,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
           c->outputs, [](const auto& o) -> const auto& { return o.shape; });
     runs.load = [&, cases, is_wanted](std::size_t k) {
       FileFaults own;
-      PortRun run = read_run(pack, *cases[k], is_wanted ? port : other_files, own);
+      PortRun run = read_run(pack, *cases[k], fused, is_wanted ? port : other_files, own);
       if (is_wanted) faults[static_cast<std::size_t>(cases[k] - pack.cases.data())] = own;
       return run;
     };
@@ -185,9 +190,13 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   std::vector<PassJudgement> judged = judge_passes(tasks, how, voters);
   auto next = judged.begin();
   for (const PackPass& pass : pack.passes)
-    if (options.wants(pass.name)) result.passes.push_back(absent.contains(pass.name) ? without_files(pass) : std::move(*next++));
+    if (options.wants(pass.name))
+      result.passes.push_back(absent.contains(pass.name) ? without_files(pass, fused.last_of(pass.name)) : std::move(*next++));
   for (const FileFaults& own : faults) result.files.insert(result.files.end(), own.all().begin(), own.all().end());
   result.notes.insert(result.notes.end(), port.notes().begin(), port.notes().end());
+  for (const PassJudgement& pass : result.passes)
+    for (const std::string& from : fused.computed_for(pass.pass))
+      if (!pass.cases.empty()) result.notes.push_back(fused_note(pack, port, pass.pass, from));
   conclude(result);
   return result;
 }

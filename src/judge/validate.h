@@ -24,6 +24,7 @@ struct ValidateOptions {
   std::string profile = "vulkan";
   std::vector<std::string> only;       ///< judge only these passes; empty: all
   bool foreign_host = false;           ///< shadow: a host's choices that differ from the scene are notes
+  std::vector<std::string> fused;      ///< passes that one shader computes: "ground_noise+shade"; see judge/fused.h
   bool partial = false;                ///< a pass without any file of the port is not judged, and its files are not reported as missing
   std::int64_t sample = least_sample;  ///< as JudgeOptions::sample, for each pass; 0: all envelopes are computed
   const parallel::Executor* executor = nullptr;

@@ -8,6 +8,7 @@
 #include "faults/diagnose.h"
 #include "judge/check_pack.h"
 #include "judge/conclude.h"
+#include "judge/fused.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
 #include "judge/races.h"
@@ -19,6 +20,8 @@
 
 namespace rainref::judging {
 namespace {
+
+bool is_likely(const judge::Cause& cause) { return cause.is_likely; }
 
 /// Converts the options for the judge, with the search for causes and the buffers read from the port.
 class JudgeCall {
@@ -38,7 +41,12 @@ class JudgeCall {
       }
       if (own && own->is_likely) return judge::Explanation{{std::move(*own)}, ""};
       judge::Explanation why = judging::explain(failed, programs, limit);
-      if (own) why.causes.push_back(std::move(*own));
+      if (!own && pack && !failed.is_warned && std::none_of(why.causes.begin(), why.causes.end(), is_likely)) {
+        own = computes_itself(failed, *pack);
+        if (own) why.causes.insert(why.causes.begin(), std::move(*own));
+      } else if (own) {
+        why.causes.push_back(std::move(*own));
+      }
       faults::keep_found(why.causes);
       if (limit.was_met() && (cut_short_.empty() || cut_short_.back() != failed.pass.name)) cut_short_.push_back(failed.pass.name);
       return why;
@@ -99,6 +107,7 @@ Judged with_verdict(judge::PortJudgement judgement, reports::PageSource source, 
 void check_request(const capture::Pack& pack, const FolderOptions& options) {
   static_cast<void>(judge::judging_profile(options.profile));
   for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
+  for (const std::string& passes : options.fused) static_cast<void>(judge::fused_passes(passes, pack));
   if (!options.spirv.empty()) static_cast<void>(spirv::read_programs(options.spirv));
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "judge/fused.h"
 #include "judge/judge.h"
 #include "judge/reference_outputs.h"
 #include "rainref/error.h"
@@ -16,7 +17,7 @@
 namespace rainref::judging {
 namespace {
 
-using capture::Array, capture::PackCase, capture::PassCase;
+using capture::Array, capture::PassCase;
 using judge::CaseJudgement, judge::FailedRun;
 
 constexpr std::uint8_t outside = 3, not_judged = judge::OutputJudgement::not_judged;  // OutputJudgement::map
@@ -28,23 +29,13 @@ struct OwnInput {
   Array array;
 };
 
-/// The run of a pass that gave an input of this case: the latest one of the same frame before it. Null if the pack has none.
-const PackCase* source_of(const capture::Pack& pack, const PassCase& c, const std::string& from) {
-  const PackCase* found = nullptr;
-  for (const PackCase& entry : pack.cases) {
-    if (entry.id == c.folder()) return found;
-    if (entry.pass == from && entry.frame == c.frame) found = &entry;
-  }
-  return nullptr;
-}
-
 std::vector<OwnInput> own_inputs(const FailedRun& failed, const capture::Pack& pack, judge::PortFiles& port) {
   std::vector<OwnInput> found;
   const PassCase& c = failed.run.c;
   for (const capture::PackEdge& edge : pack.edges) {
     if (edge.pass != c.pass || edge.from == "host" || edge.from == c.pass || edge.previous) continue;
     const auto input = std::find_if(c.inputs.begin(), c.inputs.end(), [&](const auto& i) { return i.name == edge.input; });
-    const PackCase* source = input == c.inputs.end() ? nullptr : source_of(pack, c, edge.from);
+    const capture::PackCase* source = input == c.inputs.end() ? nullptr : judge::source_of(pack, c.folder(), edge.from);
     if (!source) continue;
     try {
       Array own = port.read(source->id, "out." + edge.input, input->array);
@@ -71,20 +62,8 @@ bool has_bits(const std::vector<Array>& a, const std::vector<Array>& b, std::siz
   return true;
 }
 
-/// The failing texels that the run explains with these inputs.
-judge::Cause judged_with(const FailedRun& failed, const std::vector<const OwnInput*>& inputs) {
-  PassCase c = failed.run.c;
-  std::vector<std::string> names, passes;
-  for (const OwnInput* input : inputs) {
-    c.inputs[input->index].array = input->array;
-    names.push_back(input->name);
-    if (std::find(passes.begin(), passes.end(), input->from) == passes.end()) passes.push_back(input->from);
-  }
-  judge::Cause cause{
-      fmt::format("made from the port's own {}", fmt::join(names, ", ")),
-      fmt::format("what the port gave for {} went in, not what the pack gives: a shader that computes {} itself reads the pack's "
-                  "here, or is judged as a whole",
-                  fmt::join(names, ", "), fmt::join(passes, ", "))};
+/// Judges the run with other inputs, and counts what they explain of the failing texels.
+void judge_with(const FailedRun& failed, PassCase& c, judge::Cause& cause) {
   const auto model = failed.bind(c);
   const std::vector<Array> expected = judge::reference_outputs(c, *model, *failed.options.executor, failed.half_mode);
   for (std::size_t o = 0; o < c.outputs.size(); ++o) c.outputs[o].array = expected[o];
@@ -101,6 +80,23 @@ judge::Cause judged_with(const FailedRun& failed, const std::vector<const OwnInp
     cause.explained += has_bits(failed.run.stored, expected, texel);
   }
   cause.is_likely = cause.of > 0 && 10 * cause.inside >= 9 * cause.of;
+}
+
+/// The failing texels that the run explains with these inputs.
+judge::Cause judged_with(const FailedRun& failed, const std::vector<const OwnInput*>& inputs) {
+  PassCase c = failed.run.c;
+  std::vector<std::string> names, passes;
+  for (const OwnInput* input : inputs) {
+    c.inputs[input->index].array = input->array;
+    names.push_back(input->name);
+    if (std::find(passes.begin(), passes.end(), input->from) == passes.end()) passes.push_back(input->from);
+  }
+  judge::Cause cause{
+      fmt::format("made from the port's own {}", fmt::join(names, ", ")),
+      fmt::format("what the port gave for {} went in, not what the pack gives: a shader that computes {} itself reads the pack's "
+                  "here, or is judged as a whole",
+                  fmt::join(names, ", "), fmt::join(passes, ", "))};
+  judge_with(failed, c, cause);
   return cause;
 }
 
@@ -122,6 +118,32 @@ std::optional<judge::Cause> made_from_own(const FailedRun& failed, const capture
     best = std::move(cause);
   }
   return best;
+}
+
+std::optional<judge::Cause> computes_itself(const FailedRun& failed, const capture::Pack& pack) {
+  if (!failed.bind || !failed.model || failed.model->width() == 0) return std::nullopt;
+  const PassCase& c = failed.run.c;
+  const auto entry = std::find_if(pack.cases.begin(), pack.cases.end(), [&](const auto& e) { return e.id == c.folder(); });
+  if (entry == pack.cases.end()) return std::nullopt;
+  const auto is_free = [](const capture::PackOutput& o) { return o.rules.judge == capture::Judge::input_only; };
+  for (const capture::PackEdge& edge : pack.edges) {
+    const capture::PackCase* const source = edge.pass == c.pass && !edge.previous ? judge::source_of(pack, entry->id, edge.from) : nullptr;
+    if (!source || !std::all_of(source->outputs.begin(), source->outputs.end(), is_free)) continue;
+    const std::vector<judge::FusedPasses> both{{edge.from, c.pass}};
+    PassCase widened = c;
+    judge::Cause cause{
+        fmt::format("computes {} itself", edge.input),
+        fmt::format("the shader seems to compute {} itself and not to read the pack's: with --fused {}+{} both are judged as one",
+                    edge.input, edge.from, c.pass)};
+    try {
+      judge::FusedInputs(pack, both, *failed.options.profile, *failed.options.executor).widen(*entry, widened);
+      judge_with(failed, widened, cause);
+    } catch (const Error&) {
+      continue;  // the pass reads it elsewhere, so that nothing is known
+    }
+    if (cause.is_likely) return cause;
+  }
+  return std::nullopt;
 }
 
 }  // namespace rainref::judging

@@ -15,4 +15,8 @@ namespace rainref::judging {
 /// than half of the failing texels; likely if they explain nine in ten. `port`: the folder that is judged.
 std::optional<judge::Cause> made_from_own(const judge::FailedRun& failed, const capture::Pack& pack, judge::PortFiles& port);
 
+/// The cause "computes X itself": X are inputs of a pass that a port need not write (`input_only`), whatever it gives. Likely if that
+/// explains nine in ten of the failing texels; otherwise nothing. Other causes should be looked for first, because X may be anything.
+std::optional<judge::Cause> computes_itself(const judge::FailedRun& failed, const capture::Pack& pack);
+
 }  // namespace rainref::judging

@@ -8,11 +8,21 @@
 // A result that may be infinite, NaN or undefined is vacuous, the interval of everything, and so is every result computed from it.
 #pragma once
 
+#include <atomic>
+
 #include "math/directed.h"
 #include "math/scalar.h"
 #include "math/path_enumeration.h"
 
 namespace rainref::enclosed {
+
+class Enclosure;
+namespace detail {
+/// Number of UncertainValues.
+extern std::atomic<int> uncertain_arrays;
+/// The interval of a value, if it belongs to one of them, or the value.
+Enclosure loaded(const float* p);
+}  // namespace detail
 
 class Enclosure {
  public:
@@ -44,6 +54,8 @@ class Enclosure {
   static Enclosure load(const Storage* p) {
     if constexpr (std::is_same_v<Storage, Unorm8>)
       return load_unorm(scalar::to_float(*p));
+    else if constexpr (std::is_same_v<Storage, float>)
+      return detail::uncertain_arrays.load(std::memory_order_relaxed) == 0 ? Enclosure(*p) : detail::loaded(p);
     else
       return Enclosure(scalar::to_float(*p));
   }

@@ -27,6 +27,7 @@ struct Captured {
     In is;
     std::shared_ptr<const std::vector<DecodedOf<f>>>
         texels;  ///< row-major, with `around` copies of the nearest texel before and behind each row
+    std::shared_ptr<const enclosed::UncertainValues> uncertain;  ///< null: they are exact
     int width = 0, height = 0;
     static constexpr std::array formats{f};
     static constexpr int channels = StorageOf<f>::channels;
@@ -35,10 +36,19 @@ struct Captured {
     void read(const capture::CaseInput& input) {
       width = input.array.width;
       height = input.array.height;
+      if constexpr (std::is_same_v<DecodedOf<f>, float> && around == 0) {
+        if (!input.array.uncertain) {
+          texels = capture::shared_decoded(input.array);
+          return;
+        }
+        // A copy of its own: other models read the same array as it is.
+        texels = std::make_shared<const std::vector<float>>(capture::decoded(input.array));
+        uncertain = std::make_shared<const enclosed::UncertainValues>(texels->data(), input.array.uncertain);
+        return;
+      }
+      capture::require_certain(input);
       if constexpr (std::is_same_v<DecodedOf<f>, Unorm8>)
         frame(reinterpret_cast<const Unorm8*>(input.array.levels.at(0).data()));
-      else if constexpr (around == 0)
-        texels = capture::shared_decoded(input.array);
       else
         frame(capture::shared_decoded(input.array)->data());
     }

@@ -1,5 +1,7 @@
 #include "pass/planes.h"
 
+#include "capture/bound_texture.h"
+
 namespace rainref::pass {
 namespace {
 
@@ -33,6 +35,7 @@ void fill(const capture::CaseInput& input, Planes& to) {
 }  // namespace
 
 Planes::Planes(const capture::CaseInput& input) : address(input.address_u) {
+  capture::require_certain(input);
   in_storage(input.array.format, [&]<class Storage>(Storage) { fill<Storage>(input, *this); });
 }
 

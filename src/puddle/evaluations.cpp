@@ -42,6 +42,7 @@ const std::vector<capture::PassEvaluations>& evaluations() {
       {"raindrops", bind_raindrops, recompute_raindrops},
       {"wave_step", pass::bind<WaveStepPass, scalar::WaveStepPassText>},
       {"surface_hit", bind_surface_hit, nullptr, doubt_bounds, {}, {"bounds", "surface_top", "surface_slope"}},
+      {"ground_noise", pass::bind<GroundNoisePass, scalar::GroundNoisePassText>},
       {"shade",
        pass::bind<ShadePass, scalar::ShadePassText>,
        nullptr,

@@ -11,7 +11,8 @@ namespace rainref::puddle {
 /// Passes, buffers and GPU layouts of the puddle.
 const capture::EffectInfo& effect_info();
 
-/// Evaluations of all passes, of both variants; corrected raindrops is compared by bits. ground_noise is taken as data.
+/// Evaluations of all passes, of both variants; corrected raindrops is compared by bits. ground_noise is taken as data, and is
+/// evaluated only for a port that computes it in the shader of shade.
 const std::vector<capture::PassEvaluations>& evaluations();
 
 /// raindrops as published: record i is drop i.
