@@ -58,6 +58,7 @@ inline std::vector<GoldenScene> golden_scenes() {
     add(variant, "rg32f", "puddle.storage = 'rg32f'\n");
     add(variant, "rgba8", "puddle.storage = 'rgba8'\n");
   }
+  add("as-published", "rg16f/step_2", "puddle.step = 2\n");
   add("corrected", "rg16f/rim", "puddle.rim_width = 0.2\n");  // ten cells
   add("corrected", "rg16f/objects",
       "puddle.objects = '0.08 0.01: 0 -0.3 0, 0.5 0.2 0.1, 1 0.3 -0.2; 0.1 -0.003: 0.01 0.3 -0.3, 0.9 -0.2 -0.25'\n"
