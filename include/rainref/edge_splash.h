@@ -46,6 +46,7 @@ struct Settings {
   // as-published
   int thickness = 3;  ///< [texel]
   double edge_threshold = 0.166, drop_speed = 100;
+  Format storage = Format::rgba16f;  ///< of colour: rgba16f, or rgba8 as the article's render feature asks for
 
   // corrected
   double band = 0.03;                                     ///< height of the splashes beside an edge [m]
@@ -106,7 +107,7 @@ class EdgeSplash {
   const Image& edge() const;  ///< r8 masks
   const Image& angle() const;
   const Image& noise() const;
-  const Image& colour() const;   ///< rgba16f: linear radiance, the scene's alpha
+  const Image& colour() const;   ///< as published in Settings::storage, corrected rgba16f: linear radiance, alpha
   const Image& picture() const;  ///< rgba8: display code; row 0 = bottom
   const Image& depth() const;    ///< r32f: device depth that splash reads
 

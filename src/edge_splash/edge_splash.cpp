@@ -87,7 +87,7 @@ struct EdgeSplash::State {
     else
       noise_map = cache::prepared("edge_splash noise", 0, make_noise_map, in.noise, s);
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
-    colour = Image(Format::rgba16f, settings.width, settings.height);
+    colour = Image(colour_format(s), settings.width, settings.height);
     picture = Image(Format::rgba8, settings.width, settings.height);
     display = pass::display_table(settings.width, settings.height, settings.exposure, settings.rounding);
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);

@@ -76,6 +76,8 @@ void check(const Settings& s) {
     throw Error(ExitCode::usage,
                 fmt::format("scene.near, scene.far: expected 0 < near < far, found {} and {}", s.depth.near_plane, s.depth.far_plane));
   }
+  if (s.storage != Format::rgba16f && s.storage != Format::rgba8)
+    throw Error(ExitCode::usage, "edge_splash.storage: expected rgba16f or rgba8");
   if (s.variant == Variant::corrected && !(s.smallest_band <= s.largest_band)) {
     throw Error(ExitCode::usage, fmt::format("edge_splash.smallest_band: expected no more than edge_splash.largest_band, found {} and {}",
                                              s.smallest_band, s.largest_band));

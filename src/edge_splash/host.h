@@ -41,6 +41,9 @@ inline constexpr int crown_side = 512;
 /// A tile of splash crowns at this time [s], side x side, r32f: 0 where there is none, up to 1.
 Image make_crowns(std::uint64_t seed, double time, int side = crown_side);
 
+/// Storage format of colour: corrected has one alone.
+inline Format colour_format(const Settings& s) { return s.variant == Variant::as_published ? s.storage : Format::rgba16f; }
+
 /// Memory of the constructor and of frames, with a noise map of noise_side texels a side, without the inputs, which belong to the caller.
 MemoryPeak memory(const Settings& settings, int noise_side = 256);
 

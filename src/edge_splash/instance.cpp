@@ -1,5 +1,7 @@
 #include "edge_splash/instance.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cache/prepared.h"
@@ -8,6 +10,7 @@
 #include "edge_splash/parameters.h"
 #include "edge_splash/shapes.h"
 #include "image/flipped.h"
+#include "math/unorm.h"
 #include "rainref/error.h"
 #include "scene/scenery_memory.h"
 
@@ -51,7 +54,9 @@ Inputs pictures(const scene::Config& config, const Settings& s, const ScenePictu
 
 effect::RunMemory memory_of(const scene::Config& config) {
   const Settings s = settings_from(config);
-  effect::RunMemory m{fmt::format("run.size {}x{}", s.width, s.height), {}, s.width, s.height, 8 + 4, 8 + 4};
+  const bool has_codes = colour_format(s) == Format::rgba8;
+  const std::uint64_t texel = (has_codes ? 16 : 8) + 4;  // radiance and depth
+  effect::RunMemory m{fmt::format("run.size {}x{}", s.width, s.height), {}, s.width, s.height, texel, texel};
   const std::size_t inputs = image_bytes(m, Format::rgba32f) + image_bytes(m, Format::r32f);
   if (config.text("scene.source") == "street") {
     m.peak.then(scene::view_memory(s.width, s.height));
@@ -59,6 +64,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
     m.peak.hold(inputs);
   }
   m.peak.then(memory(s));
+  if (has_codes) m.peak.hold(image_bytes(m, Format::rgba32f));  // radiance
   m.peak.release(inputs);
   if (effect::is_sequence(config.text("scene.image")) || effect::is_sequence(config.text("scene.depth_image")))
     m.peak.pass(2 * inputs + image_bytes(m, Format::rgba32f));  // a picture as decoded, flipped, and as input of the pass
@@ -98,10 +104,20 @@ std::vector<PassOutput> Instance::buffers() {
   const EdgeSplash& e = running();
   return {{"edge", e.edge()}, {"angle", e.angle()}, {"noise", e.noise()}, {"colour", e.colour()}, {"picture", e.picture()}};
 }
-std::vector<image_io::Layer> Instance::layers() const {
-  return {{"", {"R", "G", "B", "A"}, &running().colour()}, {"depth", {"Z"}, &running().depth()}};
+const Image& Instance::radiance() const {
+  const Image& colour = running().colour();
+  if (colour.format() != Format::rgba8) return colour;
+  if (radiance_.empty()) radiance_ = Image(Format::rgba32f, colour.width(), colour.height());
+  for (int y = 0; y < colour.height(); ++y) {
+    const Unorm8* from = colour.row<Unorm8>(y);
+    std::transform(from, from + 4 * colour.width(), radiance_.row<float>(y), [](Unorm8 code) { return to_float(code); });
+  }
+  return radiance_;
 }
-std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), exposure_}; }
+std::vector<image_io::Layer> Instance::layers() const {
+  return {{"", {"R", "G", "B", "A"}, &radiance()}, {"depth", {"Z"}, &running().depth()}};
+}
+std::optional<effect::Display> Instance::display() const { return effect::Display{&radiance(), exposure_}; }
 
 effect::Effect entry() {
   const std::vector<std::string> camera{"run.size",      "run.supersample", "camera.position",

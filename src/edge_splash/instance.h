@@ -20,10 +20,13 @@ class Instance final : public effect::InstanceOf<EdgeSplash> {
 
  private:
   void show_pictures_of(int frame) override;
+  /// The colour as numbers: codes become code / 255, as display loads them.
+  const Image& radiance() const;
 
   double exposure_;
   ScenePictures named_;
   ScenePictures::Shown shown_;
+  mutable Image radiance_;  ///< rgba32f, of a colour of codes
 };
 
 }  // namespace rainref::edge_splash

@@ -26,8 +26,8 @@ MemoryPeak memory(const Settings& s, int noise_side) {
     m.pass(2 * map);
     m.hold(map + texel_bytes(noise_side, noise_side, 1));
   }
-  m.hold(texel_bytes(s.width, s.height, 1));                                      // depth as it is looked up
-  m.hold(3 * image(Format::r8) + image(Format::rgba16f) + image(Format::rgba8));  // masks, colour, picture
+  m.hold(texel_bytes(s.width, s.height, 1));                                       // depth as it is looked up
+  m.hold(3 * image(Format::r8) + image(colour_format(s)) + image(Format::rgba8));  // masks, colour, picture
   return m;
 }
 

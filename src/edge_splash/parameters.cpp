@@ -23,6 +23,9 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::rain_drop_scale>("edge_splash.rain_drop_scale", "1", 0, 1, "Threshold of the noise: drops are where it lies above.")
           .published(0.5),
       real<&Settings::drop_speed>("edge_splash.drop_speed", "texel/s", -1e6, 1e6, "Speed of the noise, in x and in y.").only(published),
+      storage<&Settings::storage>("edge_splash.storage", {Format::rgba16f, Format::rgba8},
+                                  "Storage format of the picture with drops; the article's target has 8 bits a channel.")
+          .only(published),
       rounding<&Settings::rounding>("edge_splash.rounding"),
       // In metres and picture heights.
       real<&Settings::band>("edge_splash.band", "m", 1e-4, 100, "Width of the splashes beside an edge.").only(correct),

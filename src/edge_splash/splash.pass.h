@@ -12,13 +12,17 @@ inline constexpr std::string_view splash_sentence = "Masks of edge, angle and no
 template <class B>
 struct SplashResults {
   using Mask = typename B::template Result<Format::r8>;
-  using Colour = typename B::template Result<Format::rgba16f>;
   static constexpr pass::Out edge{.name = "edge", .sentence = "1 at an edge of the depth."},
       angle{.name = "angle", .sentence = "1 where the edge faces up."}, noise{.name = "noise", .sentence = "1 where a drop is."},
       colour{.name = "colour",
-             .sentence = "Linear radiance with drops; the scene's alpha, as published blended like a colour.",
+             .sentence = "Linear radiance with drops, and the scene's alpha.",
              .colour_space = "linear Rec. 709",
-             .alpha = "straight"};
+             .alpha = "straight"},
+      published_colour{.name = "colour",
+                       .sentence = "Linear radiance with drops; alpha is blended like a colour.",
+                       .colour_space = "linear Rec. 709",
+                       .alpha = "straight",
+                       .format_key = "edge_splash.storage"};
 };
 
 /// As published. A read outside the depth or the noise is 0.
@@ -43,7 +47,7 @@ struct PublishedSplashPass : pass::Takes<PublishedSplashUniforms> {
     typename B::Sampled depth = pass::In{.name = "depth", .same_size = true};
     typename B::Sampled noise_map = pass::In{.name = "noise_map"};
     typename R::Mask edge = R::edge, angle = R::angle, noise = R::noise;
-    typename R::Colour colour = R::colour;
+    typename B::template Result<Format::rgba16f, Format::rgba8> colour = R::published_colour;
   };
 };
 struct SplashPass : pass::Takes<SplashUniforms> {
@@ -77,7 +81,7 @@ struct SplashPass : pass::Takes<SplashUniforms> {
     typename B::Sampled noise_map = pass::In{.name = "noise_map", .filter = Filter::linear};
     typename B::template Texels<Format::r8> layer = pass::In{.name = "layer"};
     typename R::Mask edge = R::edge, angle = R::angle, noise = R::noise;
-    typename R::Colour colour = R::colour;
+    typename B::template Result<Format::rgba16f> colour = R::colour;
   };
 };
 
@@ -154,7 +158,7 @@ RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const 
   out.edge = select(passed, zero, masks.edge);
   out.angle = select(passed, zero, masks.angle);
   out.noise = select(passed, zero, noise);
-  // The target ARGB32 cannot hold values outside [0, 1].
+  // The target ARGB32 cannot hold values outside [0, 1]; in a target of halves the pass clamps.
   for (int k = 0; k < 4; ++k)
     out.colour[k] = guard_below<N>(saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight))), "no colour is negative");
   return out;

@@ -89,9 +89,12 @@ struct Lanes {
     const auto infinite = hn::BitCast(D(), hn::IfThenElseZero(hn::Eq(code, hn::Set(DU(), 0x7c00u)), hn::Set(DU(), 0x7f800000u)));
     return hn::Or(hn::Or(scaled, infinite), sign);
   }
+  /// The numbers of 8-bit codes.
+  static HWY_INLINE HWY_ATTR Lanes of_unorm8_codes(hn::Vec<DI> codes) {
+    return hn::Div(hn::ConvertTo(D(), codes), hn::Set(D(), 255.0f));
+  }
   static HWY_INLINE HWY_ATTR Lanes load(const Unorm8* p) {
-    const auto code = hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p)));
-    return hn::Div(hn::ConvertTo(D(), code), hn::Set(D(), 255.0f));
+    return of_unorm8_codes(hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p))));
   }
   /// The last element of `before`, then all but the last of `here`.
   static HWY_INLINE HWY_ATTR Lanes shifted_up(Lanes before, Lanes here) {
@@ -318,6 +321,15 @@ HWY_INLINE void load4(const Half* p, Lanes (&c)[4]) {
   c[2] = widen(b);
   c[3] = widen(a);
 #endif
+}
+/// A texel of four codes is one word of a lane.
+HWY_INLINE void load4(const Unorm8* p, Lanes (&c)[4]) {
+  const Lanes::DI d;
+  const auto texel = hn::LoadU(Lanes::DU(), reinterpret_cast<const std::uint32_t*>(p)), mask = hn::Set(Lanes::DU(), 0xffu);
+  c[0] = Lanes::of_unorm8_codes(hn::BitCast(d, hn::And(texel, mask)));
+  c[1] = Lanes::of_unorm8_codes(hn::BitCast(d, hn::And(hn::ShiftRight<8>(texel), mask)));
+  c[2] = Lanes::of_unorm8_codes(hn::BitCast(d, hn::And(hn::ShiftRight<16>(texel), mask)));
+  c[3] = Lanes::of_unorm8_codes(hn::BitCast(d, hn::ShiftRight<24>(texel)));
 }
 HWY_INLINE void store4(float* p, const Lanes (&c)[4], Rounding) {
   const Lanes::D d;

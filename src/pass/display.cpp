@@ -17,10 +17,12 @@ RAINREF_TARGET_BEGIN(pass)
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 RAINREF_PASS_ROWS(DisplayPass)
+RAINREF_PASS_ROWS(DisplayOfCodesPass)
 RAINREF_TARGET_END(pass)
 
 #if RAINREF_ONCE
 RAINREF_PASS_DISPATCH(pass, DisplayPass)
+RAINREF_PASS_DISPATCH(pass, DisplayOfCodesPass)
 
 namespace rainref::pass {
 
@@ -28,12 +30,6 @@ DisplayUniforms display_uniforms(double exposure) {
   DisplayUniforms u{};
   u.exposure = static_cast<float>(exp2_real(Real64(exposure)).v);
   return u;
-}
-Run<DisplayPass> display_run(double exposure, Rounding rounding, const Image& colour, Image& picture) {
-  HostIo<DisplayPass> io;
-  io.colour = colour;
-  io.picture = picture;
-  return Run<DisplayPass>(display_uniforms(exposure), true, rounding, io);
 }
 CodeTable display_table(int width, int height, double exposure, Rounding rounding) {
   return CodeTable(width, height, [exposure, rounding](const Image& colour, Image& picture, int y0, int y1) {

@@ -12,16 +12,20 @@ struct DisplayUniforms {
 };
 static_assert(sizeof(DisplayUniforms) == 16);
 
-/// Each effect declares its picture itself; display_info names the pass that the colour comes from.
-struct DisplayPass : pass::Takes<DisplayUniforms> {
+/// Of a colour in this format. Each effect declares its picture itself; display_info names the pass that the colour comes from.
+template <Format of>
+struct DisplayOf : pass::Takes<DisplayUniforms> {
   static constexpr About about{"display", "Display code.", {1}, {1}};
   static scene::UniformBlock uniforms() { return block({member<&U::exposure>("1", scene::exposure_factor, "Factor of the radiance.")}); }
   template <class B>
   struct Io {
-    typename B::template Texels<Format::rgba16f> colour = In{.name = "colour"};
+    typename B::template Texels<of> colour = In{.name = "colour"};
     typename B::template Result<Format::rgba8> picture = Out{.name = "picture"};
   };
 };
+using DisplayPass = DisplayOf<Format::rgba16f>;
+/// Of a target of 8 bits a channel: linear radiance, code / 255.
+using DisplayOfCodesPass = DisplayOf<Format::rgba8>;
 
 }  // namespace rainref::pass
 #endif
@@ -37,4 +41,5 @@ struct DisplayPassText {
     io.picture(display<N>(u, io.colour.rgb()), N(1.0f));
   }
 };
+using DisplayOfCodesPassText = DisplayPassText;
 #endif

@@ -49,6 +49,9 @@ bool with_defined_pass(const capture::PassCase& c, const F& f) {
   RAINREF_PASS(c.effect, "blur_pyramid", c.level == 0, blur_pyramid::FogPass, blur_pyramid::scalar::FogPassText);
   RAINREF_PASS(c.effect, "blur_pyramid", c.level != 0, blur_pyramid::HalvePass, blur_pyramid::scalar::HalvePassText);
   RAINREF_PASS(c.effect, "splat", true, drops::SplatPass, drops::scalar::SplatPassText);
+  const capture::CaseInput* const shown = c.input("colour");
+  RAINREF_PASS(c.effect, "display", shown && shown->array.format == Format::rgba8, pass::DisplayOfCodesPass,
+               pass::scalar::DisplayOfCodesPassText);
   RAINREF_PASS(c.effect, "display", true, pass::DisplayPass, pass::scalar::DisplayPassText);
 #undef RAINREF_PASS
   return false;

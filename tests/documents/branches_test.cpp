@@ -43,6 +43,8 @@ const std::vector<Branch> branches{
     {"Objects", "puddle-corrected", {"puddle.objects=0.06 0.004: 0 -0.2 0, 1 0.2 0.1"}, "raindrops", "the first object left out"},
     {"EightBitsOfMetres", "puddle-corrected", {"puddle.storage=rgba8"}, "wave_step", "crater 2 s for 4 s"},
     {"Schlick", "puddle-corrected", {"puddle.fresnel=schlick", "puddle.fog_depth=0", "puddle.use_checkerboard=true"}, "shade"},
+    {"EightBitTarget", "edge_splash-as-published", {"edge_splash.storage=rgba8"}, "splash", "wrong constant"},
+    {"DisplayOfEightBits", "edge_splash-as-published", {"edge_splash.storage=rgba8", "display.exposure=2"}, "display", "wrong constant"},
     {"Misprint", "screen_drops-as-published", {"drops.printed_misprint=true"}, "drops", "threshold 0.3"},
     {"NearestNoise", "screen_drops-as-published", {"noise.filter=nearest"}, "drops", "threshold 0.3"},
     {"OtherConstants",

@@ -45,7 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Variants, EdgeSplashDeterminism, rainref::test::both_va
 
 TEST_P(EdgeSplashDeterminism, EveryTargetThreadCountOrderAndWidth) {
   for (int width = 1; width <= 33; ++width) {
-    const Settings s = settings(GetParam());
+    Settings s = settings(GetParam());
+    s.storage = width % 2 == 0 ? Format::rgba8 : Format::rgba16f;
     Inputs in = scene_of(width, 19);
     in.noise = make_noise(1, 64);  // once, not in each of seven hundred runs
     expect_one_result(fmt::format("width {}", width), run_of(s, in));
@@ -98,14 +99,18 @@ struct Evaluation {
 
 TEST_P(EdgeSplashDeterminism, LanesEqualTheScalarEvaluation) {
   const Evaluation evaluation(GetParam(), 37, 29);
-  for (const std::string& target : simd_targets()) {
-    select_simd_target(target);
-    const parallel::Executor executor(2);
-    EdgeSplash effect(evaluation.s, evaluation.in, executor);
-    const auto cases = rainref::test::captured(effect_info(), GetParam() == Variant::corrected, "", [&](Recorder& recorder) {
-      for (int frame = 0; frame < 5; ++frame) effect.next_frame(&recorder);
-    });
-    ASSERT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << target;
+  for (const Format storage : {Format::rgba16f, Format::rgba8}) {
+    Settings s = evaluation.s;
+    s.storage = storage;
+    for (const std::string& target : simd_targets()) {
+      select_simd_target(target);
+      const parallel::Executor executor(2);
+      EdgeSplash effect(s, evaluation.in, executor);
+      const auto cases = rainref::test::captured(effect_info(), GetParam() == Variant::corrected, "", [&](Recorder& recorder) {
+        for (int frame = 0; frame < 5; ++frame) effect.next_frame(&recorder);
+      });
+      ASSERT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << target << ' ' << info(storage).name;
+    }
   }
 }
 

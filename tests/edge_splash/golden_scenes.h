@@ -1,5 +1,5 @@
-// The scenes of edge_splash behind tests/golden/hashes.txt: both passes of both variants, both roundings, at frames 0, 1, 2
-// and 59.
+// The scenes of edge_splash behind tests/golden/hashes.txt: both passes of both variants, both targets, both roundings, at frames
+// 0, 1, 2 and 59.
 #pragma once
 
 #include <string>
@@ -40,7 +40,13 @@ inline std::vector<GoldenScene> golden_scenes() {
       s.camera_position = {-0.9, 1.05, -0.4};
       s.camera_target = {-1.4, 0.6, -3};
       s.vertical_fov_deg = 60;
-      scenes.push_back({fmt::format("edge_splash/{}{}", name(variant), rounding == Rounding::rtz ? "/rtz" : ""), s});
+      const auto add = [&](const char* target) {
+        scenes.push_back({fmt::format("edge_splash/{}{}{}", name(variant), target, rounding == Rounding::rtz ? "/rtz" : ""), s});
+      };
+      add("");
+      if (variant == Variant::corrected) continue;
+      s.storage = Format::rgba8;
+      add("/rgba8");
     }
   }
   return scenes;

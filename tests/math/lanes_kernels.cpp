@@ -60,6 +60,7 @@ void StoreHalf(Half* out, const float* in, Rounding rounding, int count) { store
 void StoreUnorm8(Unorm8* out, const float* in, Rounding rounding, int count) { store_one(out, in, rounding, count); }
 void Load4Float(const float* in, float* out) { load_four(in, out); }
 void Load4Half(const Half* in, float* out) { load_four(in, out); }
+void Load4Unorm8(const Unorm8* in, float* out) { load_four(in, out); }
 void Store4Float(float* out, const float* in, Rounding rounding) { store_four(out, in, rounding); }
 void Store4Half(Half* out, const float* in, Rounding rounding) { store_four(out, in, rounding); }
 void Store4Unorm8(Unorm8* out, const float* in, Rounding rounding) { store_four(out, in, rounding); }
@@ -80,6 +81,7 @@ RAINREF_EXPORT(StoreHalf);
 RAINREF_EXPORT(StoreUnorm8);
 RAINREF_EXPORT(Load4Float);
 RAINREF_EXPORT(Load4Half);
+RAINREF_EXPORT(Load4Unorm8);
 RAINREF_EXPORT(Store4Float);
 RAINREF_EXPORT(Store4Half);
 RAINREF_EXPORT(Store4Unorm8);
@@ -122,6 +124,10 @@ void load4_by_lanes(const float* in, float* out) {
 template <>
 void load4_by_lanes(const Half* in, float* out) {
   RAINREF_DISPATCH(Load4Half)(in, out);
+}
+template <>
+void load4_by_lanes(const Unorm8* in, float* out) {
+  RAINREF_DISPATCH(Load4Unorm8)(in, out);
 }
 template <>
 void store4_by_lanes(float* out, const float* in, Rounding r) {

@@ -137,6 +137,7 @@ void check_load4() {
 }
 TEST(LanesLoad, FourChannelsOfFloat) { check_load4<float>(); }
 TEST(LanesLoad, FourChannelsOfHalf) { check_load4<Half>(); }
+TEST(LanesLoad, FourChannelsOfUnorm8) { check_load4<Unorm8>(); }
 
 template <class Storage>
 void check_store4() {

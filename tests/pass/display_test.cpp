@@ -73,6 +73,32 @@ TEST(Display, LanesAndTableGiveThePlainCodes) {
   select_simd_target("");
 }
 
+TEST(Display, LanesOfCodesGiveThePlainCodes) {
+  const DisplayUniforms u = display_uniforms(0.7);
+  for (const std::string& target : simd_targets()) {
+    select_simd_target(target);
+    for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
+      for (const int width : {1, 2, 3, 7, 16, 33, 256}) {
+        const Image colour = make_image(Format::rgba8, width, 3, [](int x, int y, int k) {
+          return Unorm8{static_cast<std::uint8_t>(x + 85 * y + 37 * k)};  // every code in each channel of the widest
+        });
+        Image found(Format::rgba8, width, 3);
+        display_run<DisplayOfCodesPass>(0.7, rounding, colour, found).tile(parallel::Tile{0, 0, width, 3});
+        for (int y = 0; y < 3; ++y) {
+          for (int x = 0; x < width; ++x) {
+            const Unorm8* in = colour.row<Unorm8>(y) + 4 * x;
+            const auto c = scalar::display(u, scalar::Vec3<F>(F::load(in), F::load(in + 1), F::load(in + 2)));
+            const Unorm8 expected[4] = {to_unorm8(c.x.v, rounding), to_unorm8(c.y.v, rounding), to_unorm8(c.z.v, rounding), {255}};
+            for (int k = 0; k < 4; ++k)
+              ASSERT_EQ(found.row<Unorm8>(y)[4 * x + k].code, expected[k].code) << target << " " << width << ": " << x << "," << y;
+          }
+        }
+      }
+    }
+  }
+  select_simd_target("");
+}
+
 TEST(Display, ACaseOfOtherChannelsIsRefused) {
   capture::PassCase c;
   capture::CaseInput colour;
