@@ -10,6 +10,7 @@
 #include "rainref/image.h"
 #include "rainref/recorder.h"
 #include "rainref/scene_text.h"
+#include "rainref/texture.h"
 #include "rainref/variant.h"
 
 namespace rainref::state {
@@ -17,6 +18,9 @@ class Items;  // src/state/items.h
 }
 
 namespace rainref::screen_drops {
+
+/// The mip level at which a published drop sees the scene: the finest, a fixed one, or one that follows from the gradient of its normal.
+enum class Lod : std::uint8_t { finest, fixed, gradient };
 
 /// All parameters of the effect except its images. Names, units and ranges: `rainref describe screen_drops`.
 struct Settings {
@@ -41,6 +45,9 @@ struct Settings {
   double threshold = 0.5;                ///< a drop covers a pixel if the faded sum of the sines is above this
   double refraction = 0.3;               ///< offset of the lookup for a unit normal across the view [pictures]
   double blur_level = 2.5;               ///< mip level of the scene behind the drops
+  Lod lod = Lod::finest;                 ///< level of the scene in the drops
+  double lod_level = 0;                  ///< that level if it is fixed
+  Address wrap = Address::clamp;         ///< the scene beyond its edge: clamp, repeat or mirror
   bool printed_misprint = false;         ///< use the displacement as the report prints it
   bool printed_normal = false;           ///< use the normal as the report prints it, with the cosine of a sine
   int noise_size = 256;                  ///< texels a side of the generated noise

@@ -90,9 +90,7 @@ struct Lanes {
     return hn::Or(hn::Or(scaled, infinite), sign);
   }
   /// The numbers of 8-bit codes.
-  static HWY_INLINE HWY_ATTR Lanes of_unorm8_codes(hn::Vec<DI> codes) {
-    return hn::Div(hn::ConvertTo(D(), codes), hn::Set(D(), 255.0f));
-  }
+  static HWY_INLINE HWY_ATTR Lanes of_unorm8_codes(hn::Vec<DI> codes) { return hn::Div(hn::ConvertTo(D(), codes), hn::Set(D(), 255.0f)); }
   static HWY_INLINE HWY_ATTR Lanes load(const Unorm8* p) {
     return of_unorm8_codes(hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p))));
   }

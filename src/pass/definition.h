@@ -239,16 +239,17 @@ struct Host {
     StoredTexture<Storage> view;
     const Image* image = nullptr;
     std::span<const Image> levels{};
-    Address address = Address::clamp;  ///< of a single image, as recorded
+    Address address = Address::clamp;  ///< as recorded; lookups that fix no rule of their own go by it
     constexpr Stored(In in) : is(in) {}
     void operator=(const Image& i) {
       view = stored_texture<Storage>(i);
       image = &i;
     }
-    /// Sets all levels of one image.
-    void set(const StoredTexture<Storage>& all, std::span<const Image> images) {
+    /// Sets all levels of one image, and how lookups beyond its edge are resolved.
+    void set(const StoredTexture<Storage>& all, std::span<const Image> images, Address beyond = Address::clamp) {
       view = all;
       levels = images;
+      address = beyond;
     }
   };
   /// For a pass whose lanes are written by hand: the image as recorded.

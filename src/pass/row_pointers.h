@@ -48,15 +48,19 @@ struct SampledPointer {
   RAINREF_FLAT FixedTexture<u, v, count> fixed() const {
     return texture ? fixed_texture<u, v, count>(*texture) : FixedTexture<u, v, count>();
   }
+  /// The rule of this run, for a pass that knows several.
+  Address rule() const { return texture ? texture->address_u : Address::clamp; }
 };
 template <class Storage>
 struct StoredPointer {
   const StoredTexture<Storage>* stored = nullptr;
+  Address address = Address::clamp;
   constexpr StoredPointer(In) {}
   template <Address u, Address v, int count>
   RAINREF_FLAT FixedStoredTexture<Storage, u, v, count> fixed() const {
     return fixed_texture<u, v, count>(*stored);
   }
+  Address rule() const { return address; }
 };
 template <class Record>
 struct RecordPointer {
@@ -97,6 +101,7 @@ RAINREF_FLAT void begin_row(const HostIo<P>& host, Io& io, int y, Rounding round
       to.texture = from.texture;
     } else if constexpr (requires { to.stored; }) {
       to.stored = &from.view;
+      to.address = from.address;
     } else if constexpr (requires { to.records; }) {
       to.records = from.records;
     } else if constexpr (requires { from.image; }) {

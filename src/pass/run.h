@@ -123,7 +123,7 @@ class Run {
         if (member.image)
           inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter, member.address});
         else if (!member.levels.empty())
-          inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter});
+          inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter, member.address});
       } else if constexpr (requires { member.records; }) {
         if (member.is_set)
           inputs.push_back({member.is.name, RecordView{member.records.data(), member.records.size(), sizeof member.records[0]}});

@@ -33,10 +33,56 @@ struct BackgroundPass : pass::Takes<BackgroundUniforms> {
 #endif
 #else
 
+/// The scene as published, whose wrap is a key. Each rule is a texture of its own, so that a lookup decides once.
+template <class Clamped, class Repeated, class Mirrored>
+struct WrappedScene {
+  Clamped clamped;
+  Repeated repeated;
+  Mirrored mirrored;
+  Address rule;  ///< of this run
+};
+// clang before 17 does not deduce aggregates.
+template <class Clamped, class Repeated, class Mirrored>
+WrappedScene(Clamped, Repeated, Mirrored, Address) -> WrappedScene<Clamped, Repeated, Mirrored>;
+template <class Scene>
+RAINREF_FN auto wrapped_scene(const Scene& scene) {
+  return WrappedScene{scene.template fixed<Address::clamp, Address::clamp, 4>(),
+                      scene.template fixed<Address::repeat, Address::repeat, 4>(),
+                      scene.template fixed<Address::mirror, Address::mirror, 4>(), scene.rule()};
+}
+/// lookup(texture), by the rule of the run.
+template <class T, class Lookup>
+RAINREF_FN auto by_rule(const T& scene, const Lookup& lookup) {
+  return lookup(scene);
+}
+template <class Clamped, class Repeated, class Mirrored, class Lookup>
+RAINREF_FN auto by_rule(const WrappedScene<Clamped, Repeated, Mirrored>& scene, const Lookup& lookup) {
+  switch (scene.rule) {
+    case Address::repeat:
+      return lookup(scene.repeated);
+    case Address::mirror:
+      return lookup(scene.mirrored);
+    case Address::clamp:
+    case Address::border:
+      break;
+  }
+  return lookup(scene.clamped);
+}
+
 template <class N, class T>
 RAINREF_FN Vec3<N> scene_at(const T& scene, N u, N v, N level) {
-  const auto s = sample_trilinear<0, 3, N>(scene, u, v, level);
-  return Vec3<N>(s[0], s[1], s[2]);
+  return by_rule(scene, [&](const auto& texture) RAINREF_LAMBDA {
+    const auto s = sample_trilinear<0, 3, N>(texture, u, v, level);
+    return Vec3<N>(s[0], s[1], s[2]);
+  });
+}
+/// Its finest level alone.
+template <class N, class T>
+RAINREF_FN Vec3<N> sharp_scene_at(const T& scene, N u, N v) {
+  return by_rule(scene, [&](const auto& texture) RAINREF_LAMBDA {
+    const auto s = sample_bilinear<0, 3, N>(texture, u, v);
+    return Vec3<N>(s[0], s[1], s[2]);
+  });
 }
 
 /// textureLod(scene, pixel / resolution, level)
@@ -59,7 +105,7 @@ RAINREF_FN Vec3<N> background_corrected(const BackgroundUniforms& b, const T& sc
 struct BackgroundPassText {
   template <class Io>
   static RAINREF_FN auto views(const Io& io) {
-    return io.scene.template fixed<Address::clamp, Address::clamp, 4>();
+    return wrapped_scene(io.scene);
   }
   template <class N, bool corrected, class Io, class Scene>
   static RAINREF_FN void run(const BackgroundUniforms& u, const Io& io, const Scene& scene, int column, int row) {

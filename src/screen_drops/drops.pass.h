@@ -13,7 +13,7 @@ inline constexpr pass::Out drops_colour{
     .name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
 
 struct PublishedDropsPass : pass::Takes<PublishedDropsUniforms> {
-  static constexpr pass::About about{"drops", drops_sentence, {2}, {}, {"dot", "length", "normalize"}};
+  static constexpr pass::About about{"drops", drops_sentence, {3}, {}, {"dot", "length", "normalize"}};
   static scene::UniformBlock uniforms() {
     return block({member<&U::resolution>("pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
                   member<&U::time>("s", scene::frame_time, "Frame number over frame rate, rounded once."),
@@ -29,12 +29,14 @@ struct PublishedDropsPass : pass::Takes<PublishedDropsUniforms> {
                   member<&U::displacement>("rad", {-100, 100}, "Of the grid per unit of noise."),
                   member<&U::keep_from>("1", {0, 100}, "Layer from which on no cell holds a drop."),
                   member<&U::threshold>("1", {least_threshold, 2}, "Sum of the sines above which a drop is."),
-                  member<&U::printed_normal>("1", scene::flag, "1: the normal as the report prints it, of the cosine of a sine.")});
+                  member<&U::printed_normal>("1", scene::flag, "1: the normal as the report prints it, of the cosine of a sine."),
+                  member<&U::level>("1", {0, 16}, "Mip level at which drops see the scene, without gradient_level."),
+                  member<&U::gradient_level>("1", scene::flag, "1: the level follows from the gradient of the drop's normal.")});
   }
   template <class B>
   struct Io {
     typename B::template Texels<Format::rgba16f> background = pass::In{.name = "background", .from = "background"};
-    typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .filter = Filter::linear};
+    typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .filter = Filter::linear, .mip_filter = Filter::linear};
     typename B::Sampled noise = pass::In{.name = "noise", .filter = Filter::linear};
     typename B::template Result<Format::r8> water =
         pass::Out{.name = "water", .sentence = "Layer whose drop shows, over the number of layers; 0: none."};
@@ -96,6 +98,10 @@ struct Window {
 // round(a) is floor(a + 1/2). The report prints (1 - c2) c3 instead of (n - c2) c3. It does not give c1 = cell_angle, c2 = noise_middle, c3
 // = displacement, nor c1 = keep_from and c2 = keep of its rule for keeping drops, nor the threshold. It prints the .2, 2 and .5 of the
 // normal. It calls the sine p, and its normal uses the cosine of that: cos(sin p).
+//
+// The origin's lookup has no level: a fragment shader takes one from the differences of neighbouring pixels. gradient_level has its
+// analytic form. With w the normal before it is normalized and w' its derivative by a step of one pixel, v' = (w' - v (v.w')) / |w|. The
+// shift counts as constant, because noise varies over many drops.
 template <int Count, class N, class T>
 RAINREF_FN auto published_noise(const PublishedDropsUniforms& d, const T& noise, N u, N v) {
   return d.noise_nearest != 0 ? sample_nearest<0, Count, N>(noise, u, v) : sample_bilinear<0, Count, N>(noise, u, v);
@@ -104,13 +110,22 @@ template <class N>
 struct PublishedDrop {
   N layer;  ///< 0: none
   N u, v;   ///< coordinates of the lookup in the scene
+  N level;  ///< of the lookup; 0 without gradient_level
 };
+/// Square of the way that the lookup goes in the scene [texel] in a step of one pixel along an axis of the picture. near, far: texels that
+/// a unit of the normal moves it along this axis and across; v_near, v_far, v_z: the normal; w_near, w_z: the step's w', 0 across.
+template <class N>
+RAINREF_FN N squared_stride(N near, N far, N v_near, N v_far, N v_z, N inverse, N w_near, N w_z) {
+  const N along = v_near * w_near + v_z * w_z;
+  const N forward = N(1.0f) + near * ((w_near - v_near * along) * inverse), aside = far * ((v_far * along) * inverse);
+  return square(forward) + square(aside);
+}
 template <class N, class T>
 RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, const T& noise, int column, int row) {
   const N half(0.5f), one(1.0f), two(2.0f), quarter(0.25f), zero(0.0f);
   const N width(d.resolution[0]), height(d.resolution[1]);
   const N u = (N::index(column) + half) / width, v = N(static_cast<float>(row) + 0.5f) / height;
-  PublishedDrop<N> out{zero, u, v};
+  PublishedDrop<N> out{zero, u, v, zero};
   const auto n = published_noise<2, N>(d, noise, u * N(0.1f), v * N(0.1f));
   const bool misprint = d.printed_misprint != 0;
   const N middle(d.noise_middle), per_unit(d.displacement);
@@ -133,6 +148,16 @@ RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, cons
     out.layer = guard<N>(select(is_drop, layer, out.layer), for_lanes);
     out.u = guard<N>(select(is_drop, u + x * inverse * N(d.refraction), out.u), for_lanes);
     out.v = guard<N>(select(is_drop, v + y * inverse * N(d.refraction), out.v), for_lanes);
+    if (d.gradient_level == 0) continue;
+    // Derivatives by the angle, each then times the angle of a pixel.
+    const N cosine_x = printed ? cos(px) : x, cosine_y = printed ? cos(py) : y;
+    const N turn_x = printed ? sin(sine_x) * cosine_x : sine_x, turn_y = printed ? sin(sine_y) * cosine_y : sine_y;
+    const N per_pixel = N(d.cell_angle) * (layer * N(d.grid)), rise = N(1.8f) * fade;
+    const N wide = width * N(d.refraction), high = height * N(d.refraction), vx = x * inverse, vy = y * inverse, vz = z * inverse;
+    const N across = squared_stride(wide, high, vx, vy, vz, inverse, -turn_x * per_pixel, (rise * cosine_x) * per_pixel);
+    const N upward = squared_stride(high, wide, vy, vx, vz, inverse, -turn_y * per_pixel, (rise * cosine_y) * per_pixel);
+    const N level = log(max(max(across, upward), one)) * N(0.7213475f);  // half the logarithm to base 2
+    out.level = guard<N>(select(is_drop, level, out.level), for_lanes);
   }
   return out;
 }
@@ -142,8 +167,10 @@ RAINREF_FN Window<N> drops_as_published(const PublishedDropsUniforms& d, const S
   const PublishedDrop<N> drop = published_drop<N>(d, noise, column, row);
   const auto is_drop = drop.layer > N(0.0f);
   if (!any(is_drop)) return {background, drop.layer};
-  const auto s = sample_bilinear<0, 3, N>(scene, drop.u, drop.v);
-  return {guard<N>(select(is_drop, Vec3<N>(s[0], s[1], s[2]), background), for_lanes), drop.layer * N(d.water_step)};
+  const bool is_sharp = d.gradient_level == 0 && d.level == 0;
+  const Vec3<N> seen = is_sharp ? sharp_scene_at<N>(scene, drop.u, drop.v)
+                                : scene_at<N>(scene, drop.u, drop.v, d.gradient_level != 0 ? drop.level : N(d.level));
+  return {guard<N>(select(is_drop, seen, background), for_lanes), drop.layer * N(d.water_step)};
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
@@ -266,8 +293,7 @@ PublishedDropsTextures(Scene, Noise) -> PublishedDropsTextures<Scene, Noise>;
 struct PublishedDropsPassText {
   template <class Io>
   static RAINREF_FN auto views(const Io& io) {
-    return PublishedDropsTextures{io.scene.template fixed<Address::clamp, Address::clamp, 4>(),
-                                  io.noise.template fixed<Address::repeat, Address::repeat, 4>()};
+    return PublishedDropsTextures{wrapped_scene(io.scene), io.noise.template fixed<Address::repeat, Address::repeat, 4>()};
   }
   template <class N, bool, class Io, class Textures>
   static RAINREF_FN void run(const PublishedDropsUniforms& u, const Io& io, const Textures& t, int column, int row) {

@@ -81,6 +81,7 @@ void check(const Settings& s) {
     positive(s.layers, "drops.layers");
     if (!(s.layers <= most_published_layers))
       throw Error(ExitCode::usage, fmt::format("drops.layers: expected at most {}, found {}", most_published_layers, s.layers));
+    if (s.wrap == Address::border) throw Error(ExitCode::usage, "scene.wrap: expected clamp, repeat or mirror, found border");
     if (!(s.threshold >= least_threshold))
       throw Error(ExitCode::usage, fmt::format("drops.threshold: expected {} or more, found {}", least_threshold, s.threshold));
   }
@@ -172,6 +173,8 @@ PublishedDropsUniforms published_drops_uniforms(const Settings& s, int frame) {
   u.keep_from = static_cast<float>(s.keep_from);
   u.threshold = static_cast<float>(s.threshold);
   u.printed_normal = s.printed_normal;
+  u.level = s.lod == Lod::fixed ? static_cast<float>(s.lod_level) : 0.0f;
+  u.gradient_level = s.lod == Lod::gradient;
   return u;
 }
 

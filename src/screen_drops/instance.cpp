@@ -130,7 +130,7 @@ effect::Effect entry() {
            {"linear picture", {"scene.image", "scene.panorama"}},
            {"panorama view", effect::joined(camera, {"scene.panorama"})},
            {"screen_drops levels", seen},
-           {"screen_drops background", effect::joined(seen, {"background.level", "background.defocus", "drops.rounding"})},
+           {"screen_drops background", effect::joined(seen, {"background.level", "background.defocus", "drops.rounding", "scene.wrap"})},
            {"screen_drops noise", {"seed", "noise.size", "noise.image"}},
            {"screen_drops warm-up",
             {"seed",

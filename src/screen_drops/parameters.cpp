@@ -40,6 +40,12 @@ const std::vector<MemberParameter<Settings>>& members() {
       boolean<&Settings::printed_normal>("drops.printed_normal",
                                          "Takes the normal from cos(sin p), as the report prints, instead of from cos p.")
           .only(published),
+      choice<&Settings::lod>("drops.lod", {{"finest", Lod::finest}, {"fixed", Lod::fixed}, {"gradient", Lod::gradient}},
+                             "Mip level at which drops see the scene: the finest, drops.level, or that of the gradient of a drop's normal, "
+                             "as a fragment shader takes it from neighbouring pixels.")
+          .only(published),
+      real<&Settings::lod_level>("drops.level", "1", 0, 16, "Mip level at which drops see the scene where drops.lod is fixed.")
+          .only(published),
       real<&Settings::blur_level>("background.level", "1", 0, 16, "Mip level of the scene behind the drops.").only(published),
       integer<&Settings::noise_size>("noise.size", "texel", 1, 4096, "Side of the noise made here.").only(published),
       choice<&Settings::noise_filter>("noise.filter", {{"bilinear", Filter::linear}, {"nearest", Filter::nearest}},
@@ -65,6 +71,9 @@ const std::vector<MemberParameter<Settings>>& members() {
       rounding<&Settings::rounding>("drops.rounding"),
       text("scene.image", "", "Picture behind the glass, of the run's size; empty: the street at night."),
       text("scene.panorama", "", "Latitude/longitude panorama behind the glass instead, seen through the camera; as far as the sky."),
+      choice<&Settings::wrap>("scene.wrap", {{"clamp", Address::clamp}, {"repeat", Address::repeat}, {"mirror", Address::mirror}},
+                              "How the picture goes on beyond its edge, for drops and background.")
+          .only(published),
       real<&Settings::scene_margin>(
           "scene.margin", "1", 1, 10,
           "Field of view of the scene's picture over that of the picture, as tangents: drops see what lies beside the view.")

@@ -46,17 +46,18 @@ SceneLevels make_levels(const parallel::Executor& executor, const Image& colour)
 }
 
 pass::Run<BackgroundPass> background_run(const SceneLevels& scene, const BackgroundUniforms& uniforms, const std::vector<Tap>& taps,
-                                         bool corrected, Rounding rounding, Image& background) {
+                                         Address wrap, bool corrected, Rounding rounding, Image& background) {
   pass::HostIo<BackgroundPass> io;
-  io.scene.set(scene.texture->view(), scene.levels);
+  io.scene.set(scene.texture->view(), scene.levels, wrap);
   if (corrected) io.taps = taps;
   io.background = background;
   return {uniforms, corrected, rounding, io};
 }
 Image make_background(const parallel::Executor& executor, const SceneLevels& scene, const BackgroundUniforms& uniforms,
-                      const std::vector<Tap>& taps, const bool& corrected, const Rounding& rounding, const int& width, const int& height) {
+                      const std::vector<Tap>& taps, const Address& wrap, const bool& corrected, const Rounding& rounding, const int& width,
+                      const int& height) {
   Image background(Format::rgba16f, width, height);
-  background_run(scene, uniforms, taps, corrected, rounding, background).tiles(executor, tile_rows);
+  background_run(scene, uniforms, taps, wrap, corrected, rounding, background).tiles(executor, tile_rows);
   return background;
 }
 
@@ -120,6 +121,7 @@ struct ScreenDrops::State {
     display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
+  Address wrap() const { return corrected ? Address::clamp : settings.wrap; }
   const Image& height() const { return flow ? flow->height() : no_height; }
 
   int shown() const { return std::max(0, frame - 1); }
@@ -129,13 +131,13 @@ struct ScreenDrops::State {
   void replace_background(Image by) { earlier_backgrounds.push_back(std::exchange(background, std::move(by))); }
   void blur(const pass::Moment& now) {
     const BackgroundUniforms u = background_uniforms(settings);
-    pass::Run<BackgroundPass> run = background_run(*scene, u, taps, corrected, settings.rounding, background);
+    pass::Run<BackgroundPass> run = background_run(*scene, u, taps, wrap(), corrected, settings.rounding, background);
     run.start(now);
     const capture::Stopwatch watch;
     if (is_film)
       run.tiles(executor, tile_rows);
     else
-      replace_background(cache::prepared("screen_drops background", executor, make_background, *scene, u, taps, corrected,
+      replace_background(cache::prepared("screen_drops background", executor, make_background, *scene, u, taps, wrap(), corrected,
                                          settings.rounding, settings.width, settings.height)
                              ->shared());
     run.finish(now, 1, is_film ? 0 : watch.seconds());
@@ -209,7 +211,7 @@ void ScreenDrops::render(Recorder* recorder) {
   const Rounding rounding = s.settings.rounding;
   const auto bound = [&](auto io) {
     io.background = s.background;
-    io.scene.set(s.scene->texture->view(), s.scene->levels);
+    io.scene.set(s.scene->texture->view(), s.scene->levels, s.wrap());
     io.water = s.water;
     io.colour = s.colour;
     return io;

@@ -31,6 +31,8 @@ struct PublishedDropsUniforms {
   float water_step, cell_angle, noise_middle;
   float displacement, keep_from, threshold;
   std::int32_t printed_normal;
+  float level;
+  std::int32_t gradient_level, padding0, padding1;
 };
 
 /// cells: integers decide, floats follow.
@@ -64,7 +66,7 @@ struct DropsUniforms {
 using Wanted = std::uint32_t;
 constexpr Wanted wanted_flow = 1u << layers, wanted_all = 2 * wanted_flow - 1;
 
-static_assert(sizeof(Tap) == 16 && sizeof(BackgroundUniforms) == 48 && sizeof(PublishedDropsUniforms) == 64 && sizeof(CellsUniforms) == 80);
+static_assert(sizeof(Tap) == 16 && sizeof(BackgroundUniforms) == 48 && sizeof(PublishedDropsUniforms) == 80 && sizeof(CellsUniforms) == 80);
 static_assert(sizeof(DropsUniforms) == 176);
 
 }  // namespace rainref::screen_drops

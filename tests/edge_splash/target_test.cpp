@@ -44,7 +44,8 @@ TEST(EdgeSplashTarget, HoldsCodesOfTheLight) {
 // The light of every code passes through: code / 255 lies nearest to its own code.
 TEST(EdgeSplashTarget, KeepsEveryCode) {
   Inputs in = under_sky(0);
-  for (int code = 0; code < 256; ++code) in.colour.row<float>(code / 48)[4 * (code % 48)] = to_float(Unorm8{static_cast<std::uint8_t>(code)});
+  for (int code = 0; code < 256; ++code)
+    in.colour.row<float>(code / 48)[4 * (code % 48)] = to_float(Unorm8{static_cast<std::uint8_t>(code)});
   EdgeSplash e(eight_bits(), in, executor());
   e.next_frame();
   // The scene is kept in halves, which move light near 1 by up to 2^-12: less than half a code.

@@ -91,7 +91,8 @@ class Run {
     const capture::CaseInput& in = input(name);
     const auto held = [&](float c, int size, Address own) {
       const Address a = address ? *address : own;
-      const float n = static_cast<float>(size), x = (a == Address::repeat ? fract(c) : c) * n - 0.5f;
+      const float n = static_cast<float>(size), mirrored = 1 - std::abs(2 * fract(c * 0.5f) - 1);
+      const float x = (a == Address::repeat ? fract(c) : a == Address::mirror ? mirrored : c) * n - 0.5f;
       if (a == Address::repeat) return x;
       return a == Address::border ? std::clamp(x, -1.0f, n) : std::clamp(x, 0.0f, n - 1);
     };

@@ -46,7 +46,8 @@ inline bool screen_drops_published(const Run& r, int x, int y, float* out) {
       const double angle = r.whole("printed_normal") != 0 ? static_cast<float>(std::sin(static_cast<double>(p))) : p;
       return static_cast<float>(std::cos(angle));
     };
-    Float3 n{sideways(px), sideways(py), mix(0.2f, 2, t - 0.5f)};
+    const Float3 w{sideways(px), sideways(py), mix(0.2f, 2, t - 0.5f)};
+    Float3 n = w;
     if (r.is("normal not normalized"))
       n = 1.0f * n;
     else
@@ -54,7 +55,22 @@ inline bool screen_drops_published(const Run& r, int x, int y, float* out) {
     float refraction = r.u("refraction");
     if (r.is("refraction's sign")) refraction = -refraction;
     if (r.is("refraction halved")) refraction = refraction / 2;
-    colour = r.linear3("scene", u + refraction * n.x, v + refraction * n.y);
+    const auto squared_stride = [&](float p, bool is_across) {
+      const float sine = static_cast<float>(std::sin(static_cast<double>(p))),
+                  cosine = static_cast<float>(std::cos(static_cast<double>(p)));
+      const float turn = r.whole("printed_normal") != 0 ? static_cast<float>(std::sin(static_cast<double>(sine))) * cosine : sine;
+      const float a = r.u("cell_angle") * (l * r.u("grid")), inverse = 1 / length(w);
+      const Float3 way = a * Float3{is_across ? -turn : 0, is_across ? 0 : -turn, 1.8f * fade * cosine}, unit = inverse * w;
+      const Float3 turned = inverse * (way - dot(unit, way) * unit);
+      const float across = (is_across ? 1.0f : 0.0f) + width * refraction * turned.x,
+                  along = (is_across ? 0.0f : 1.0f) + height * refraction * turned.y;
+      return across * across + along * along;
+    };
+    float lod = r.u("level");
+    if (r.whole("gradient_level") != 0 || r.is("level of the gradient"))
+      lod = std::log(std::max(std::max(squared_stride(px, true), squared_stride(py, false)), 1.0f)) * 0.7213475f;
+    if (r.is("finest level")) lod = 0;
+    colour = r.trilinear3("scene", u + refraction * n.x, v + refraction * n.y, lod);
     water = r.is("layer not scaled") ? l : l * r.u("water_step");
   }
   out[0] = water;
@@ -129,6 +145,7 @@ inline std::vector<Pass> drops_and_maps_passes() {
            {"refraction's sign", {"refraction with the other sign", "uniform refraction negated", "* refraction"}},
            {"refraction halved", {"refraction halved", "* refraction"}},
            {"layer not scaled", {"factor left out: 0.25"}},
+           {"level of the gradient", {"uniform gradient_level the other way"}},  // as a fragment shader takes it where none is stated
        }},
       {"rainy_glass-corrected",
        "bake_raindrops",

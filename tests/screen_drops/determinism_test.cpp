@@ -1,6 +1,7 @@
 // The determinism proof: every SIMD target, 1, 2, 3 and 8 threads, shuffled tiles, widths 1 to 33 give the bits of one plain
 // float after another; and how far those are from doubles.
 #include <algorithm>
+#include <array>
 
 #include "determinism.h"
 #include "pass/same_as_definition.h"
@@ -35,6 +36,10 @@ TEST_P(ScreenDropsDeterminism, EveryTargetThreadCountOrderAndWidth) {
     s.printed_normal = width % 5 == 0;
     s.noise_filter = width % 3 == 0 ? Filter::nearest : Filter::linear;
     s.layers = 1 + width % 6;
+    s.lod = std::array{Lod::finest, Lod::gradient, Lod::fixed}[static_cast<std::size_t>(width % 3)];
+    s.lod_level = 1.25;
+    s.wrap = std::array{Address::clamp, Address::repeat, Address::mirror, Address::repeat}[static_cast<std::size_t>(width % 4)];
+    s.refraction = 0.7;
     expect_one_result(fmt::format("width {}", width), run_of(s));
   }
 }
@@ -46,10 +51,14 @@ TEST_P(ScreenDropsDeterminism, OtherSeedOtherBits) {
 }
 
 /// The ninth frame of a wet window with this target.
-std::vector<capture::PassCase> ninth_frame(Variant variant, const std::string& target, std::string_view pass) {
+std::vector<capture::PassCase> ninth_frame(Variant variant, const std::string& target, std::string_view pass, Lod lod = Lod::finest,
+                                           Address wrap = Address::clamp) {
   const bool corrected = variant == Variant::corrected;
   Settings s = test::settings(variant, 61, 39);
   s.pane_height = 0.05;
+  s.lod = lod;
+  s.lod_level = 1.7;
+  s.wrap = wrap;
   FlowSettings flow = test::wet_pane();
   flow.pane = {s.pane_height * s.width / s.height, s.pane_height};
   flow.wind = 100;
@@ -70,6 +79,16 @@ TEST_P(ScreenDropsDeterminism, LanesEqualTheScalarEvaluation) {
       }
     }
   }
+}
+
+TEST(ScreenDropsLods, LanesEqualTheScalarEvaluation) {
+  for (const std::string& target : simd_targets())
+    for (const Lod lod : {Lod::finest, Lod::fixed, Lod::gradient})
+      for (const Address wrap : {Address::clamp, Address::repeat, Address::mirror}) {
+        const std::vector<capture::PassCase> cases = ninth_frame(Variant::as_published, target, "drops", lod, wrap);
+        EXPECT_EQ(cases.at(0).input("scene")->address_u, wrap);
+        EXPECT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << target << ' ' << static_cast<int>(lod) << ' ' << name(wrap);
+      }
 }
 
 // Floats and doubles show the same light where both show the same water.

@@ -60,6 +60,8 @@ inline std::vector<GoldenScene> golden_scenes() {
   add("as-published", "still", "");
   add("as-published", "still/rtz", truncated);
   add("as-published", "misprint", "drops.printed_misprint = true\n");
+  add("as-published", "gradient", "drops.lod = 'gradient'\nscene.wrap = 'repeat'\nbackground.level = 2\n");
+  add("as-published", "fixed", "drops.lod = 'fixed'\ndrops.level = 1.5\nscene.wrap = 'mirror'\nbackground.level = 3.5\n");
   add("corrected", "still", still);
   add("corrected", "still/rtz", still + truncated);
   add("corrected", "flow", golden_flow);

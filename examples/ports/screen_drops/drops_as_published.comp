@@ -19,6 +19,10 @@ layout(std140, binding = 0) uniform PublishedDropsUniforms {
   float keep_from;       //  52  [1] Layer from which on no cell holds a drop.
   float threshold;       //  56  [1] Sum of the sines above which a drop is.
   int printed_normal;    //  60  [1] 1: the normal as the report prints it, of the cosine of a sine.
+  float level;           //  64  [1] Mip level at which drops see the scene, without gradient_level.
+  int gradient_level;    //  68  [1] 1: the level follows from the gradient of the drop's normal.
+  float padding_0;       //  72  padding
+  float padding_1;       //  76  padding
 } u;
 layout(binding = 1) uniform sampler2D background;
 layout(binding = 2) uniform sampler2D scene;
@@ -30,6 +34,23 @@ vec4 noise_at(vec2 at) {
   if (u.noise_nearest == 0) return textureLod(noise, at, 0.0);
   ivec2 size = textureSize(noise, 0);
   return texelFetch(noise, ivec2(floor(fract(at) * vec2(size))) % size, 0);
+}
+
+// How far, squared, the lookup goes in the scene [texel] in a step of one pixel. w: the drop's normal, not normalized; turn: w's derivative.
+float squared_stride(vec3 w, vec3 turn, vec2 one_pixel) {
+  float inverse = 1.0 / length(w);
+  vec3 v = w * inverse, turned = (turn - v * dot(v, turn)) * inverse;
+  vec2 way = one_pixel + u.resolution * u.refraction * turned.xy;
+  return dot(way, way);
+}
+// p: the drop's angles; fade: its share of the full size; layer: number of its grid.
+float level_of(vec3 w, vec2 p, float fade, float layer) {
+  if (u.gradient_level == 0) return u.level;
+  vec2 turn = u.printed_normal != 0 ? sin(sin(p)) * cos(p) : sin(p), rise = 1.8 * fade * cos(p);
+  float per_pixel = u.cell_angle * (layer * u.grid);
+  float across = squared_stride(w, vec3(-turn.x, 0.0, rise.x) * per_pixel, vec2(1.0, 0.0));
+  float upward = squared_stride(w, vec3(0.0, -turn.y, rise.y) * per_pixel, vec2(0.0, 1.0));
+  return log(max(max(across, upward), 1.0)) * 0.7213475;
 }
 
 void main() {
@@ -47,9 +68,10 @@ void main() {
     float t = (s.x + s.y) * max(0.0, 1.0 - fract(u.time * (d.b + 0.1) + d.g) * 2.0);
     if (!(d.r < (u.keep_from - r) * u.keep && t > u.threshold)) continue;
     float z = mix(0.2, 2.0, t - 0.5);
-    vec3 v = -normalize(vec3(cos(u.printed_normal != 0 ? s : p), z));
+    vec3 w = vec3(cos(u.printed_normal != 0 ? s : p), z), v = -normalize(w);
+    float age = fract(d.g + u.time * (d.b + 0.1));
     layer = r;
-    light = textureLod(scene, at - v.xy * u.refraction, 0.0).rgb;
+    light = textureLod(scene, at - v.xy * u.refraction, level_of(w, p, max(1.0 - age * 2.0, 0.0), r)).rgb;
   }
   imageStore(water, pixel, vec4(layer * u.water_step));
   imageStore(colour, pixel, vec4(light, 1.0));

@@ -15,6 +15,10 @@ struct PublishedDropsUniforms {
   keep_from : f32,         //  52  [1] Layer from which on no cell holds a drop.
   threshold : f32,         //  56  [1] Sum of the sines above which a drop is.
   printed_normal : i32,    //  60  [1] 1: the normal as the report prints it, of the cosine of a sine.
+  level : f32,             //  64  [1] Mip level at which drops see the scene, without gradient_level.
+  gradient_level : i32,    //  68  [1] 1: the level follows from the gradient of the drop's normal.
+  padding_0 : f32,         //  72  padding
+  padding_1 : f32,         //  76  padding
 }
 @group(0) @binding(0) var<uniform> u: PublishedDropsUniforms;
 @group(0) @binding(1) var background: texture_2d<f32>;
@@ -34,6 +38,25 @@ fn noise_at(at: vec2f) -> vec4f {
   return textureLoad(noise, vec2i(floor(fract(at) * vec2f(size))) % size, 0);
 }
 
+// How far, squared, the lookup goes in the scene [texel] in a step of one pixel. w: the drop's normal, not normalized; turn: w's derivative.
+fn squared_stride(w: vec3f, turn: vec3f, one_pixel: vec2f) -> f32 {
+  let inverse = 1.0 / length(w);
+  let v = w * inverse;
+  let turned = (turn - v * dot(v, turn)) * inverse;
+  let way = one_pixel + u.resolution * u.refraction * turned.xy;
+  return dot(way, way);
+}
+// p: the drop's angles; fade: its share of the full size; layer: number of its grid.
+fn level_of(w: vec3f, p: vec2f, fade: f32, layer: f32) -> f32 {
+  if (u.gradient_level == 0) { return u.level; }
+  let turn = select(sin(p), sin(sin(p)) * cos(p), u.printed_normal != 0);
+  let rise = 1.8 * fade * cos(p);
+  let per_pixel = u.cell_angle * (layer * u.grid);
+  let across = squared_stride(w, vec3f(-turn.x, 0.0, rise.x) * per_pixel, vec2f(1.0, 0.0));
+  let upward = squared_stride(w, vec3f(0.0, -turn.y, rise.y) * per_pixel, vec2f(0.0, 1.0));
+  return log(max(max(across, upward), 1.0)) * 0.7213475;
+}
+
 @fragment
 fn main(@builtin(position) place: vec4f) -> Outputs {
   let pixel = vec2i(place.xy);
@@ -48,12 +71,14 @@ fn main(@builtin(position) place: vec4f) -> Outputs {
     let p = u.cell_angle * at * x + shift;
     let s = sin(p);
     let d = noise_at(floor(at * x - 0.25 + 0.5) / x).rgb;
-    let t = (s.x + s.y) * max(0.0, 1.0 - fract(u.time * (d.b + 0.1) + d.g) * 2.0);
+    let fade = max(0.0, 1.0 - fract(u.time * (d.b + 0.1) + d.g) * 2.0);
+    let t = (s.x + s.y) * fade;
     if (!(d.r < (u.keep_from - r) * u.keep && t > u.threshold)) { continue; }
     let z = mix(0.2, 2.0, t - 0.5);
-    let v = -normalize(vec3f(cos(select(p, s, u.printed_normal != 0)), z));
+    let w = vec3f(cos(select(p, s, u.printed_normal != 0)), z);
+    let v = -normalize(w);
     layer = r;
-    light = textureSampleLevel(scene, scene_sampler, at - v.xy * u.refraction, 0.0).rgb;
+    light = textureSampleLevel(scene, scene_sampler, at - v.xy * u.refraction, level_of(w, p, fade, r)).rgb;
   }
   return Outputs(vec4f(layer * u.water_step), vec4f(light, 1.0));
 }
