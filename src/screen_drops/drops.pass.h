@@ -101,7 +101,7 @@ struct Window {
 //
 // The origin's lookup has no level: a fragment shader takes one from the differences of neighbouring pixels. gradient_level has its
 // analytic form. With w the normal before it is normalized and w' its derivative by a step of one pixel, v' = (w' - v (v.w')) / |w|. The
-// shift counts as constant, because noise varies over many drops.
+// shift counts as constant: it is the gradient of the drop's own normal.
 template <int Count, class N, class T>
 RAINREF_FN auto published_noise(const PublishedDropsUniforms& d, const T& noise, N u, N v) {
   return d.noise_nearest != 0 ? sample_nearest<0, Count, N>(noise, u, v) : sample_bilinear<0, Count, N>(noise, u, v);
