@@ -56,12 +56,24 @@ struct Settings {
   bool use_probe = false;
   double probe_level = 1;
 
-  double distortion = 0.02;  ///< as-published: picture sizes per unit of the summed channels
+  double rivulet_speed = 0.03;  ///< at which the rivulet map moves down the glass [m/s]
+  double rivulet_amount = 1;    ///< weight of the rivulets
+
+  // as-published. The first value of each is the article's; docs/effects/rainy_glass.md has those of the shader that its author ships.
+  double distortion = 0.02;                 ///< picture sizes per unit of the summed channels
+  bool remap_first = false;                 ///< channels are remapped to [-1, 1] before they are masked, not after
+  bool signed_offset = false;               ///< the timer takes 2 B - 1 for the time offset B
+  bool squared_weight = false;              ///< the second phase of the flow weighs (1 - 2 p)^2, not |1 - 2 p|
+  std::array<double, 2> flow_across{0, 1};  ///< flow that B = 0 and B = 1 stand for; times flow_strength [tile]
+  std::array<double, 2> flow_along{0, 1};   ///< the same for A, up the glass [tile]
+  double fade_from = 0;                     ///< |n.y| of the glass from which rivulets fade, to none on level glass
+  double map_turn_deg = 0;                  ///< rotation of both maps on the glass
+  double rivulet_turn_deg = 0;              ///< rotation of the rivulet map, added to that of both
+  std::array<double, 3> tint{1, 1, 1};      ///< factor of what is seen through the glass, linear RGB
 
   // corrected
-  double rivulet_speed = 0.03;  ///< mean speed down the glass [m/s]
-  double run = 0.9;             ///< share of that speed by which rivulets slow down and speed up
-  double rivulet_amount = 1, impact = 0.04, rim = 0.06, water_ior = 1.333;
+  double run = 0.9;  ///< share of rivulet_speed by which rivulets slow down and speed up
+  double impact = 0.04, rim = 0.06, water_ior = 1.333;
   double wind = 6, fall_speed = 6;  ///< speed of the rain toward the glass, and down [m/s]
 
   double exposure = 1;  ///< [EV]

@@ -24,6 +24,12 @@ void put(const Vector3& v, float (&out)[3]) {
   for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(v[k]);
 }
 double fraction(double x) { return x - std::floor(x); }
+/// Cosine and sine.
+void put_turn(double degrees, float (&out)[2]) {
+  const Real64 angle(degrees * degree);
+  out[0] = static_cast<float>(cos_real(angle).v);
+  out[1] = static_cast<float>(sin_real(angle).v);
+}
 
 }  // namespace
 
@@ -56,6 +62,8 @@ void check(const Settings& s) {
   }
   if (!(s.impact > 0 && s.impact < 1))
     throw Error(ExitCode::usage, fmt::format("rain.impact: expected a share between 0 and 1, found {}", s.impact));
+  if (!(s.fade_from >= 0 && s.fade_from < 1))
+    throw Error(ExitCode::usage, fmt::format("rain.fade_from: expected a share below 1, found {}", s.fade_from));
   camera(s).basis();  // throws for an invalid camera
 }
 
@@ -156,6 +164,18 @@ RainOnGlassUniforms rain_on_glass_uniforms(const Settings& s, int frame, Code ra
   put(basis.right, u.right);
   put(basis.up, u.up);
   put(basis.forward, u.forward);
+  put_turn(s.map_turn_deg, u.turn);
+  put_turn(s.map_turn_deg + s.rivulet_turn_deg, u.rivulet_turn);
+  const std::array<double, 2> flows[] = {s.flow_across, s.flow_along};
+  for (int k = 0; k < 2; ++k) {
+    u.flow_from[k] = static_cast<float>(flows[k][0]);
+    u.flow_span[k] = static_cast<float>(flows[k][1] - flows[k][0]);
+  }
+  put(vector(s.tint), u.tint);
+  u.fade_rate = static_cast<float>(1 / (1 - s.fade_from));
+  u.remap_first = s.remap_first;
+  u.signed_offset = s.signed_offset;
+  u.squared_weight = s.squared_weight;
   u.half_height = static_cast<float>(eye.half_height());
   u.half_width = static_cast<float>(eye.half_height() * s.width / s.height);
   return u;

@@ -25,6 +25,10 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::drop_tile>("glass.drop_tile", "m", 1e-3, 1000, "Side of the raindrop map on the glass."),
       real<&Settings::rivulet_tile>("glass.rivulet_tile", "m", 1e-3, 1000, "Side of the rivulet map on the glass."),
       real<&Settings::distortion>("glass.distortion", "1", -1, 1, "Pictures by which the summed channels move the lookup.").only(published),
+      real<&Settings::map_turn_deg>("glass.map_turn", "deg", -180, 180, "Rotation of both maps on the glass.").only(published),
+      real<&Settings::rivulet_turn_deg>("glass.rivulet_turn", "deg", -180, 180, "Rotation of the rivulet map, added to that of both maps.")
+          .only(published),
+      real<&Settings::tint>("glass.tint", "1", 0, 1, "Factor of what is seen through the glass, linear RGB.").only(published),
       real<&Settings::water_ior>("glass.water_ior", "1", 1, 2, "Refractive index of water.").only(correct),
       real<&Settings::probe_level>("glass.probe_level", "1", 0, 16, "Mip level of the probe."),
       text("glass.probe_image", "", "Latitude/longitude panorama of the probe; empty: scene.panorama, or the street at night."),
@@ -37,9 +41,24 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::flow_strength>("rain.flow_strength", "1", 0, 10,
                                      "Offset of a rivulet at full flow in a cycle, in tiles; corrected: across the glass.")
           .published(1.0),
-      real<&Settings::rivulet_speed>("rain.rivulet_speed", "m/s", 0, 100, "Mean speed of the rivulets down the glass.").only(correct),
+      real<&Settings::flow_across>("rain.flow_across", "1", -10, 10,
+                                   "Flow across the glass for B = 0 and B = 1 of the rivulet map; times rain.flow_strength.")
+          .only(published),
+      real<&Settings::flow_along>("rain.flow_along", "1", -10, 10,
+                                  "Flow along the glass for A = 0 and A = 1 of the rivulet map; times rain.flow_strength.")
+          .only(published),
+      choice<&Settings::squared_weight>("rain.flow_weight", {{"triangle", false}, {"squared", true}},
+                                        "Weight of the second flow phase: |1 - 2 p| at phase p, or its square.")
+          .only(published),
+      real<&Settings::rivulet_speed>("rain.rivulet_speed", "m/s", 0, 100, "Mean speed of the rivulets down the glass.").published(0.0),
       real<&Settings::run>("rain.run", "1", 0, 1, "Share of that speed by which rivulets hold back and run.").only(correct),
-      real<&Settings::rivulet_amount>("rain.rivulet_amount", "1", 0, 4, "Weight of the rivulets' slopes.").only(correct),
+      real<&Settings::rivulet_amount>("rain.rivulet_amount", "1", 0, 4, "Weight of the rivulets."),
+      real<&Settings::fade_from>("rain.fade_from", "1", 0, 0.99,
+                                 "Rivulets are whole up to this |n.y| of the glass, and fade from there, to none on level glass.")
+          .only(published),
+      choice<&Settings::signed_offset>("rain.time_offset", {{"stored", false}, {"signed", true}},
+                                       "Time offset of a droplet: B of the raindrop map, or 2 B - 1.")
+          .only(published),
       real<&Settings::impact>("rain.impact", "1", 1e-3, 0.9, "Share of its cycle in which a droplet spreads.").only(correct),
       real<&Settings::rim>("rain.rim", "1", 1e-4, 1, "Height over which a droplet's rim turns visible.").only(correct),
       real<&Settings::wind>("rain.wind", "m/s", 0.1, 100, "Wind that drives the rain toward the glass.").only(correct),
@@ -47,6 +66,9 @@ const std::vector<MemberParameter<Settings>>& members() {
       integer<&Settings::map_size>("maps.size", "texel", 4, 8192, "Side of the baked maps."),
       storage<&Settings::map_storage>("maps.storage", {Format::rgba8, Format::rgba16f}, "Storage format of the maps.").published("rgba8"),
       rounding<&Settings::rounding>("maps.rounding"),
+      choice<&Settings::remap_first>("maps.remap", {{"after", false}, {"before", true}},
+                                     "Whether channels are remapped to [-1, 1] after they are masked and added, or before.")
+          .only(published),
       integer<&Settings::droplet_count>("maps.droplets", "1", 0, 4000,
                                         "Droplets to scatter over a tile; those that find no room are left out."),
       real<&Settings::largest_droplet>("maps.largest_droplet", "1", 1e-4, 0.2, "Radius of the largest droplet, in tiles."),

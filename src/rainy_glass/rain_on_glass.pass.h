@@ -27,7 +27,7 @@ struct RainOnGlassPass : pass::Takes<RainOnGlassUniforms> {
          member<&U::probe_level>("1", {0, 16}, "Mip level of the probe."),
          member<&U::drop_phase>("1", scene::share, "corrected: fraction of the droplets' cycle."),
          member<&U::flow_phase>("1", scene::share, "corrected: fraction of the flow's cycle."),
-         member<&U::scroll>("1", scene::share, "corrected: way of the rivulets down the glass, fraction of a tile."),
+         member<&U::scroll>("1", scene::share, "Way of the rivulets down the glass, fraction of a tile."),
          member<&U::run_strength>("1", {0, 1e11}, "corrected: tiles by which full flow moves a rivulet along the glass in a cycle."),
          member<&U::drop_neutral>("1", scene::share, "corrected: stored value of 0 in the raindrop map."),
          member<&U::drop_scale>("1", {1, 3}, "corrected: normal over stored value less neutral."),
@@ -36,13 +36,22 @@ struct RainOnGlassPass : pass::Takes<RainOnGlassUniforms> {
          member<&U::sharpness>("1", {0, 1e4}, "corrected: 1 over the height in which a rim turns visible."),
          member<&U::impact>("1", scene::share, "corrected: share of the cycle in which a droplet spreads."),
          member<&U::bend>("1", scene::share, "corrected: refractive index of water less 1."),
-         member<&U::rivulet_amount>("1", {0, 4}, "corrected: weight of the rivulets' slopes."),
+         member<&U::rivulet_amount>("1", {0, 4}, "Weight of the rivulets."),
          member<&U::rain_to>("1", {-300, 300}, "corrected: its product with the normal is the share of the rain that the glass meets."),
          member<&U::right>("1", scene::component, "Unit vector to the right of the picture, world."),
          member<&U::half_width>("1", {0, 1e6}, "Half the width of the image plane at distance 1."),
          member<&U::up>("1", scene::component, "Unit vector to the top of the picture."),
          member<&U::half_height>("1", {0, 12}, "Half the height of the image plane at distance 1."),
-         member<&U::forward>("1", scene::component, "Unit vector into the picture.")});
+         member<&U::forward>("1", scene::component, "Unit vector into the picture."),
+         member<&U::turn>("1", scene::component, "as-published: cosine and sine of the turn of the raindrop map."),
+         member<&U::rivulet_turn>("1", scene::component, "as-published: the same of the rivulet map."),
+         member<&U::flow_from>("1", {-10, 10}, "as-published: flow across and along that the stored value 0 stands for."),
+         member<&U::flow_span>("1", {-20, 20}, "as-published: flow that 1 stands for, less flow_from."),
+         member<&U::tint>("1", scene::share, "as-published: factor of the radiance behind the glass."),
+         member<&U::fade_rate>("1", {1, 101}, "as-published: 1 over the range of |n.y| in which rivulets fade."),
+         member<&U::remap_first>("1", scene::flag, "as-published: 1: channels are remapped to [-1, 1] before the mask, 0: their sum is."),
+         member<&U::signed_offset>("1", scene::flag, "as-published: 1: the timer takes 2 B - 1, 0: B."),
+         member<&U::squared_weight>("1", scene::flag, "as-published: 1: the second phase weighs the square of |1 - 2 p|, 0: that.")});
   }
   template <class B>
   struct Io {
@@ -109,31 +118,66 @@ RAINREF_FN FlowPhases<N> flow_phases(N phase) {
 // ---- as published --------------------------------------------------------------------------------------------------
 //   timer = fract(time + B),  mask = ceil(A - timer),  d = mask RG + (1 - |n . up|) rivulets,  grab(screen + distortion (2 d - 1))
 // rivulets: the map at uv + BA phase for both phases, mixed by the weight. The article does not define rain_amount; here it dims the map by
-// 1 - rain_amount.
+// 1 - rain_amount. Where the shader that the author ships reads otherwise, a uniform says so. A neutral one is skipped: it would change no
+// bit, and what is searched in the article's text for causes stays that text.
+
+/// A place on a map that is turned by this cosine and sine.
+template <class N>
+RAINREF_FN Two<N> turned(const float (&turn)[2], N u, N v) {
+  if (turn[1] == 0) return {u, v};
+  const N c(turn[0]), s(turn[1]);
+  return {u * c - v * s, u * s + v * c};
+}
+/// Flow that a stored value of the rivulet map stands for.
+template <class N>
+RAINREF_FN N flow_of(float from, float span, N stored) {
+  return from == 0 && span == 1 ? stored : N(from) + N(span) * stored;
+}
+/// Weight of the rivulets on glass with this |n . up|.
+template <class N>
+RAINREF_FN N upright_weight(const RainOnGlassUniforms& u, N level) {
+  N weight = N(1.0f) - level;
+  if (u.fade_rate != 1) weight = min(weight * N(u.fade_rate), N(1.0f));
+  return u.rivulet_amount == 1 ? weight : N(u.rivulet_amount) * weight;
+}
+/// Sum of the masked droplets and the weighted rivulets of a channel, remapped from [0, 1] to [-1, 1] as a sum or each by itself.
+template <class N>
+RAINREF_FN N remapped_sum(bool is_before_mask, N mask, N drop, N upright, N streak) {
+  const N one(1.0f), two(2.0f);
+  if (is_before_mask) return mask * (two * drop - one) + upright * (two * streak - one);
+  return two * (mask * drop + upright * streak) - one;
+}
 template <class N, class Maps>
 RAINREF_FN Vec3<N> rain_on_glass_as_published(const RainOnGlassUniforms& u, const Maps& m, const GlassPixel<N>& p, int column, int row) {
   const N zero(0.0f), one(1.0f);
   const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops),
              rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
-  const auto drop = sample_bilinear<0, 4, N>(raindrops, p.u * N(u.drop_tiles), p.v * N(u.drop_tiles));
-  const N timer = fract(N(u.time) * N(u.drop_rate) + drop[2]);
+  const Two<N> at = turned(u.turn, p.u, p.v);
+  const auto drop = sample_bilinear<0, 4, N>(raindrops, at.a * N(u.drop_tiles), at.b * N(u.drop_tiles));
+  const N offset = u.signed_offset != 0 ? N(2.0f) * drop[2] - one : drop[2];
+  const N timer = fract(N(u.time) * N(u.drop_rate) + offset);
   const N mask = select(drop[3] - N(1.0f - u.rain_amount) - timer > zero, one, zero);
 
-  const N ru = p.u * N(u.rivulet_tiles), rv = p.v * N(u.rivulet_tiles);
-  const auto flow = sample_bilinear<2, 2, N>(rivulets, ru, rv);
+  const Two<N> run = turned(u.rivulet_turn, p.u, p.v);
+  const N ru = run.a * N(u.rivulet_tiles), resting = run.b * N(u.rivulet_tiles), rv = u.scroll == 0 ? resting : resting + N(u.scroll);
+  const auto stored = sample_bilinear<2, 2, N>(rivulets, ru, rv);
+  const N fu = flow_of(u.flow_from[0], u.flow_span[0], stored[0]), fv = flow_of(u.flow_from[1], u.flow_span[1], stored[1]);
   const FlowPhases<N> f = flow_phases(N(u.time) * N(u.flow_rate));
+  const N weight = u.squared_weight != 0 ? square(f.weight) : f.weight;
   const N strength(u.flow_strength), first = strength * f.first, second = strength * f.second;
-  const auto a = sample_bilinear<0, 2, N>(rivulets, ru + flow[0] * first, rv + flow[1] * first);
-  const auto b = sample_bilinear<0, 2, N>(rivulets, ru + flow[0] * second, rv + flow[1] * second);
-  const N upright = one - abs(p.normal.y);
-  const N dx = mask * drop[0] + upright * mix(a[0], b[0], f.weight), dy = mask * drop[1] + upright * mix(a[1], b[1], f.weight);
-  const N ox = N(u.distortion) * (N(2.0f) * dx - one), oy = N(u.distortion) * (N(2.0f) * dy - one);
+  const auto a = sample_bilinear<0, 2, N>(rivulets, ru + fu * first, rv + fv * first);
+  const auto b = sample_bilinear<0, 2, N>(rivulets, ru + fu * second, rv + fv * second);
+  const N upright = upright_weight(u, abs(p.normal.y));
+  const bool is_before_mask = u.remap_first != 0;
+  const N ox = N(u.distortion) * remapped_sum(is_before_mask, mask, drop[0], upright, mix(a[0], b[0], weight)),
+          oy = N(u.distortion) * remapped_sum(is_before_mask, mask, drop[1], upright, mix(a[1], b[1], weight));
 
   const N su = (N::index(column) + N(0.5f)) * N(u.pixel[0]) + ox, sv = N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]) + oy;
   const N two(2.0f);
   const Vec3<N> behind =
       u.use_probe != 0 ? probe_at(u, m, (two * su - one) * N(u.half_width), (two * sv - one) * N(u.half_height)) : scene_at(m, su, sv);
-  return select(p.covered > N(0.5f), behind, p.own);
+  const bool is_clear = u.tint[0] == 1 && u.tint[1] == 1 && u.tint[2] == 1;
+  return select(p.covered > N(0.5f), is_clear ? behind : Vec3<N>(u.tint) * behind, p.own);
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------

@@ -52,9 +52,14 @@ struct RainOnGlassUniforms {
   float right[3], half_width;
   float up[3], half_height;
   float forward[3], padding1;
+  float turn[2], rivulet_turn[2];
+  float flow_from[2], flow_span[2];
+  float tint[3], fade_rate;
+  std::int32_t remap_first, signed_offset, squared_weight;
+  float padding2;
 };
 
 static_assert(sizeof(Droplet) == 32 && sizeof(Trail) == 32 && sizeof(BakeRaindropsUniforms) == 32 && sizeof(BakeRivuletsUniforms) == 32);
-static_assert(sizeof(RainOnGlassUniforms) == 160);
+static_assert(sizeof(RainOnGlassUniforms) == 224);
 
 }  // namespace rainref::rainy_glass

@@ -64,6 +64,7 @@ const std::vector<Branch> branches{
     {"WrappedBackground", "screen_drops-as-published", {"scene.wrap=repeat", "background.level=2"}, "background", "level 3.5"},
     {"DryWindow", "screen_drops-corrected", {"flow.on=false"}, "drops", "wrong constant"},
     {"Probe", "rainy_glass-as-published", {"glass.background=probe", "glass.probe_image=" + sun}, "rain_on_glass"},
+    {"Shipped", "rainy_glass-shipped", {}, "rain_on_glass", "wrong constant"},
     {"CorrectedProbe", "rainy_glass-corrected", {"glass.background=probe", "glass.probe_image=" + sun}, "rain_on_glass"},
     {"Ball", "rainy_glass-corrected", {"glass.shape=sphere"}, "rain_on_glass", "wrong constant"},
     {"Quartic", "windshield-as-published", {"windshield.kernel=quartic", "windshield.blend=max"}, "splat"},

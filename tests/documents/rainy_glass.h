@@ -63,19 +63,31 @@ inline bool rain_on_glass_of_article(const Run& r, int i, int j, float* out) {
   const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };
   if (!(r.at("orientation", i, j, 3) > 0.5f)) return give(r.rgb("scene", i, j));
   const Float2 uv{r.at("surface", i, j, 0), r.at("surface", i, j, 1)};
-  const Float2 at_drops = r.u("drop_tiles") * uv, drop_rg = linear2(r, "raindrops", at_drops),
+  const auto turned = [&](const char* by) {
+    const Float2 turn = u2(r, by);
+    return Float2{uv.x * turn.x - uv.y * turn.y, uv.x * turn.y + uv.y * turn.x};
+  };
+  const Float2 at_drops = r.u("drop_tiles") * turned("turn"), drop_rg = linear2(r, "raindrops", at_drops),
                drop_ba = linear2(r, "raindrops", at_drops, 2);
-  const float timer = fract(r.u("time") * r.u("drop_rate") + drop_ba.x);
+  const float offset = r.whole("signed_offset") != 0 ? 2 * drop_ba.x - 1 : drop_ba.x,
+              timer = fract(r.u("time") * r.u("drop_rate") + offset);
   const float mask = drop_ba.y - (1 - r.u("rain_amount")) - timer > 0 ? 1.0f : 0.0f;
-  const Float2 at = r.u("rivulet_tiles") * uv, flow = linear2(r, "rivulets", at, 2);
-  const float p1 = fract(r.u("time") * r.u("flow_rate")), p2 = fract(r.u("time") * r.u("flow_rate") + 0.5f), w = std::abs(1 - 2 * p1);
+  const Float2 at = r.u("rivulet_tiles") * turned("rivulet_turn") + Float2{0, r.u("scroll")}, ba = linear2(r, "rivulets", at, 2),
+               from = u2(r, "flow_from"), span = u2(r, "flow_span"), flow{from.x + span.x * ba.x, from.y + span.y * ba.y};
+  const float p1 = fract(r.u("time") * r.u("flow_rate")), p2 = fract(r.u("time") * r.u("flow_rate") + 0.5f),
+              triangle = std::abs(1 - 2 * p1), w = r.whole("squared_weight") != 0 ? triangle * triangle : triangle;
   const auto moved = [&](float p) { return linear2(r, "rivulets", at + (r.u("flow_strength") * p) * flow); };
-  const Float2 d = mask * drop_rg + (1 - std::abs(r.at("orientation", i, j, 1))) * mix(moved(p1), moved(p2), w);
+  const Float2 rivulet = mix(moved(p1), moved(p2), w), one{1, 1};
+  const float upright = r.u("rivulet_amount") * std::min((1 - std::abs(r.at("orientation", i, j, 1))) * r.u("fade_rate"), 1.0f);
   const float twice = constant(r, 2, 1), distortion = r.u("distortion");
-  const Float2 s{(static_cast<float>(i) + 0.5f) * r.u("pixel", 0) + distortion * (twice * d.x - 1),
-                 (static_cast<float>(j) + 0.5f) * r.u("pixel", 1) + distortion * (twice * d.y - 1)};
-  if (r.whole("use_probe") == 0) return give(r.linear3("scene", s.x, s.y));
-  return give(probe(r, {(2 * s.x - 1) * r.u("half_width"), (2 * s.y - 1) * r.u("half_height")}));
+  const Float2 d = r.whole("remap_first") != 0 ? mask * (twice * drop_rg - one) + upright * (twice * rivulet - one)
+                                               : twice * (mask * drop_rg + upright * rivulet) - one;
+  const Float2 s{(static_cast<float>(i) + 0.5f) * r.u("pixel", 0) + distortion * d.x,
+                 (static_cast<float>(j) + 0.5f) * r.u("pixel", 1) + distortion * d.y};
+  const Float3 seen = r.whole("use_probe") == 0 ? r.linear3("scene", s.x, s.y)
+                                                : probe(r, {(2 * s.x - 1) * r.u("half_width"), (2 * s.y - 1) * r.u("half_height")}),
+               tint = r.u3("tint");
+  return give({tint.x * seen.x, tint.y * seen.y, tint.z * seen.z});
 }
 
 inline bool rain_on_glass_corrected(const Run& r, int i, int j, float* out) {

@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Files, SeededBugs,
                                          Seeded{"windshield_motion", "1104,1126,1146,1176,1189,1210"},
                                          Seeded{"windshield_trails_and_panes", "1602,1609,1612,1622,1627,1639,1652,1669"},
                                          Seeded{"edge_splash", "601,610,625,664,691"}, Seeded{"screen_drops", "1802,1823,1843,1898"},
-                                         Seeded{"rainy_glass", "702,734,784"}),
+                                         Seeded{"rainy_glass", "702,734,770,773,784"}),
                          [](const auto& tested) { return tested.param.file; });
 
 TEST_P(SeededBugs, GetTheirVerdicts) {

@@ -44,6 +44,38 @@ TEST_P(RainyGlassDeterminism, EveryStorageRoundingAndManyBakeTiles) {
   }
 }
 
+// The readings of the shipped shader are other branches of the same text.
+TEST(RainyGlassShippedDeterminism, EveryTargetThreadCountOrderAndWidth) {
+  for (int width = 1; width <= 33; ++width) {
+    Settings s = test::shipped_settings(width, 19);
+    s.map_size = 4 + width;
+    s.droplet_count = 12;
+    s.map_storage = width % 2 == 0 ? Format::rgba8 : Format::rgba16f;
+    s.shape = width % 3 == 0 ? Shape::sphere : Shape::pane;
+    s.use_probe = width % 5 == 0;
+    expect_one_result(fmt::format("width {}", width), run_of(s));
+  }
+  select_simd_target("");
+}
+TEST(RainyGlassShippedDeterminism, LanesEqualTheScalarEvaluation) {
+  for (const Format storage : {Format::rgba8, Format::rgba16f}) {
+    Settings s = test::shipped_settings(61, 39);
+    s.shape = Shape::sphere;
+    s.map_storage = storage;
+    const Surroundings around = test::surroundings(s);
+    for (const std::string& target : simd_targets()) {
+      select_simd_target(target);
+      RainyGlass glass(s, around, test::executor());
+      const auto cases = rainref::test::captured(effect_info(), false, "", [&](Recorder& recorder) {
+        for (int frame = 0; frame < 8; ++frame) glass.next_frame();
+        glass.next_frame(&recorder);
+      });
+      EXPECT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << target;
+    }
+  }
+  select_simd_target("");
+}
+
 TEST_P(RainyGlassDeterminism, OtherSeedTimeOrRainOtherBits) {
   Settings s = test::settings(GetParam(), 33, 21);
   const std::string before = run_of(s)(parallel::Executor(1));

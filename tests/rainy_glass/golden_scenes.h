@@ -35,6 +35,23 @@ display.exposure = 0
 camera.position = [2.2, 1.7, 12]
 camera.target = [0.6, 1.9, -20]
 )";
+/// Every reading of the shipped shader, on a ball.
+constexpr const char* shipped = R"(glass.shape = 'sphere'
+glass.distortion = 0.01
+glass.tint = [0.88, 0.92, 0.92]
+glass.map_turn = 15
+glass.rivulet_turn = -25
+maps.remap = 'before'
+rain.time_offset = 'signed'
+rain.drop_period = 3.3333333333333335
+rain.flow_period = 4.3478260869565215
+rain.flow_weight = 'squared'
+rain.flow_across = [-0.1, 0.1]
+rain.flow_along = [0, 3]
+rain.rivulet_speed = 0.05
+rain.rivulet_amount = 2
+rain.fade_from = 0.85
+)";
 constexpr const char* corrected_rain = R"(rain.amount = 0.8
 rain.drop_period = 6
 rain.flow_strength = 0.02
@@ -57,6 +74,7 @@ inline std::vector<GoldenScene> golden_scenes() {
     add("rgba16f", halves);
     add("rgba16f/rtz", halves + "maps.rounding = 'rtz'\n");
     add("sphere", halves + "glass.shape = 'sphere'\nglass.background = 'probe'\n");
+    if (variant == "as-published") add("shipped", shipped);
   }
   return scenes;
 }

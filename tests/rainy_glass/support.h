@@ -47,7 +47,23 @@ inline Settings settings(Variant variant, int width, int height) {
     s.rain_amount = 1;
     s.drop_period = s.flow_period = 1;
     s.flow_strength = 1;
+    s.rivulet_speed = 0;
   }
+  return s;
+}
+
+/// As published, with values of its own for every reading of the shipped shader.
+inline Settings shipped_settings(int width, int height) {
+  Settings s = settings(Variant::as_published, width, height);
+  s.remap_first = s.signed_offset = s.squared_weight = true;
+  s.flow_across = {-0.1, 0.2};
+  s.flow_along = {0.1, 3};
+  s.fade_from = 0.6;
+  s.map_turn_deg = 20;
+  s.rivulet_turn_deg = -35;
+  s.tint = {0.88, 0.92, 0.9};
+  s.rivulet_speed = 0.5;
+  s.rivulet_amount = 1.4;
   return s;
 }
 
