@@ -92,6 +92,7 @@ std::int64_t JsonField::whole(std::int64_t low, std::int64_t high) const {
   return value_.get<std::int64_t>();
 }
 
+bool JsonField::is_object() const { return value_.is_object(); }
 bool JsonField::is_number() const { return value_.is_number(); }
 
 double JsonField::number() const {

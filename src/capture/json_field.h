@@ -33,6 +33,7 @@ class JsonField {
   void require_known(std::span<const std::string> keys) const;
 
   bool is_number() const;
+  bool is_object() const;
   std::string text() const;
   bool boolean() const;
   /// A non-negative integer.

@@ -129,7 +129,7 @@ bool holds(const capture::PassModel& model, const std::vector<judge::Slot>& slot
   stored.read(slots, c, model, profile, port, at.x, at.y);
   if (stored.any_impossible) return false;
   judge::Alternatives alternatives;
-  alternatives.run(model, at.x, at.y, stored.got_values.data(), model.rounds_inside() ? judge::narrowed(profile, mode) : profile);
+  alternatives.run(model, at.x, at.y, stored, model.rounds_inside() ? judge::narrowed(profile, mode) : profile);
   if (alternatives.gave_up) return false;
   std::vector<enclosed::CodeRange> ranges;
   for (int a = 0; a < alternatives.count; ++a) {

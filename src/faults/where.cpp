@@ -185,7 +185,7 @@ std::string channel_text(const FailedRun& failed, const std::vector<Texel>& fail
   std::vector<std::int64_t> outside(slots.size(), 0);
   std::int64_t sum = 0;
   for (const Texel t : spread(failing, 200)) {
-    const std::vector<char> of_texel = judged.outside(t.x, t.y, failed.run.stored);
+    const std::vector<char> of_texel = judged.outside(t.x, t.y, failed.run.stored, &failed.run.kept);
     for (std::size_t s = 0; s < slots.size(); ++s) outside[s] += of_texel[s], sum += of_texel[s];
   }
   const std::size_t most = static_cast<std::size_t>(std::max_element(outside.begin(), outside.end()) - outside.begin());

@@ -27,11 +27,22 @@ enclosed::Profile narrowed(const enclosed::Profile& profile, HalfMode mode) {
   return out;
 }
 
-void Alternatives::only(const std::vector<float>& expected) {
+void Alternatives::only(const Stored& stored) {
   count = 1;
   gave_up = false;
   values.front().clear();
-  for (const float x : expected) values.front().emplace_back(x, x);
+  for (const float x : stored.expected_values) values.front().emplace_back(x, x);
+  widen(stored);
+}
+void Alternatives::widen(const Stored& stored) {
+  for (int a = 0; a < count; ++a)
+    for (std::size_t v = 0; v < stored.spread.size(); ++v) {
+      Enclosure& e = values[static_cast<std::size_t>(a)][v];
+      if (stored.is_known(v) || e.is_vacuous()) continue;
+      // The port's value may be above the stored one, and still in the envelope when that is below it; and the other way round.
+      const auto [below, above] = stored.spread[v];
+      e = {enclosed::float_below(static_cast<double>(e.lo) - above), enclosed::float_above(static_cast<double>(e.hi) + below)};
+    }
 }
 void Alternatives::run(const PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile) {
   const enclosed::ProfileScope scope(profile);
@@ -43,7 +54,11 @@ void Alternatives::run(const PassModel& model, int x, int y, const float* port, 
     model.enclose(x, y, port, out.data());
   });
 }
-void Alternatives::run_part(const PassModel& model, int part, int x, int y, const float* port, const enclosed::Profile& profile) {
+void Alternatives::run(const PassModel& model, int x, int y, const Stored& stored, const enclosed::Profile& profile) {
+  run(model, x, y, stored.got_values.data(), profile);
+  widen(stored);
+}
+void Alternatives::run_part(const PassModel& model, int part, int x, int y, const Stored& stored, const enclosed::Profile& profile) {
   const enclosed::ProfileScope scope(profile);
   enclosed::PathEnumeration paths;
   count = 0;
@@ -51,9 +66,10 @@ void Alternatives::run_part(const PassModel& model, int part, int x, int y, cons
   const bool is_settled = paths.for_each_alternative([&] {
     std::vector<Enclosure>& out = values[static_cast<std::size_t>(count)];
     out.assign(static_cast<std::size_t>(model.values()), Enclosure());
-    count += model.enclose_part(part, x, y, port, out.data());
+    count += model.enclose_part(part, x, y, stored.got_values.data(), out.data());
   });
   if (!is_settled) count = 0;
+  widen(stored);
 }
 void Alternatives::rearrange(const PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile) {
   const enclosed::ProfileScope scope(profile);
@@ -66,6 +82,10 @@ void Alternatives::rearrange(const PassModel& model, int x, int y, const float* 
     is_known = model.rearrange(x, y, port, out.data());
   });
   gave_up |= !is_known;
+}
+void Alternatives::rearrange(const PassModel& model, int x, int y, const Stored& stored, const enclosed::Profile& profile) {
+  rearrange(model, x, y, stored.got_values.data(), profile);
+  widen(stored);
 }
 
 void code_ranges(const std::vector<Slot>& slots, const std::vector<Enclosure>& values, const enclosed::Profile& profile, HalfMode mode,

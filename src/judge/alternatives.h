@@ -8,6 +8,7 @@
 #include "capture/pass_model.h"
 #include "image/code_range.h"
 #include "judge/slots.h"
+#include "judge/stored.h"
 #include "judge/verdict.h"
 #include "math/enclosure.h"
 #include "math/path_enumeration.h"
@@ -26,14 +27,21 @@ struct Alternatives {
   int count = 0;
   bool gave_up = false;
 
-  /// Sets the stored reference values as the only alternative.
-  void only(const std::vector<float>& expected);
+  /// Sets the reference's stored values as the only alternative, wider as by run().
+  void only(const Stored& stored);
   /// Evaluates all results that the profile allows. `port`: what the port stored for the invocation.
   void run(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
+  /// The same, wider by what a port's own form of its buffers leaves open: an alternative holds the stored value if it holds one of those
+  /// that the port may have had.
+  void run(const capture::PassModel& model, int x, int y, const Stored& stored, const enclosed::Profile& profile);
   /// Evaluates a part of these that the pass finds faster (PassModel::enclose_part); no alternative if it has no such part.
-  void run_part(const capture::PassModel& model, int part, int x, int y, const float* port, const enclosed::Profile& profile);
+  void run_part(const capture::PassModel& model, int part, int x, int y, const Stored& stored, const enclosed::Profile& profile);
   /// Evaluates the rearrangements that the profile allows. If the pass has no evaluation for them: no alternative, as if given up.
   void rearrange(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
+  void rearrange(const capture::PassModel& model, int x, int y, const Stored& stored, const enclosed::Profile& profile);
+
+ private:
+  void widen(const Stored& stored);
 };
 
 /// Writes the codes of one alternative under one rounding to `out`.

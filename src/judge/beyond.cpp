@@ -13,11 +13,11 @@ Beyond::Beyond(const std::vector<Slot>& slots, const capture::PassModel& model, 
 
 bool Beyond::finds(int x, int y, const Stored& stored, HalfMode mode) {
   enclosed::Profile rules = model_.rounds_inside() ? narrowed(coarsest_, mode) : coarsest_;
-  all_.run(model_, x, y, stored.got_values.data(), rules);
+  all_.run(model_, x, y, stored, rules);
   if (all_.gave_up || is_held(stored, mode)) return false;
   if (profile_.rearrangement == Rearrangement::none) return true;
   rules.rearrangement = profile_.rearrangement;
-  all_.rearrange(model_, x, y, stored.got_values.data(), rules);
+  all_.rearrange(model_, x, y, stored, rules);
   return all_.gave_up || !is_held_rearranged(stored, mode);
 }
 

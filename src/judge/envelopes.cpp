@@ -176,14 +176,14 @@ class CaseJudge {
       for (std::size_t m = 0; m < modes_.size(); ++m) without_envelope(x, y, parts[m], whole[m], s.short_cut.is_held[m]);
       return;
     }
-    if (s.is_sampled) s.stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
+    if (s.is_sampled) s.stored.read(slots_, case_, model_, *options_.profile, port_, x, y, options_.kept);
     const bool is_exact = options_.profile->reference, each_rounds = model_.rounds_inside() && !is_exact;
     if (is_exact)
-      s.alternatives.only(s.stored.expected_values);
+      s.alternatives.only(s.stored);
     else if (!each_rounds)
-      s.alternatives.run(model_, x, y, s.stored.got_values.data(), *options_.profile);
+      s.alternatives.run(model_, x, y, s.stored, *options_.profile);
     for (std::size_t m = 0; m < modes_.size(); ++m) {
-      if (each_rounds) s.alternatives.run(model_, x, y, s.stored.got_values.data(), narrowed(*options_.profile, modes_[m]));
+      if (each_rounds) s.alternatives.run(model_, x, y, s.stored, narrowed(*options_.profile, modes_[m]));
       one_mode(x, y, s, modes_[m], parts[m], whole[m]);
     }
   }
@@ -390,8 +390,9 @@ class CaseJudge {
   void ranges_of(Scratch& s, int a, HalfMode mode) const {
     if (!options_.profile->reference)
       return code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(a)], *options_.profile, mode, s.ranges);
-    s.ranges.clear();
-    for (const std::int64_t code : s.stored.expected) s.ranges.push_back({code, code});
+    code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(a)], *options_.profile, mode, s.ranges);
+    for (std::size_t v = 0; v < slots_.size(); ++v)
+      if (s.stored.is_known(v)) s.ranges[v] = {s.stored.expected[v], s.stored.expected[v]};
   }
 
   /// Compares with what known devices do. Values without a useful bound in the profile must lie inside that, with the formula as written.
@@ -401,7 +402,7 @@ class CaseJudge {
     int best = -1;
     bool is_rearranged = false, is_atypical = false;
     if (options_.typical) {
-      s.others.run(model_, x, y, s.stored.got_values.data(), as_stored(*options_.typical, mode));
+      s.others.run(model_, x, y, s.stored, as_stored(*options_.typical, mode));
       std::size_t fewest = slots_.size() + 1;
       for (int a = 0; a < s.others.count && !s.others.gave_up; ++a) {
         code_ranges(slots_, s.others.values[static_cast<std::size_t>(a)], *options_.typical, mode, s.other_ranges);

@@ -18,17 +18,16 @@ InvocationJudge::InvocationJudge(const PassCase& c, const PassModel& model, cons
                                  bool asks_again)
     : case_(c), model_(model), profile_(profile), mode_(mode), keeps_(asks_again && !model.needs_port()) {}
 
-Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) const {
+Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port, const port_dump::KeptForms* kept) const {
   const std::vector<Slot> slots = slots_of(case_, model_);
   Stored stored;
-  stored.read(slots, case_, model_, profile_, port, x, y);
+  stored.read(slots, case_, model_, profile_, port, x, y, kept);
   if (stored.any_impossible) return Accepted::no;
-  if (profile_.reference)
-    return std::all_of(stored.same.begin(), stored.same.end(), [](char same) { return same; }) ? Accepted::as_written : Accepted::no;
   Known of_this_port;
-  Known& all = keeps_ ? known(x, y) : of_this_port;
+  Known& all = keeps_ && stored.spread.empty() ? known(x, y) : of_this_port;
   std::call_once(all.is_written_known, [&] {
-    all.written.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
+    if (profile_.reference) return all.written.only(stored);
+    all.written.run(model_, x, y, stored, model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
   });
   const Alternatives& alternatives = all.written;
   if (alternatives.gave_up) return Accepted::as_written;
@@ -57,15 +56,15 @@ InvocationJudge::Known& InvocationJudge::known(int x, int y) const {
   return *of;
 }
 
-std::vector<char> InvocationJudge::outside(int x, int y, const std::vector<Array>& port) const {
+std::vector<char> InvocationJudge::outside(int x, int y, const std::vector<Array>& port, const port_dump::KeptForms* kept) const {
   const std::vector<Slot> slots = slots_of(case_, model_);
   Stored stored;
-  stored.read(slots, case_, model_, profile_, port, x, y);
+  stored.read(slots, case_, model_, profile_, port, x, y, kept);
   Alternatives alternatives;
   if (profile_.reference)
-    alternatives.only(stored.expected_values);
+    alternatives.only(stored);
   else
-    alternatives.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
+    alternatives.run(model_, x, y, stored, model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
   std::vector<char> best(slots.size(), 1);
   std::vector<CodeRange> ranges;
   for (int a = 0; a < alternatives.count; ++a) {

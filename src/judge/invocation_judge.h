@@ -27,10 +27,10 @@ class InvocationJudge {
   /// depend on the stored values.
   InvocationJudge(const capture::PassCase& c, const capture::PassModel& model, const enclosed::Profile& profile, HalfMode mode,
                   bool asks_again = false);
-  /// `port` as in judge_case.
-  Accepted accepts(int x, int y, const std::vector<capture::Array>& port) const;
+  /// `port` as in judge_case, `kept` as in JudgeOptions.
+  Accepted accepts(int x, int y, const std::vector<capture::Array>& port, const port_dump::KeptForms* kept = nullptr) const;
   /// For each value, true if it is outside the alternative that holds most of them.
-  std::vector<char> outside(int x, int y, const std::vector<capture::Array>& port) const;
+  std::vector<char> outside(int x, int y, const std::vector<capture::Array>& port, const port_dump::KeptForms* kept = nullptr) const;
 
  private:
   struct Known {

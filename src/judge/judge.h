@@ -7,6 +7,7 @@
 #include "capture/pass_model.h"
 #include "judge/verdict.h"
 #include "math/profile.h"
+#include "port_dump/kept.h"
 #include "rainref/executor.h"
 
 namespace rainref::judge {
@@ -19,6 +20,8 @@ struct JudgeOptions {
   /// The least number of invocations of a run (judge_passes: of all runs of a pass) whose envelopes are computed for widths and shares
   /// (judge/sample.h). Other invocations get an envelope only if they lack the reference's bits. 0: all envelopes.
   std::int64_t sample = 0;
+  /// What the port's own forms of the outputs leave open, in the order of c.outputs; null: nothing. Of one run.
+  const port_dump::KeptForms* kept = nullptr;
   /// False: what one rounding of half stores accepts is not tested under the others; CaseJudgement::undecided counts it.
   bool every_rounding = false;
 };

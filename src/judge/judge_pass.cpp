@@ -189,7 +189,8 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
     if (!run.untested.empty()) {
       cases.push_back(not_judged(run));
     } else {
-      const JudgeOptions of_run = options_of_run(model.get(), runs, options);
+      JudgeOptions of_run = options_of_run(model.get(), runs, options);
+      of_run.kept = &run.kept;
       cases.push_back(judge_case(run.c, model.get(), run.stored, of_run));
       if (coverage && runs.counts_coverage)
         coverage->add(coverage_of(run.c, model.get(), *options.executor, of_run.sample, task.pass->block));
@@ -217,7 +218,7 @@ std::unique_ptr<PassModel> prepare(const PassTask& task, PortRun& run) {
     run.broken = run.untested = e.what();
   }
   if (!run.untested.empty()) return model;
-  if (const std::string fault = length_fault(run.c, run.stored); !fault.empty()) run.broken = run.untested = fault;
+  if (const std::string fault = length_fault(run.c, run.stored, run.kept); !fault.empty()) run.broken = run.untested = fault;
   return model;
 }
 

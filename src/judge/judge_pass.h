@@ -19,6 +19,7 @@ namespace rainref::judge {
 struct PortRun {
   capture::PassCase c;                 ///< inputs of the pass; c.outputs: the reference's for them
   std::vector<capture::Array> stored;  ///< the port's outputs, in the order of c.outputs
+  port_dump::KeptForms kept = {};      ///< what their forms leave open, in the same order; empty: nothing
   std::string broken;                  ///< why the run fails whatever its outputs are; "": no such reason
   std::string untested;                ///< why it cannot be judged; "": it can
   bool has_no_files = false;           ///< it cannot be judged because the port's files are missing or unusable

@@ -32,8 +32,6 @@ struct KeyedJudgement {
   std::uint64_t rearranged_distance = 0;  ///< as CaseJudgement::rearranged_distance
 };
 
-/// True if a member is the key of its record: `id`, one uint.
-bool is_key(const scene::Member& member);
 /// True if a record has a key.
 bool has_key(const scene::UniformBlock& record);
 

@@ -10,6 +10,7 @@
 #include "judge/quantities.h"
 #include "judge/slots.h"
 #include "rainref/error.h"
+#include "scene/record_key.h"
 
 namespace rainref::judge {
 namespace {
@@ -20,8 +21,7 @@ using enclosed::CodeRange;
 
 }  // namespace
 
-bool is_key(const scene::Member& m) { return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1; }
-bool has_key(const scene::UniformBlock& record) { return std::any_of(record.members.begin(), record.members.end(), is_key); }
+bool has_key(const scene::UniformBlock& record) { return std::any_of(record.members.begin(), record.members.end(), scene::is_key); }
 std::vector<std::size_t> keyed_outputs(const capture::PassCase& c) {
   std::vector<std::size_t> out;
   for (std::size_t o = 0; o < c.outputs.size(); ++o)

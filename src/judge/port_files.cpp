@@ -61,27 +61,52 @@ PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::stri
                                                     (folder_ / "port.json").string(), effect, name, did_you_mean(name, names)));
 }
 
-capture::Array PortFiles::read(const fs::path& run, const std::string& stem, const capture::Array& expected) {
+capture::Array PortFiles::read(const fs::path& run, const std::string& stem, const capture::Array& expected, port_dump::KeptForm* kept) {
   // A level may be read alone, so the file name does not identify the buffer.
   const std::string key = fmt::format("{} {} {}x{} {}", (folder_ / run / stem).string(), rainref::info(expected.format).name,
                                       expected.width, expected.height, expected.levels.size());
-  if (buffers_ && buffers_->arrays.contains(key)) return buffers_->arrays[key];
+  if (buffers_ && buffers_->arrays.contains(key)) {
+    const auto open = buffers_->kept.find(key);
+    if (open != buffers_->kept.end()) note_kept(stem, open->second);
+    if (kept) *kept = open == buffers_->kept.end() ? nullptr : open->second;
+    return buffers_->arrays[key];
+  }
   port_dump::ReadNotes notes;
   const bool is_opaque = alpha_1_.contains(stem.substr(stem.find('.') + 1));  // after "in." or "out."
   capture::Array array = port_dump::read_port_buffer(folder_ / run, stem, expected, info_, notes,
                                                      is_opaque ? port_dump::Alpha::one : port_dump::Alpha::stored);
   for (const std::string& note : notes.lines)
     if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+  note_kept(stem, notes.kept);
+  if (kept) *kept = notes.kept;
   if (buffers_) {
     constexpr std::size_t most = std::size_t{128} << 20;  // a small pack's buffers are a few MiB
     std::size_t bytes = buffers_->bytes;
     for (const std::vector<std::byte>& level : array.levels) bytes += level.size();
     if (bytes <= most) {
       buffers_->arrays[key] = array;
+      if (notes.kept) buffers_->kept[key] = notes.kept;
       buffers_->bytes = bytes;
     }
   }
   return array;
+}
+
+void PortFiles::note_kept(const std::string& stem, const port_dump::KeptForm& form) {
+  if (!form) return;
+  const std::string buffer = port_dump::buffer_of(stem);
+  if (form->widest > 0) rounded_[buffer] = std::max(rounded_[buffer], form->widest);
+  if (!form->from_expected.empty()) from_expected_[buffer] = form->from_expected;
+}
+
+std::vector<std::string> PortFiles::notes() const {
+  std::vector<std::string> out = notes_;
+  for (const auto& [buffer, widest] : rounded_)
+    out.push_back(fmt::format("encodings.{}: the port's own form rounds, so its envelopes are wider, by at most {:.3g} to each side",
+                              buffer, widest));
+  for (const auto& [buffer, members] : from_expected_)
+    out.push_back(fmt::format("encodings.{}: without {}: record i is judged as the pack's record i", buffer, fmt::join(members, ", ")));
+  return out;
 }
 
 void require_apart(const fs::path& pack, const fs::path& port, ExitCode code) {

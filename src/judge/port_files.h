@@ -11,6 +11,7 @@
 
 #include "capture/array.h"
 #include "judge/verdict.h"
+#include "port_dump/kept.h"
 #include "port_dump/port_info.h"
 #include "rainref/error.h"
 
@@ -45,8 +46,9 @@ std::string unusable_text(const std::vector<FileFault>& faults, const std::strin
 
 /// Buffers read from ports' files, kept for later use: the first ones, up to a total size. Others are read again.
 struct ReadBuffers {
-  std::map<std::string, capture::Array> arrays;  ///< by file and shape
-  std::size_t bytes = 0;                         ///< of all arrays
+  std::map<std::string, capture::Array> arrays;     ///< by file and shape
+  std::map<std::string, port_dump::KeptForm> kept;  ///< of these, where something is open
+  std::size_t bytes = 0;                            ///< of all arrays
 };
 
 /// A port's folder.
@@ -58,20 +60,27 @@ class PortFiles {
             std::shared_ptr<ReadBuffers> buffers = nullptr);
   const std::filesystem::path& folder() const { return folder_; }
   const port_dump::PortInfo& info() const { return info_; }
-  /// Reads a buffer like port_dump::read_port_buffer; `run` is the folder of the run.
-  capture::Array read(const std::filesystem::path& run, const std::string& stem, const capture::Array& expected);
+  /// Reads a buffer like port_dump::read_port_buffer; `run` is the folder of the run. Sets `kept`, if it is not null, to what the buffer's
+  /// form leaves open.
+  capture::Array read(const std::filesystem::path& run, const std::string& stem, const capture::Array& expected,
+                      port_dump::KeptForm* kept = nullptr);
   /// True if the port has anything like an output of the pass of this run, in whatever run: a wrong name does not mean that nothing was
   /// intended.
   bool has_output(const std::string& run) const;
-  /// Notes for the reader of a report about accepted files, each once.
-  const std::vector<std::string>& notes() const { return notes_; }
+  /// Notes for the reader of a report about accepted files, each once, and about the port's own forms of buffers that leave something open.
+  std::vector<std::string> notes() const;
 
  private:
+  /// Remembers for the notes what a buffer's form leaves open.
+  void note_kept(const std::string& stem, const port_dump::KeptForm& form);
+
   std::filesystem::path folder_;
   std::set<std::string> alpha_1_;  ///< names of buffers with constant alpha 1
   port_dump::PortInfo info_;
   std::shared_ptr<ReadBuffers> buffers_;
   std::vector<std::string> notes_;
+  std::map<std::string, double> rounded_;                          ///< the largest Kept::widest of each buffer
+  std::map<std::string, std::vector<std::string>> from_expected_;  ///< Kept::from_expected of each list
 };
 
 /// Throws Error(code) if two paths name one folder or file, so that a pack's expected outputs are never judged by themselves. `code`: usage

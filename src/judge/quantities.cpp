@@ -7,6 +7,7 @@
 
 #include "image/code_range.h"
 #include "judge/keyed.h"
+#include "scene/record_key.h"
 
 namespace rainref::judge {
 

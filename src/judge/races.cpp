@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "judge/check_pack.h"
 #include "judge/conclude.h"
 
 namespace rainref::judge {
@@ -41,6 +42,9 @@ Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::p
       if (output.rules.judge == capture::Judge::input_only) continue;
       Array shape = output.shape;
       shape.levels.resize(output.levels.size());
+      const auto own = ports.front().info().encodings.find(output.name);
+      if (own != ports.front().info().encodings.end() && !own->second.members.empty())
+        shape = read_case(pack, entry).output(output.name)->array;  // gives the members that the port does not have
       std::vector<Array> found;
       for (PortFiles& port : ports) {
         FileFaults& faults = &port == &ports.front() ? first_run : later_runs;

@@ -39,7 +39,7 @@ void ask(const PortRun& run, const capture::PassModel& model, const std::vector<
     const std::array<bool, 2> is_held = bits.stores(x, y);
     for (std::size_t m = 0; m < 2; ++m) {
       counts.with_bits[m] += is_held[m];
-      counts.failing[m] += !is_held[m] && judges[m].accepts(x, y, run.stored) == Accepted::no;
+      counts.failing[m] += !is_held[m] && judges[m].accepts(x, y, run.stored, &run.kept) == Accepted::no;
     }
   });
 }

@@ -7,7 +7,7 @@ namespace rainref::judge {
 void SecondTier::run(enclosed::Rearrangement how, int x, int y, const Stored& stored, HalfMode mode, Alternatives& all) const {
   enclosed::Profile profile = model_.rounds_inside() ? narrowed(profile_, mode) : profile_;
   profile.rearrangement = how;
-  all.rearrange(model_, x, y, stored.got_values.data(), profile);
+  all.rearrange(model_, x, y, stored, profile);
 }
 
 bool SecondTier::accepts(enclosed::Rearrangement how, int x, int y, const Stored& stored, const std::vector<enclosed::CodeRange>& nearest,

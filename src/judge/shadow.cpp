@@ -44,6 +44,12 @@ class Shadow {
       : plan_(plan),
         files_(folder, plan.effect, plan.variant, options.buffers ? options.buffers : std::make_shared<ReadBuffers>()),
         options_(options) {
+    for (const auto& [buffer, own] : files_.info().encodings)
+      if (!own.members.empty())
+        throw Error(ExitCode::port_files,
+                    fmt::format("'{}': encodings.{}: expected whole records, found some members: a port's own run has no expected record "
+                                "that gives the others",
+                                (files_.folder() / "port.json").string(), buffer));
     for (const PlannedRun& r : plan.runs) runs_.push_back({r.c.folder(), r.c.pass, r.c.frame, r.c.step, r.c.level, &r, &r, false});
     for (const DumpedRun& d : dumped) {
       const auto known = std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == d.id; });
@@ -84,7 +90,8 @@ class Shadow {
     for (PassJudgement& judged : result.passes) settle(judged);
     result.files = faults_.all();
     set_first_bad(result);
-    result.notes.insert(result.notes.end(), files_.notes().begin(), files_.notes().end());
+    const std::vector<std::string> notes = files_.notes();
+    result.notes.insert(result.notes.end(), notes.begin(), notes.end());
     for (const Tally* tally : {&host_.foreign, &host_.rounded, &host_.of_state, &unchecked_})
       for (const std::string& line : tally->lines()) result.notes.push_back(line);
     conclude(result);
@@ -112,7 +119,7 @@ class Shadow {
   }
 
   // ---- files ---------------------------------------------------------------------------------------------------------
-  Array read_input(const Run& run, std::size_t i) {
+  Array read_input(const Run& run, std::size_t i, port_dump::KeptForm* kept = nullptr) {
     const capture::CaseInput& input = run.like->c.inputs[i];
     const std::string stem = "in." + input.name;
     const std::vector<std::string> shared = run.plan ? run.plan->input_stems[i] : std::vector<std::string>();
@@ -126,7 +133,7 @@ class Shadow {
         Array all;
         for (std::size_t level = 0; level < shared.size(); ++level) {
           const fs::path path(shared[level]);
-          Array one = files_.read(path.parent_path(), path.filename().string(), level_of(input.array, static_cast<int>(level)));
+          Array one = files_.read(path.parent_path(), path.filename().string(), level_of(input.array, static_cast<int>(level)), kept);
           if (level == 0)
             all = std::move(one);
           else
@@ -135,7 +142,7 @@ class Shadow {
         return all;
       }
     }
-    return files_.read(run.id, stem, input.array);
+    return files_.read(run.id, stem, input.array, kept);
   }
   std::vector<std::byte> read_uniforms(const Run& run) const {
     fs::path path = files_.folder() / run.id / "uniforms.bin";
@@ -150,9 +157,9 @@ class Shadow {
                   fmt::format("'{}': expected the {} bytes of the uniform block, found {}", path.string(), size, bytes.size()));
     return bytes;
   }
-  Array read_output(const Run& run, std::size_t o) {
+  Array read_output(const Run& run, std::size_t o, port_dump::KeptForm* kept = nullptr) {
     const capture::CaseOutput& output = run.like->c.outputs[o];
-    return files_.read(run.id, "out." + output.name, output.array);
+    return files_.read(run.id, "out." + output.name, output.array, kept);
   }
   /// Reads a buffer by its name in DumpedContents.
   Array read_buffer(const std::string& buffer) {
@@ -257,9 +264,14 @@ class Shadow {
       return out;
     }
     out.c.uniforms = read_uniforms(run);
-    for (std::size_t i = 0; i < out.c.inputs.size(); ++i) out.c.inputs[i].array = read_input(run, i);
+    for (std::size_t i = 0; i < out.c.inputs.size(); ++i) {
+      port_dump::KeptForm kept;
+      out.c.inputs[i].array = read_input(run, i, &kept);
+      if (kept && kept->widest > 0)
+        out.untested = fmt::format("encodings.{}: its form rounds, so what the run took is not known to the bit", out.c.inputs[i].name);
+    }
     for (std::size_t o = 0; o < out.c.outputs.size(); ++o) {
-      out.stored.push_back(read_output(run, o));
+      out.stored.push_back(read_output(run, o, &out.kept.emplace_back()));
       out.c.outputs[o].array = out.stored.back();  // until the reference's are computed
     }
     std::string fault = capture::uniform_fault(*registry::effect_of_pack(plan_.effect).info, out.c);

@@ -25,7 +25,7 @@ void ShortCuts::count(const Sample& sample) {
   sample.each(std::max<std::int64_t>(1, sample.size() / 1024), [&](int x, int y) {
     std::array<bool, 2> is_held = bits_.stores(x, y);
     if (!is_held[0] && !is_held[1] && has_parts()) {
-      stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
+      stored.read(slots_, case_, model_, *options_.profile, port_, x, y, options_.kept);
       for (int part = 0; part < model_.parts() && !is_held[0] && !is_held[1]; ++part) {
         find_in_part(part, x, y, stored, work);
         for (std::size_t m = 0; m < 2; ++m) is_held[m] = work.is_held[m] != 0;
@@ -69,7 +69,7 @@ bool ShortCuts::lies_inside(int x, int y, Stored& stored, Work& work) const {
     device_.find(x, y, work.is_held);
     if (is_enough(work.is_held)) return true;
   }
-  stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
+  stored.read(slots_, case_, model_, *options_.profile, port_, x, y, options_.kept);
   if (stored.any_impossible) return false;
   for (int part = 0; has_parts() && part < model_.parts(); ++part) {
     find_in_part(part, x, y, stored, work);
@@ -90,7 +90,7 @@ void ShortCuts::find_in_part(int part, int x, int y, const Stored& stored, Work&
   work.is_held.assign(modes_.size(), 1);
   for (const enclosed::Profile* profile : {options_.profile, options_.typical}) {
     if (!profile || std::find(work.is_held.begin(), work.is_held.end(), 1) == work.is_held.end()) continue;
-    work.parts.run_part(model_, part, x, y, stored.got_values.data(), *profile);
+    work.parts.run_part(model_, part, x, y, stored, *profile);
     for (std::size_t m = 0; m < modes_.size(); ++m) {
       bool is_inside = false;
       for (int a = 0; a < work.parts.count && work.is_held[m] && !is_inside; ++a) {

@@ -7,6 +7,7 @@
 #include "capture/pass_model.h"
 #include "image/code_range.h"
 #include "judge/verdict.h"
+#include "port_dump/kept.h"
 
 namespace rainref::judge {
 
@@ -37,9 +38,9 @@ std::vector<Slot> slots_of(const capture::PassCase& c, const capture::PassModel&
 /// index is the key. Such a list is a row of texels.
 bool is_placed(const capture::CaseOutput& output);
 
-/// Explains why a list of records without ids cannot be judged, or returns "": "out.drops: expected 10 records, found 0". `stored`: in the
-/// order of c.outputs.
-std::string length_fault(const capture::PassCase& c, const std::vector<capture::Array>& stored);
+/// Explains why a list of records that are matched by their place cannot be judged, or returns "": "out.drops: expected 10 records, found
+/// 0". `stored`: in the order of c.outputs. `kept`: what its form leaves open.
+std::string length_fault(const capture::PassCase& c, const std::vector<capture::Array>& stored, const port_dump::KeptForms& kept);
 
 /// Converts a stored value as a shader reads it.
 float stored_value(const Slot& slot, const std::byte* at);

@@ -14,7 +14,7 @@ std::optional<std::array<double, 2>> free_range(const PassModel& model, std::siz
 }
 
 void Stored::read(const std::vector<Slot>& slots, const PassCase& c, const PassModel& model, const enclosed::Profile& profile,
-                  const std::vector<Array>& port, int x, int y) {
+                  const std::vector<Array>& port, int x, int y, const port_dump::KeptForms* kept) {
   const std::size_t n = slots.size();
   got.resize(n);
   expected.resize(n);
@@ -24,6 +24,7 @@ void Stored::read(const std::vector<Slot>& slots, const PassCase& c, const PassM
   free.resize(n);
   impossible.resize(n);
   any_impossible = false;
+  spread.clear();
   for (std::size_t v = 0; v < n; ++v) {
     const Slot& s = slots[v];
     const std::size_t o = static_cast<std::size_t>(s.output);
@@ -37,11 +38,15 @@ void Stored::read(const std::vector<Slot>& slots, const PassCase& c, const PassM
     free[v] = range.has_value();
     impossible[v] = is_nan(s.kind, have) || (range && !(got_values[v] >= (*range)[0] && got_values[v] <= (*range)[1]));
     any_impossible |= impossible[v] != 0;
+    if (!kept || kept->empty() || !(*kept)[o] || (*kept)[o]->spread.empty()) continue;
+    spread.resize(n);
+    const auto texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(s.width) + static_cast<std::size_t>(x);
+    spread[v] = (*kept)[o]->spread[texel * static_cast<std::size_t>(s.texel_bytes / s.channel_bytes) + static_cast<std::size_t>(s.channel)];
   }
 }
 
 bool holds(const enclosed::Profile& profile, const Stored& stored, std::size_t v, const CodeRange& range) {
-  if (profile.reference) return stored.same[v];
+  if (profile.reference && stored.is_known(v)) return stored.same[v];
   return stored.free[v] ? !stored.impossible[v] : range.contains(stored.got[v]);
 }
 bool inside(const enclosed::Profile& profile, const std::vector<CodeRange>& ranges, const Stored& stored) {

@@ -65,6 +65,7 @@ PortRun read_run(const Pack& pack, const PackCase& entry, const FusedInputs& fus
     const capture::CaseOutput& output = run.c.outputs[o];
     if (!is_judged(entry.outputs[o])) {
       run.stored.push_back(output.array);
+      run.kept.push_back(nullptr);
       continue;
     }
     const std::string stem = "out." + output.name;
@@ -72,7 +73,14 @@ PortRun read_run(const Pack& pack, const PackCase& entry, const FusedInputs& fus
       for (const std::string& file : port_dump::stems_of(stem, port.info()))
         require_apart(pack.folder() / entry.outputs[o].levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, file).path,
                       ExitCode::port_files);
-      run.stored.push_back(port.read(entry.id, stem, output.array));
+      port_dump::KeptForm kept;
+      capture::Array own = port.read(entry.id, stem, output.array, &kept);
+      if (output.judge == capture::Judge::bits && kept && kept->widest > 0)
+        throw Error(ExitCode::port_files,
+                    fmt::format("'{}': encodings.{}: expected an exact form, as its bits are judged, found one that rounds",
+                                (port.folder() / "port.json").string(), output.name));
+      run.stored.push_back(std::move(own));
+      run.kept.push_back(std::move(kept));
     });
   }
   faults.require_files();
@@ -193,7 +201,8 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     if (options.wants(pass.name))
       result.passes.push_back(absent.contains(pass.name) ? without_files(pass, fused.last_of(pass.name)) : std::move(*next++));
   for (const FileFaults& own : faults) result.files.insert(result.files.end(), own.all().begin(), own.all().end());
-  result.notes.insert(result.notes.end(), port.notes().begin(), port.notes().end());
+  const std::vector<std::string> notes = port.notes();
+  result.notes.insert(result.notes.end(), notes.begin(), notes.end());
   for (const PassJudgement& pass : result.passes)
     for (const std::string& from : fused.computed_for(pass.pass))
       if (!pass.cases.empty()) result.notes.push_back(fused_note(pack, port, pass.pass, from));

@@ -89,7 +89,8 @@ void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, c
     const auto entry = std::find_if(pack.cases.begin(), pack.cases.end(), [&](const auto& c) { return c.id == id; });
     if (entry == pack.cases.end()) return std::nullopt;
     StoredRun run{judge::read_case(pack, *entry), {}, pack.pass(entry->pass).block};
-    for (const capture::CaseOutput& output : run.c.outputs) run.stored.push_back(files.read(id, "out." + output.name, output.array));
+    for (const capture::CaseOutput& output : run.c.outputs)
+      run.stored.push_back(files.read(id, "out." + output.name, output.array, &run.kept.emplace_back()));
     return run;
   };
   judging::ask_shaders(

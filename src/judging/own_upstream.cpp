@@ -70,6 +70,7 @@ void judge_with(const FailedRun& failed, PassCase& c, judge::Cause& cause) {
   judge::JudgeOptions options = failed.options;
   options.half_mode = failed.half_mode;
   options.typical = nullptr;
+  options.kept = &failed.run.kept;
   const judge::ModeJudgements judged = judge::judge_case(c, model.get(), failed.run.stored, options);
   const CaseJudgement& now = judged.judgements.front();
   const auto texels = static_cast<std::size_t>(model->width()) * static_cast<std::size_t>(model->height());

@@ -39,10 +39,13 @@ Places places_of(const judge::CaseJudgement& judged, const PassModel& model) {
 }
 
 /// True if a model may give the stored values; nothing if it has too many alternatives, or no bound.
-std::optional<bool> may_give(const PassModel& model, const std::vector<judge::Slot>& slots, const std::vector<Array>& stored, int x, int y,
-                             const enclosed::Profile& profile, judge::HalfMode mode) {
+std::optional<bool> may_give(const PassCase& c, const PassModel& model, const std::vector<judge::Slot>& slots,
+                             const std::vector<Array>& port, int x, int y, const enclosed::Profile& profile, judge::HalfMode mode,
+                             const port_dump::KeptForms* kept) {
+  judge::Stored stored;
+  stored.read(slots, c, model, profile, port, x, y, kept);
   judge::Alternatives all;
-  all.run(model, x, y, nullptr, profile);
+  all.run(model, x, y, stored, profile);
   if (all.gave_up) return std::nullopt;
   bool is_open = false;
   std::vector<enclosed::CodeRange> ranges;
@@ -51,7 +54,7 @@ std::optional<bool> may_give(const PassModel& model, const std::vector<judge::Sl
     bool holds = true;
     for (std::size_t v = 0; v < slots.size(); ++v) {
       is_open |= ranges[v].is_vacuous();
-      holds &= ranges[v].contains(slots[v].code(stored[static_cast<std::size_t>(slots[v].output)], x, y));
+      holds &= ranges[v].contains(stored.got[v]);
     }
     if (holds && !is_open) return true;
   }
@@ -75,8 +78,9 @@ std::string answer_of(const judge::PassJudgement& pass, const LoadStored& load, 
   const std::unique_ptr<PassModel> reference = judge::bound(pass.pass, bind(pass.pass), run->c);
   if (shader->values() != reference->values()) return "";
   const bool fails = most->failing > 0;
-  return sentence(
-      ask_shader(run->c, *reference, *shader, run->stored, places_of(*most, *reference), judge::profile(profile), pass.half_mode), fails);
+  return sentence(ask_shader(run->c, *reference, *shader, run->stored, places_of(*most, *reference), judge::profile(profile),
+                             pass.half_mode, &run->kept),
+                  fails);
 }
 
 /// The port's programs for a failing run, as far as they can be traced. ask_shaders() reports why they cannot.
@@ -110,14 +114,14 @@ std::unique_ptr<capture::TracedProgram> program_model(const Programs& programs, 
 }
 
 ShaderAnswer ask_shader(const PassCase& c, const PassModel& reference, const PassModel& shader, const std::vector<Array>& stored,
-                        const Places& places, const enclosed::Profile& profile, judge::HalfMode mode) {
+                        const Places& places, const enclosed::Profile& profile, judge::HalfMode mode, const port_dump::KeptForms* kept) {
   const judge::InvocationJudge by_reference(c, reference, profile, mode);
   const std::vector<judge::Slot> slots = judge::slots_of(c, reference);
   ShaderAnswer answer;
   std::vector<Array> in_float = stored;
   std::vector<scalar::Scalar<float>> values(slots.size());
   for (const auto& [x, y] : places) {
-    const std::optional<bool> is_said = may_give(shader, slots, stored, x, y, profile, mode);
+    const std::optional<bool> is_said = may_give(c, shader, slots, stored, x, y, profile, mode, kept);
     if (!is_said) continue;
     ++answer.tried;
     answer.said += *is_said;

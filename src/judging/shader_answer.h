@@ -27,7 +27,7 @@ struct ShaderAnswer {
 /// `stored` holds the port's outputs in the order of c.outputs; `places` are texels. Both models must have the same values.
 ShaderAnswer ask_shader(const capture::PassCase& c, const capture::PassModel& reference, const capture::PassModel& shader,
                         const std::vector<capture::Array>& stored, const std::vector<std::array<int, 2>>& places,
-                        const enclosed::Profile& profile, judge::HalfMode mode);
+                        const enclosed::Profile& profile, judge::HalfMode mode, const port_dump::KeptForms* kept = nullptr);
 /// The conclusion for a pass that fails or passes; "" if there is none.
 std::string sentence(const ShaderAnswer& answer, bool fails);
 
@@ -47,7 +47,8 @@ std::string block_fault(const scene::UniformBlock& block, const spirv::Module& s
 struct StoredRun {
   capture::PassCase c;
   std::vector<capture::Array> stored;
-  scene::UniformBlock block;  ///< uniform block of its pass
+  scene::UniformBlock block;       ///< uniform block of its pass
+  port_dump::KeptForms kept = {};  ///< what the forms of `stored` leave open
 };
 /// Returns the run of this id; nothing if it was not judged.
 using LoadStored = std::function<std::optional<StoredRun>(const std::string& id)>;

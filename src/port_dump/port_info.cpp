@@ -25,17 +25,31 @@ std::string api_text(const capture::JsonField& field) {
                            did_you_mean(text.substr(0, text.find_first_of(" 0123456789")), names)));
 }
 
+std::vector<ChannelSource> channels_of(const capture::JsonField& list) {
+  const std::vector<std::string> texts = list.texts();
+  if (texts.empty() || texts.size() > 4) list.refuse(fmt::format("expected 1 to 4 channels, found {}", texts.size()));
+  std::vector<ChannelSource> out(texts.size());
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    if (!parse_source(texts[i], out[i]))
+      list.refuse(fmt::format("expected a channel such as x, -y, 1-g, newest.x, 0.5*x+0.5 or x-y, found '{}'", texts[i].substr(0, 64)));
+  return out;
+}
+
+std::vector<std::string> members_of(const capture::JsonField& object) {
+  static const std::array<std::string, 1> keys{"members"};
+  object.require_known(keys);
+  std::vector<std::string> out = object["members"].texts();
+  if (out.empty()) object["members"].refuse("expected the members that the port's records have, found none");
+  return out;
+}
+
 Encodings encodings_of(const capture::JsonField& object) {
   Encodings out;
-  for (const auto& [buffer, list] : object.members()) {
-    const std::vector<std::string> texts = list.texts();
-    if (texts.empty() || texts.size() > 4) list.refuse(fmt::format("expected 1 to 4 channels, found {}", texts.size()));
-    for (const std::string& text : texts) {
-      ChannelSource source;
-      if (!parse_source(text, source))
-        list.refuse(fmt::format("expected a channel such as x, -y, 1-g or newest.x, found '{}'", text.substr(0, 64)));
-      out[buffer].push_back(std::move(source));
-    }
+  for (const auto& [buffer, own] : object.members()) {
+    if (own.is_object())
+      out[buffer].members = members_of(own);
+    else
+      out[buffer].channels = channels_of(own);
   }
   return out;
 }

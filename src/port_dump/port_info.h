@@ -28,8 +28,8 @@ struct PortInfo {
 };
 
 /// The keys api, device, driver, half_store ("rne", "rtz", "unknown"), flush_denormals, origin ("top-left", "bottom-left"), encodings
-/// (lists of sources by buffer), precise and notes, each optional; `file` is quoted and starts every message. Throws Error(port_files) with
-/// the key, expected, found, and the nearest known key or API.
+/// (sources or members by buffer), precise and notes, each optional; `file` is quoted and starts every message. Throws Error(port_files)
+/// with the key, expected, found, and the nearest known key or API.
 PortInfo parse_port_info(std::string_view text, const std::string& file);
 
 /// port.json of the folder; the defaults above if there is none. Throws Error(io) if it cannot be read.

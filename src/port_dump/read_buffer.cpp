@@ -13,6 +13,7 @@
 #include "port_dump/dds.h"
 #include "port_dump/encoding.h"
 #include "port_dump/raw_bytes.h"
+#include "port_dump/read_encoded.h"
 #include "port_dump/sidecar.h"
 #include "port_dump/stored_records.h"
 #include "rainref/error.h"
@@ -70,10 +71,10 @@ std::vector<StoredImage> dds_levels(const FileBytes& file, const capture::Array&
 }
 
 // A picture file, decoded only if its size is right.
-StoredImage picture(const FileBytes& file, const capture::Array& expected, int level, image_io::Evidence& storage) {
+StoredImage picture(const FileBytes& file, const capture::Array& expected, int level, Kinds kinds, image_io::Evidence& storage) {
   const image_io::EvidenceSize size = image_io::evidence_size(file.file, file.bytes);
   check_level_size(file.file, size.width, size.height, expected, level);
-  if (file.type == FileType::png && info(expected.format).channel_bytes != 1) {
+  if (file.type == FileType::png && kinds == Kinds::own && info(expected.format).channel_bytes != 1) {
     refuse(file, fmt::format("a PNG holds 8-bit codes, the buffer is {}: the exporter has quantized; save EXR or NPY",
                              info(expected.format).name));
   }
@@ -87,6 +88,16 @@ StoredImage picture(const FileBytes& file, const capture::Array& expected, int l
   out.rows = storage.texels;
   for (const image_io::Evidence::Channel& channel : storage.channels) out.channels.push_back({channel.kind, channel.offset});
   return out;
+}
+
+// The format of the file's own values. Levels before it in `out` have set it.
+Format format_in(const FileBytes& file, const StoredImage& stored, int channels, const capture::Array& out) {
+  const Kind kind = stored.channels.front().kind;
+  const std::optional<Format> format = format_of(kind, channels);
+  if (!format) refuse(file, fmt::format("expected {} channels, found {}", channels, kind_text(kind)));
+  if (!out.levels.empty() && *format != out.format)
+    refuse(file, fmt::format("expected {} as level 0 has, found {}", kind_text(info(out.format).kind), kind_text(kind)));
+  return *format;
 }
 
 // A longer file than any accepted layout of the buffer is refused before it is read.
@@ -128,7 +139,7 @@ struct LoadedFile {
 }  // namespace
 
 void read_levels(const FileBytes& file, const capture::Array& expected, int level, const PortInfo& port, capture::Array& out,
-                 ReadNotes& notes, Alpha alpha) {
+                 ReadNotes& notes, Alpha alpha, Kinds kinds) {
   image_io::Evidence storage;  // outlives the views of it
   std::vector<StoredImage> levels;
   Origin origin = port.origin;
@@ -138,7 +149,7 @@ void read_levels(const FileBytes& file, const capture::Array& expected, int leve
       break;
     case FileType::exr:
     case FileType::png:
-      levels = {picture(file, expected, level, storage)};
+      levels = {picture(file, expected, level, kinds, storage)};
       break;
     case FileType::dds:
       levels = dds_levels(file, expected, level, notes);
@@ -152,9 +163,11 @@ void read_levels(const FileBytes& file, const capture::Array& expected, int leve
       break;
     }
   }
+  capture::Array wanted = expected;
+  if (kinds == Kinds::any) out.format = wanted.format = format_in(file, levels.front(), info(expected.format).channels, out);
   for (StoredImage& stored : levels) {
     stored.bottom_up = origin == Origin::bottom_left;
-    out.levels.push_back(canonical_level(stored, expected, level++, notes, alpha));
+    out.levels.push_back(canonical_level(stored, wanted, level++, notes, alpha));
   }
 }
 
@@ -181,12 +194,14 @@ void read_records(const FileBytes& file, const capture::Array& expected, capture
 }
 
 capture::Array read_port_buffer(const std::filesystem::path& folder, std::string_view stem, const capture::Array& expected,
-                                const PortInfo& port, ReadNotes& notes, Alpha alpha) {
+                                const PortInfo& port, ReadNotes& notes, Alpha alpha, Kinds kinds) {
   if (expected.levels.empty() || (!expected.is_records && (expected.width < 1 || expected.height < 1))) {
     throw Error(ExitCode::internal, fmt::format("buffer '{}' was asked for without a size", stem));
   }
+  notes.kept = nullptr;
   if (const auto own = port.encodings.find(buffer_of(stem)); own != port.encodings.end())
-    return read_encoded(folder, stem, expected, own->second, port, notes);
+    return own->second.channels.empty() ? read_members(folder, stem, expected, own->second, port, notes)
+                                        : read_channels(folder, stem, expected, own->second, port, notes);
   capture::Array out = expected;
   out.levels.clear();
   if (expected.is_records) {
@@ -197,7 +212,7 @@ capture::Array read_port_buffer(const std::filesystem::path& folder, std::string
   while (out.levels.size() < expected.levels.size()) {
     const std::size_t level = out.levels.size();
     const LoadedFile loaded(folder, level == 0 ? std::string(stem) : fmt::format("{}.L{}", stem, level), expected);
-    read_levels(loaded.view(), expected, static_cast<int>(level), port, out, notes, alpha);
+    read_levels(loaded.view(), expected, static_cast<int>(level), port, out, notes, alpha, kinds);
   }
   return out;
 }

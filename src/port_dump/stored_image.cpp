@@ -140,6 +140,16 @@ void StoredImage::set_channels(FormatInfo::Kind kind, std::size_t count) {
   texel_bytes = count * bytes;
 }
 
+std::optional<Format> format_of(FormatInfo::Kind kind, int channels) {
+  std::optional<Format> best;
+  for (int i = 0; i <= static_cast<int>(Format::r32ui); ++i) {
+    const FormatInfo& f = info(static_cast<Format>(i));
+    if (f.kind != kind || f.channels < channels || (best && f.channels >= info(*best).channels)) continue;
+    best = static_cast<Format>(i);
+  }
+  return best;
+}
+
 std::string kind_text(FormatInfo::Kind kind) {
   switch (kind) {
     case Kind::unorm8:

@@ -3,18 +3,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "capture/array.h"
+#include "port_dump/kept.h"
 #include "rainref/image.h"
 
 namespace rainref::port_dump {
 
-/// Notes about an accepted file for the reader of the report: one sentence each, with the file.
+/// Notes about an accepted file for the reader of the report, one sentence each, with the file; and what its form leaves open.
 struct ReadNotes {
   std::vector<std::string> lines;
+  KeptForm kept;  ///< of the buffer that was read last
 };
 
 /// Texels in memory that outlives this. Integers and floats are little endian.
@@ -37,6 +40,11 @@ struct StoredImage {
 
 /// The buffer's fourth channel: stored, or the constant 1, which an image of three channels omits.
 enum class Alpha : std::uint8_t { stored, one };
+
+/// The kinds of values that a file may hold: the buffer's own, or any (encoding.h).
+enum class Kinds : std::uint8_t { own, any };
+/// The format of this kind with the fewest channels that has `channels` of them; nothing if none has.
+std::optional<Format> format_of(FormatInfo::Kind kind, int channels);
 
 /// "halves", "8-bit codes": for messages.
 std::string kind_text(FormatInfo::Kind kind);

@@ -109,6 +109,20 @@ class HostShadowTest : public ShadowTest {
   }
 };
 
+// A step is computed from what the port took. A form that rounds does not tell it, and no record is expected that would give an id.
+TEST_F(ShadowTest, AFormThatLeavesAnInputOpenJudgesNothing) {
+  port.run(folder.path());
+  put(file("port.json"), R"({"encodings": {"wave": ["x+0", "y+0"]}})");
+  const PortJudgement j = judge_dump();
+  EXPECT_EQ(pass_of(j, "wave_step").status, Status::untested) << why(j);
+  EXPECT_THAT(pass_of(j, "wave_step").reason + pass_of(j, "wave_step").cases.front().reason,
+              HasSubstr("encodings.wave: its form rounds, so what the run took is not known to the bit"));
+  EXPECT_EQ(pass_of(j, "display").status, Status::pass) << why(j);
+  put(file("port.json"), R"({"encodings": {"drops": {"members": ["x"]}}})");
+  EXPECT_THAT(error_of([&] { judge_dump(); }),
+              AllOf(StartsWith("3 "), HasSubstr("encodings.drops: expected whole records, found some members")));
+}
+
 // Truncating stores and fused products: after four steps its water is not the reference's, and every step is right.
 TEST_F(ShadowTest, AFreeRunOfAConformingDevicePasses) {
   port.stores = HalfMode::rtz;

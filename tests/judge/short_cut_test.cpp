@@ -181,7 +181,7 @@ TEST_P(ShortCut, PartsLieInTheirEnvelopes) {
           Stored stored;
           stored.read(slots, *b.c, model, p, port, x, y);
           Alternatives parts, all;
-          parts.run_part(model, part, x, y, stored.got_values.data(), p);
+          parts.run_part(model, part, x, y, stored, p);
           const bool takes_ends = parts.count > 0 && words.coin();
           for (std::size_t v = 0; v < slots.size(); ++v) {
             std::byte* at = port[static_cast<std::size_t>(slots[v].output)].levels[0].edit().data() + slots[v].offset(x, y);
@@ -192,7 +192,7 @@ TEST_P(ShortCut, PartsLieInTheirEnvelopes) {
                   at, [&](std::uint32_t code) { return code == 0 ? code : code + static_cast<std::uint32_t>(words() % 7) - 3; });
           }
           stored.read(slots, *b.c, model, p, port, x, y);
-          parts.run_part(model, part, x, y, stored.got_values.data(), p);
+          parts.run_part(model, part, x, y, stored, p);
           if (parts.count == 0) continue;
           ++offered;
           all.run(model, x, y, stored.got_values.data(), p);

@@ -98,10 +98,11 @@ TEST(Document, ItsJsonIsAccepted) {
   for (std::size_t at = text.find("```json\n"); at != std::string::npos; at = text.find("```json\n", at + 8)) {
     blocks.push_back(text.substr(at + 8, text.find("```", at + 8) - at - 8));
   }
-  ASSERT_EQ(blocks.size(), 2u);
+  ASSERT_EQ(blocks.size(), 3u);
   EXPECT_EQ(parse_port_info(blocks[0], "'port.json'").half_store, Rounding::rtz);
+  EXPECT_EQ(parse_port_info(blocks[1], "'port.json'").encodings["drops"].members.size(), 4u);
   Dump dump;
-  dump.file("out.b.bin", std::string(256 * 37, 'x')).file("out.b.json", blocks[1]);
+  dump.file("out.b.bin", std::string(256 * 37, 'x')).file("out.b.json", blocks[2]);
   EXPECT_EQ(dump.level(image(Format::rg16f, 61, 37)).size(), 61u * 37 * 4);
 }
 

@@ -1,4 +1,5 @@
-// Buffers that a port keeps in its own way: other channels, signs and files, told in port.json. Every conversion is exact.
+// Buffers that a port keeps in its own way, told in port.json: what is written there, and where the bits come from. conversion_test.cpp
+// has the numbers.
 #include "port_dump/encoding.h"
 
 #include "math/half.h"
@@ -8,7 +9,7 @@ namespace rainref::port_dump {
 namespace {
 
 using ::testing::HasSubstr;
-using Change = ChannelSource::Change;
+using Form = ChannelSource::Form;
 
 std::string halves(std::initializer_list<float> values) {
   std::string out;
@@ -38,15 +39,26 @@ struct Encoded {
 TEST(Encoding, SourcesAreParsed) {
   const auto of = [](const char* text) {
     ChannelSource s;
-    return parse_source(text, s) ? fmt::format("{}/{}/{}", s.file, s.channel, static_cast<int>(s.change)) : "no";
+    if (!parse_source(text, s)) return std::string("no");
+    std::string out;
+    for (const ChannelTerm& t : s.terms) out += fmt::format("{}{}*{}/{}", out.empty() ? "" : " + ", t.scale, t.file, t.channel);
+    return fmt::format("{} + {}: {}", out, s.bias, static_cast<int>(s.form));
   };
-  EXPECT_EQ(of("x"), "/0/0");
-  EXPECT_EQ(of("a"), "/3/0");
-  EXPECT_EQ(of("-y"), "/1/1");
-  EXPECT_EQ(of("1-g"), "/1/2");
-  EXPECT_EQ(of("newest.x"), "newest/0/0");
-  EXPECT_EQ(of("-flow_2.w"), "flow_2/3/1");
-  for (const char* bad : {"", "-", "1-", "q", "xy", "--x", ".x", "../secret.x", "a/b.x", "2-x", "newest."}) EXPECT_EQ(of(bad), "no") << bad;
+  EXPECT_EQ(of("x"), "1*/0 + 0: 0");
+  EXPECT_EQ(of("a"), "1*/3 + 0: 0");
+  EXPECT_EQ(of("-y"), "-1*/1 + 0: 1");
+  EXPECT_EQ(of("1-g"), "-1*/1 + 1: 2");
+  EXPECT_EQ(of("newest.x"), "1*newest/0 + 0: 0");
+  EXPECT_EQ(of("-flow_2.w"), "-1*flow_2/3 + 0: 1");
+  EXPECT_EQ(of("0.5*x+0.5"), "0.5*/0 + 0.5: 3");
+  EXPECT_EQ(of("1*x"), "1*/0 + 0: 3");
+  EXPECT_EQ(of("2-x"), "-1*/0 + 2: 3");
+  EXPECT_EQ(of("x - y"), "1*/0 + -1*/1 + 0: 3");
+  EXPECT_EQ(of(" -1e-3 * state.z + 2.5e1 "), "-0.001*state/2 + 25: 3");
+  EXPECT_EQ(of("-0.25+x-0.02*flow.y+z"), "1*/0 + -0.02*flow/1 + 1*/2 + -0.25: 3");
+  for (const char* bad : {"",    "-",     "1-",  "q",  "xy",  "--x",   ".x",      "../secret.x", "a/b.x", "newest.", "0*x",     "1",
+                          "1+2", "x+1+2", "x*2", "2x", "x y", "inf*x", "1e999*x", "x+y+z+w+x",   "+x",    "0x2*x",   "1.2.3*x", "1e*x"})
+    EXPECT_EQ(of(bad), "no") << bad;
 }
 
 TEST(Encoding, ItsFilesAreKnown) {
@@ -91,19 +103,28 @@ TEST(Encoding, Refusals) {
   const std::string two = halves({1, 2});
   EXPECT_THAT(Encoded(R"({"b": ["x"]})").npy("out.b", "'<f2'", "(1, 1, 2)", two).level(image(Format::rg16f, 1, 1)),
               HasSubstr("encodings.b: expected 2 channels of rg16f, found 1"));
-  EXPECT_THAT(Encoded(R"({"b": ["1-x", "y"]})").npy("out.b", "'<f2'", "(1, 1, 2)", two).level(image(Format::rg16f, 1, 1)),
-              HasSubstr("1- is for codes of 8 bits, found rg16f"));
+  EXPECT_THAT(Encoded(R"({"b": ["2*x"]})").npy("out.b", "'<u4'", "(1, 1)", raw(7u)).level(image(Format::r32ui, 1, 1)),
+              HasSubstr("encodings.b: expected a channel without a number, as r32ui needs, found a sum"));
+  EXPECT_THAT(Encoded(R"({"b": ["2*x"]})").npy("out.b", "'<u4'", "(1, 1)", raw(7u)).level(image(Format::r16f, 1, 1)),
+              HasSubstr("expected halves, floats or 8-bit codes in out.b, found 32-bit unsigned integers"));
+  EXPECT_THAT(Encoded(R"({"b": ["x", "x-y"]})").npy("out.b", "'|u1'", "(1, 1, 2)", "ab").level(image(Format::rg16f, 1, 1)),
+              HasSubstr("expected rg16f as halves, found 8-bit codes"));
   EXPECT_THAT(Encoded(R"({"b": ["-x"]})").npy("out.b", "'|u1'", "(1, 1)", "a").level(image(Format::r8, 1, 1)), HasSubstr("r8 has no sign"));
   EXPECT_THAT(Encoded(R"({"b": ["x", "z"]})").npy("out.b", "'<f2'", "(1, 1, 2)", two).level(image(Format::rg16f, 1, 1)),
               HasSubstr("expected 4 channels of rgba16f, found 2"));
   EXPECT_THAT(Encoded(R"({"b": ["old.x", "x"]})").npy("out.b", "'<f2'", "(1, 1, 2)", two).level(image(Format::rg16f, 1, 1)),
               HasSubstr("'out.old'"));
   EXPECT_THAT(Encoded(R"({"b": ["x"]})").level(drops()), HasSubstr("a list has no channels"));
-  for (const auto& [text, why] : {std::pair{R"({"b": "x"})", "expected an array"},
-                                  {R"({"b": []})", "expected 1 to 4 channels, found 0"},
-                                  {R"({"b": ["x", "q"]})", "encodings.b: expected a channel such as x, -y, 1-g or newest.x, found 'q'"},
-                                  {R"({"b": ["../a.x"]})", "found '../a.x'"},
-                                  {R"(["x"])", "expected an object"}})
+  EXPECT_THAT(Encoded(R"({"b": {"members": ["x"]}})").level(image(Format::r8, 1, 1)), HasSubstr("an image has no members"));
+  for (const auto& [text, why] :
+       {std::pair{R"({"b": "x"})", "expected an array"},
+        {R"({"b": []})", "expected 1 to 4 channels, found 0"},
+        {R"({"b": ["x", "q"]})", "encodings.b: expected a channel such as x, -y, 1-g, newest.x, 0.5*x+0.5 or x-y, found 'q'"},
+        {R"({"b": ["../a.x"]})", "found '../a.x'"},
+        {R"({"b": {"member": ["x"]}})", "unknown key 'member'; did you mean 'members'?"},
+        {R"({"b": {"members": []}})", "expected the members that the port's records have, found none"},
+        {R"({"b": {}})", "encodings.b: 'members' is missing"},
+        {R"(["x"])", "expected an object"}})
     EXPECT_THAT(Encoded(text).level(image(Format::r8, 1, 1)), HasSubstr(why)) << text;
 }
 

@@ -103,6 +103,8 @@ class Dump {
     return error.substr(2);
   }
   const std::vector<std::string>& notes() const { return notes_.lines; }
+  /// What the form of the buffer leaves open that was read last.
+  const KeptForm& kept() const { return notes_.kept; }
   const std::filesystem::path& path() const { return folder_.path(); }
 
  private:
