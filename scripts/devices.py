@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""What the files of docs/devices say together (src/web/pages/census.html and examples/ports/wgsl/census.mjs make them).
+"""What the files of docs/devices say together (src/web/pages/census.html and examples/ports/wgsl/census.mjs make them), and those of
+docs/devices/verdicts (scripts/full/verdicts).
 
 scripts/devices.py table     the tables of docs/notes/devices.md, and the largest error of each function
-scripts/devices.py write     puts the former there
+scripts/devices.py write     puts the former there; exit code 1 where a port that computes nothing does not fail
+scripts/devices.py check     exit code 1 where they are not those of the files, or such a port does not fail
 scripts/devices.py typical   each number of src/judge/profiles/typical.toml against what was measured; exit code 1 where a device lies outside
                              that is not known to, or a known one no longer does
 """
@@ -14,8 +16,11 @@ import struct
 import sys
 import tomllib
 
+import verdicts
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "docs/notes/devices.md"
+VERDICTS = ROOT / "docs/devices/verdicts"
 BEGIN, END = "<!-- scripts/devices.py write -->\n", "<!-- end of scripts/devices.py write -->\n"
 
 # What lies outside `typical`, as (file, number of the profile): software devices, which approximate more coarsely than GPUs, whose habits the
@@ -111,7 +116,8 @@ def tables(found):
                        same(h["contraction"]), order_words(h["order"]), same(h["subnormals"])])
     return "\n".join([
         table(["file", "device", "run by", "passes of all small packs under `webgpu`"], who),
-        table(["file", "stores to halves", "sRGB store, furthest code", "loads of 8 bits", "sampler's weights", "`a * b + c`", "order", "subnormal floats"], habits)])
+        table(["file", "stores to halves", "sRGB store, furthest code", "loads of 8 bits", "sampler's weights", "`a * b + c`", "order", "subnormal floats"], habits)]
+        + [table(heads, rows) for heads, rows in verdicts.tables(verdicts.read(VERDICTS), found)])
 
 
 def errors(found):
@@ -353,13 +359,21 @@ def typical(found, profile, known):
 
 def main(arguments):
     verb = arguments[0] if arguments else ""
-    if len(arguments) != 1 or verb not in ("table", "write", "typical"):
-        sys.exit("usage: scripts/devices.py table|write|typical")
+    if len(arguments) != 1 or verb not in ("table", "write", "check", "typical"):
+        sys.exit("usage: scripts/devices.py table|write|check|typical")
     found = devices(ROOT / "docs/devices")
     if verb == "table":
         print(tables(found), errors(found), sep="\n", end="")
-    elif verb == "write":
-        DOCUMENT.write_text(document_with(DOCUMENT.read_text(), tables(found)))
+    elif verb in ("write", "check"):
+        text = DOCUMENT.read_text()
+        made = document_with(text, tables(found))
+        wrong = verdicts.faults(verdicts.read(VERDICTS))
+        if verb == "write":
+            DOCUMENT.write_text(made)
+        elif made != text:
+            wrong.append(f"{DOCUMENT}: its tables are not those of docs/devices: run scripts/devices.py write")
+        print("\n".join(wrong), end="\n" if wrong else "")
+        sys.exit(1 if wrong else 0)
     else:
         lines, good = typical(found, tomllib.loads((ROOT / "src/judge/profiles/typical.toml").read_text()), KNOWN)
         print("\n".join(lines))
