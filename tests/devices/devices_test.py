@@ -51,6 +51,21 @@ class Devices(unittest.TestCase):
         text = devices.DOCUMENT.read_text()
         self.assertEqual(text, devices.document_with(text, devices.tables(FOUND)), "scripts/devices.py write mends it")
 
+    def test_ports_that_compute_nothing_fail(self):
+        self.assertEqual(devices.verdicts.faults(devices.verdicts.read(devices.VERDICTS)), [])
+
+    def test_one_that_does_not_fail_is_found(self):
+        found = copy.deepcopy(devices.verdicts.read(devices.VERDICTS))
+        del found["noise"]
+        found["zeros"]["packs"][0]["verdicts"]["display"] = "UNTESTED"
+        pack = found["zeros"]["packs"][0]["pack"]
+        self.assertEqual(devices.verdicts.faults(found), ["noise: no such file", f"zeros: {pack} display: UNTESTED"])
+
+    def test_a_pack_that_has_changed_is_left_out(self):
+        census = {"ports": [{"pack": "a-b", "verdicts": {"PASS": 1, "WARN": 1}, "others": [{"pass": "y", "status": "WARN"}]}]}
+        self.assertEqual(devices.verdicts.of_census(census, {"a-b": ["x", "y"]}), [("a", "x", "PASS"), ("a", "y", "WARN")])
+        self.assertEqual(devices.verdicts.of_census(census, {"a-b": ["x", "y", "z"]}), [])
+
     def test_typical_is_not_narrower(self):
         lines, good = devices.typical(FOUND, PROFILE, devices.KNOWN)
         self.assertTrue(good, "\n".join(lines))

@@ -62,7 +62,7 @@ try {
   assert(pills.some(([status, text]) => status === "PASS" && text === `${passed} PASS`), JSON.stringify(pills));
 
   // The same browser gave a committed file: it has the same habits.
-  const committed = fs.readdirSync(devices).map(name => JSON.parse(fs.readFileSync(`${devices}/${name}`, "utf8")))
+  const committed = fs.readdirSync(devices).filter(name => name.endsWith(".json")).map(name => JSON.parse(fs.readFileSync(`${devices}/${name}`, "utf8")))
     .find(other => other.by.user_agent === census.by.user_agent && other.device.vendor === census.device.vendor);
   if (committed) assert.deepStrictEqual(census.habits, committed.habits);
 
