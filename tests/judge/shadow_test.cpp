@@ -112,7 +112,7 @@ class HostShadowTest : public ShadowTest {
 // A step is computed from what the port took. A form that rounds does not tell it, and no record is expected that would give an id.
 TEST_F(ShadowTest, AFormThatLeavesAnInputOpenJudgesNothing) {
   port.run(folder.path());
-  put(file("port.json"), R"({"encodings": {"wave": ["x+0", "y+0"]}})");
+  put(file("port.json"), R"({"encodings": {"wave": ["x+1", "y+1"]}})");
   const PortJudgement j = judge_dump();
   EXPECT_EQ(pass_of(j, "wave_step").status, Status::untested) << why(j);
   EXPECT_THAT(pass_of(j, "wave_step").reason + pass_of(j, "wave_step").cases.front().reason,
