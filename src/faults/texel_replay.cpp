@@ -188,8 +188,10 @@ TexelReplay::TexelReplay(const capture::PackPass& pass, const capture::PassCase&
       port_(port),
       reference_(finished_outputs(c, model, executor, mode)) {
   const std::vector<Texel> failing = failing_texels(judgement), passing = passing_texels(model, failing, judgement);
-  failing_ = spread(failing, judge::enough_failing);
-  few_passing_ = spread(passing, judge::enough_failing);
+  // So many show a share to a hundredth, and the search takes most of its time with mistakes that are tried on all of them.
+  constexpr std::size_t most = 128;
+  failing_ = spread(failing, most);
+  few_passing_ = spread(passing, most);
   many_passing_ = spread(passing, 20000);
   leeway_ = leeway_of(slots_, c, model, reference_, port, judgement, profile, failing_);
   constexpr std::size_t long_pass = 1500;

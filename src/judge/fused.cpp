@@ -136,7 +136,9 @@ void FusedInputs::replace(const PackCase& entry, PassCase& c, PortFiles* port) c
       const auto output = std::find_if(given.outputs.begin(), given.outputs.end(), [&](const auto& o) { return o.name == edge.input; });
       if (!takes(edge, entry.pass, from) || input == c.inputs.end() || output == given.outputs.end()) continue;
       if (is_given) {
-        input->array = port->read(source->id, "out." + edge.input, output->array);
+        port_dump::KeptForm kept;
+        input->array = port->read(source->id, "out." + edge.input, output->array, &kept);
+        if (kept && kept->widest > 0) throw needs_files(c, from, "their form in port.json rounds what was computed");
         are_ports_own = true;
         continue;
       }
