@@ -175,7 +175,7 @@ TEST(SampledVerdict, WhatOneRoundingHoldsIsJudgedWhole) {
   Made made(0, 200, Format::r16f);
   made.port[0] = reference_outputs(made.c, *made.model, test_executor(), HalfMode::rtz)[0];
   const ModeJudgements j = judge_case(made.c, made.model.get(), made.port,
-                                      {&profile("vulkan"), &profile("typical"), &test_executor(), std::nullopt, 1000, true});
+                                      {&profile("vulkan"), &profile("typical"), &test_executor(), std::nullopt, 1000, nullptr, true});
   ASSERT_EQ(j.judgements.size(), 3u);
   for (const CaseJudgement& one : j.judgements) EXPECT_FALSE(one.is_of_sample);
   EXPECT_GT(j.judgements[0].failing, 9000) << "two thirds of the thirds are no halves, and half of these round up";
