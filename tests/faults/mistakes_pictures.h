@@ -10,7 +10,7 @@ inline bool background_published(const Run& r, int x, int y, float* out) {
   float u = (static_cast<float>(x) + half) / r.u("resolution", r.is("height for width") ? 1 : 0),
         v = (static_cast<float>(y) + half) / r.u("resolution", 1);
   if (r.is("upside down")) v = 1 - v;
-  float level = 2.5f;
+  float level = r.u("level");
   if (r.is("level 3.5")) level = 3.5f;
   if (r.is("level 0")) level = 0;
   if (r.is("nearest level")) level = 3;
