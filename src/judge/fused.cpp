@@ -25,6 +25,22 @@ bool takes(const PackEdge& edge, const std::string& pass, const std::string& fro
   return edge.pass == pass && edge.from == from && !edge.previous;
 }
 
+/// Everything that an invocation may give for a value, with or without the rounding of its store.
+Enclosure everything_given(const Alternatives& all, std::size_t v, const Slot& slot, const enclosed::Profile& profile) {
+  if (all.gave_up) return Enclosure::vacuous();
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Enclosure out(infinity, -infinity);
+  for (int a = 0; a < all.count; ++a) {
+    const Enclosure& value = all.values[static_cast<std::size_t>(a)][v];
+    const enclosed::CodeRange codes = enclosed::code_range(slot.kind, value, rules_of(profile, HalfMode::either, slot.store_rounding));
+    if (value.is_vacuous() || codes.is_vacuous()) return Enclosure::vacuous();
+    const auto end_of = [&](std::int64_t code) { return static_cast<float>(enclosed::code_value(slot.kind, code)); };
+    out.lo = std::min({out.lo, value.lo, end_of(codes.lo)});
+    out.hi = std::max({out.hi, value.hi, end_of(codes.hi)});
+  }
+  return out;
+}
+
 /// Everything that a pass may give for an output, decoded.
 std::shared_ptr<const Uncertain> bounds_of(const PassCase& c, std::size_t output, const capture::PassModel& model,
                                            const enclosed::Profile& profile, const parallel::Executor& executor) {
@@ -46,18 +62,9 @@ std::shared_ptr<const Uncertain> bounds_of(const PassCase& c, std::size_t output
           const std::size_t at =
               (static_cast<std::size_t>(y) * static_cast<std::size_t>(array.width) + static_cast<std::size_t>(x)) * channels +
               static_cast<std::size_t>(slots[v].channel);
-          constexpr float infinity = std::numeric_limits<float>::infinity();
-          float &low = bounds->low[at], &high = bounds->high[at];
-          for (int a = 0; a < all.count; ++a) {
-            const Enclosure& value = all.values[static_cast<std::size_t>(a)][v];
-            const enclosed::CodeRange codes =
-                enclosed::code_range(slots[v].kind, value, rules_of(profile, HalfMode::either, slots[v].store_rounding));
-            const bool is_open = value.is_vacuous() || codes.is_vacuous();
-            const auto end_of = [&](std::int64_t code) { return static_cast<float>(enclosed::code_value(slots[v].kind, code)); };
-            low = std::min({low, value.lo, is_open ? -infinity : end_of(codes.lo)});
-            high = std::max({high, value.hi, is_open ? infinity : end_of(codes.hi)});
-          }
-          if (all.gave_up) low = -infinity, high = infinity;
+          const Enclosure given = everything_given(all, v, slots[v], profile);
+          bounds->low[at] = std::min(bounds->low[at], given.lo);
+          bounds->high[at] = std::max(bounds->high[at], given.hi);
         }
       }
   });

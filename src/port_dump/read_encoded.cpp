@@ -11,8 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "math/half.h"
-#include "math/unorm.h"
 #include "port_dump/conversion.h"
 #include "port_dump/kept.h"
 #include "port_dump/read_buffer.h"
@@ -46,17 +44,6 @@ void put_bits(std::byte* to, const std::byte* from, const FormatInfo& format, Fo
   const bool is_zero =
       std::all_of(to, to + bytes - 1, [](std::byte b) { return b == std::byte{0}; }) && (to[bytes - 1] & std::byte{0x7f}) == std::byte{0};
   to[bytes - 1] = is_zero ? std::byte{0} : to[bytes - 1] ^ std::byte{0x80};  // little endian; a zero has no sign
-}
-
-void put_value(std::byte* to, float value, Kind kind) {
-  const Half half = to_half(value);
-  const Unorm8 code = to_unorm8(value);
-  if (kind == Kind::float16)
-    std::memcpy(to, &half, sizeof half);
-  else if (kind == Kind::float32)
-    std::memcpy(to, &value, sizeof value);
-  else
-    std::memcpy(to, &code, sizeof code);
 }
 
 /// Puts a buffer together from the channels of a port's files.
@@ -130,7 +117,7 @@ class Channels {
         values.clear();
         for (const ChannelTerm& term : source.terms) values.push_back(stored(term, level, t));
         const Converted converted = convert(source, values, format_.kind, half_store_);
-        put_value(to, converted.value, format_.kind);
+        put_value(format_.kind, converted.value, to);
         const float widest = std::max(converted.below, converted.above);
         if (widest == 0) continue;
         kept.widest = std::max<double>(kept.widest, widest);

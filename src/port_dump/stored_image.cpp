@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "math/half.h"
+#include "math/unorm.h"
 #include "rainref/error.h"
 
 namespace rainref::port_dump {
@@ -85,24 +86,12 @@ bool is_same_layout(const StoredImage& stored, const FormatInfo& format) {
   return true;
 }
 
-/// Stores 1 in a channel.
-void put_one(FormatInfo::Kind kind, std::byte* out) {
-  const float one = 1;
-  const Half half = to_half(one);
-  if (kind == Kind::float32)
-    std::memcpy(out, &one, sizeof one);
-  else if (kind == Kind::float16)
-    std::memcpy(out, &half, sizeof half);
-  else
-    *out = std::byte{255};
-}
-
 void copy_row(const StoredImage& stored, const FormatInfo& format, std::size_t y, const std::byte* in, std::byte* out) {
   const auto bytes = static_cast<std::size_t>(format.channel_bytes);
   for (std::size_t x = 0; x < stored.width; ++x, in += stored.texel_bytes) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(format.channels); ++c, out += bytes) {
       if (c >= stored.channels.size()) {
-        put_one(format.kind, out);
+        put_value(format.kind, 1, out);
         continue;
       }
       const StoredImage::Channel& channel = stored.channels[c];
@@ -117,6 +106,17 @@ void copy_row(const StoredImage& stored, const FormatInfo& format, std::size_t y
 }
 
 }  // namespace
+
+void put_value(FormatInfo::Kind kind, float value, std::byte* out) {
+  const Half half = to_half(value);
+  const Unorm8 code = to_unorm8(value);
+  if (kind == FormatInfo::float32)
+    std::memcpy(out, &value, sizeof value);
+  else if (kind == FormatInfo::float16)
+    std::memcpy(out, &half, sizeof half);
+  else
+    std::memcpy(out, &code, sizeof code);
+}
 
 void check_level_size(const std::string& file, std::size_t width, std::size_t height, const capture::Array& expected, int level) {
   const auto wanted_width = static_cast<std::size_t>(expected.level_width(level));

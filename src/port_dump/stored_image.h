@@ -46,6 +46,9 @@ enum class Kinds : std::uint8_t { own, any };
 /// The format of this kind with the fewest channels that has `channels` of them; nothing if none has.
 std::optional<Format> format_of(FormatInfo::Kind kind, int channels);
 
+/// Stores a value as a half, a float or else an 8-bit code, rounded to nearest.
+void put_value(FormatInfo::Kind kind, float value, std::byte* out);
+
 /// "halves", "8-bit codes": for messages.
 std::string kind_text(FormatInfo::Kind kind);
 
