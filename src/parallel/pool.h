@@ -1,5 +1,5 @@
-// The threads behind an Executor: oneTBB's, plain ones under the thread sanitizer, or none. CMake compiles one of pool_tbb.cpp,
-// pool_threads.cpp and pool_serial.cpp.
+// The threads behind an Executor. CMake compiles one of pool_tbb.cpp, pool_team.cpp (without oneTBB), pool_threads.cpp (under the thread
+// sanitizer) and pool_serial.cpp (WebAssembly).
 //
 // oneTBB is not built with that sanitizer, which therefore sees no order between its workers: it reports either everything or, with the
 // library suppressed, nothing. Plain threads that take tiles in turn are ordered only by the start and end of a loop. So neighbouring tiles

@@ -1,4 +1,4 @@
-// Without threads: for platforms that have none (WebAssembly in a page that is not isolated) and builds without oneTBB.
+// Without threads: for a platform that has none, which is WebAssembly in a page that is not isolated.
 #include "parallel/pool.h"
 
 namespace rainref::parallel {
