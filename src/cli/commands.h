@@ -108,5 +108,7 @@ int import_file(const ImportRequest& request);
 int validate(const ValidateRequest& request);
 int mutate(const MutateRequest& request);
 int selftest();
+/// Judges a wrong port and the right one, into a folder.
+int demo(const std::filesystem::path& output);
 
 }  // namespace rainref::cli

@@ -224,4 +224,15 @@ Verb selftest_verb(CLI::App& app) {
   return {&verb, [] { return selftest(); }};
 }
 
+Verb demo_verb(CLI::App& app) {
+  CLI::App& verb = *app.add_subcommand("demo", "A first verdict: judge a port with one mistake, then the right one; no GPU needed");
+  const auto output = std::make_shared<std::string>("rainref-demo");
+  verb.add_option("-o,--output", *output, "Folder for the pack, both ports and the report (default: rainref-demo)")->type_name("DIR");
+  verb.footer("Example: rainref demo");
+  return {&verb, [output] {
+            require_text(*output, "--output", "a folder");
+            return demo(*output);
+          }};
+}
+
 }  // namespace rainref::cli

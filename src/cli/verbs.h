@@ -29,6 +29,7 @@ Verb mutate_verb(CLI::App& app);
 Verb import_verb(CLI::App& app);
 Verb sweep_verb(CLI::App& app);
 Verb selftest_verb(CLI::App& app);
+Verb demo_verb(CLI::App& app);
 
 /// Adds the program's description and all verbs. `command`: as typed.
 std::vector<Verb> add_verbs(CLI::App& app, const std::string& command);

@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders `scenes`, relative to the location of that file, because an installation may be moved. A build folder links to those of the
-/// sources.
-std::vector<fs::path> own_folders() {
+/// The folders of that name, relative to the location of this code's file, because an installation may be moved. A build folder links to
+/// the scenes of the sources.
+std::vector<fs::path> own_folders(const std::string& name = "scenes") {
   std::vector<fs::path> folders;
   const auto add = [&](const fs::path& here, const char* from_here) {
     std::error_code error;
-    const fs::path folder = fs::canonical(here / from_here, error);
+    const fs::path folder = fs::canonical((here / from_here).parent_path() / name, error);
     if (!error && std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
   };
   constexpr const char* from_any = "../share/rainref/scenes";
@@ -61,6 +61,11 @@ fs::path own_scene(const fs::path& named) {
   for (const fs::path& folder : own_folders())
     if (fs::is_regular_file(folder / name, none)) return folder / name;
   return {};
+}
+
+fs::path own_data(const std::string& name) {
+  const std::vector<fs::path> folders = own_folders(name);
+  return folders.empty() ? fs::path() : folders.front();
 }
 
 fs::path find_scene(const fs::path& named) {

@@ -13,6 +13,8 @@ namespace rainref::simulation {
 std::vector<std::string> own_scenes();
 /// The file of the bundled scene of that name, with or without ".toml" and "scenes/" before it; empty if there is none.
 std::filesystem::path own_scene(const std::filesystem::path& named);
+/// A folder of that name beside the bundled scenes, such as "demo"; empty if there is none.
+std::filesystem::path own_data(const std::string& name);
 
 /// Resolves a scene name given by a user: the file itself if it exists, else the bundled scene of that name, else the name unchanged.
 std::filesystem::path find_scene(const std::filesystem::path& named);

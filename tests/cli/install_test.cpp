@@ -244,6 +244,16 @@ TEST_F(Installation, MayBeStagedForAPrefixOfItsOwn) {
   EXPECT_EQ(contents(c.program).find(RAINREF_SOURCE_DIR "/scenes"), std::string::npos);  // what a machine that builds is called stays there
 }
 
+TEST_F(Installation, ShowsAFirstVerdictFromAnyFolder) {
+  const Circumstances c = installed();
+  if (!std::filesystem::exists(RAINREF_BUILD "/share/rainref/demo")) GTEST_SKIP() << "no glslangValidator (Debian: glslang-tools)";
+  EXPECT_EQ(rainref({"demo", "-o", "deep/first"}, c).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "deep/first/report.html"));
+  std::filesystem::remove_all(folder / "moved/share/rainref/demo");
+  expect(rainref({"demo"}, c), 4, "", HasSubstr("demo: the ports that it judges are not beside this program, in share/rainref/demo"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "rainref-demo"));
+}
+
 // The plans that came with it name scenes as `rainref list` does: they run from where they were installed, and from a checkout.
 TEST_F(Installation, HasPlansThatFindTheirScenes) {
   const Circumstances c = installed();
