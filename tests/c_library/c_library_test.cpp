@@ -111,33 +111,6 @@ TEST_F(CLibrary, HasAVersionedName) {
   EXPECT_THAT(dynamic, testing::HasSubstr("soname: [librainref.so.0]"));
 }
 
-// The C# of docs/notes/other_languages.md, as it stands there.
-TEST_F(CLibrary, TheDocumentsCSharpShowsTheWave) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "Mono is not built with a sanitizer";
-#endif
-  if (output_of("mcs --version && mono --version").second != 0) GTEST_SKIP() << "no Mono here (Debian: mono-mcs)";
-  const std::string document = contents(fs::path(test::source_folder()) / "docs/notes/other_languages.md"), fence = "```csharp\n";
-  const auto block = [&](std::size_t at) {
-    return document.substr(at + fence.size(), document.find("```", at + fence.size()) - at - fence.size());
-  };
-  const std::size_t first = document.find(fence), second = document.find(fence, first + 1);
-  ASSERT_NE(second, std::string::npos);
-  const TemporaryFolder folder;
-  std::ofstream(folder / "main.cs")
-      << "using System;\nusing System.Runtime.InteropServices;\n"
-      << block(first) << "class Program { static void Main() {\n"
-      << block(second)
-      << "Console.Write(Marshal.PtrToStringAnsi(wave.Format) + \" \" + wave.Width + \" \" + wave.Height + \" \" + row.Length);\n"
-         "Rainref.rr_close(sim);\n} }\n";
-  fs::create_symlink(RAINREF_C_LIBRARY, folder / "librainref.so");
-  const std::string at = folder.path().string();
-  const auto [said, failed] = output_of(fmt::format("mcs -warnaserror {0}/main.cs -out:{0}/main.exe", at));
-  ASSERT_EQ(failed, 0) << said;
-  EXPECT_EQ(output_of(fmt::format("LD_LIBRARY_PATH={0}:$LD_LIBRARY_PATH mono {0}/main.exe", at)),
-            (std::pair<std::string, int>{"rg16f 768 512 768", 0}));
-}
-
 // What crosses the border is caught, and the caller's floating-point state kept, by c_library::call alone.
 TEST_F(CLibrary, EveryFunctionThatMayFailGoesThroughOneDoor) {
   int checked = 0;
