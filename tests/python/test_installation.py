@@ -1,6 +1,7 @@
 """`pip install .` from a clone, without a network, into an environment that has Debian's NumPy and setuptools."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -74,6 +75,54 @@ def test_where_the_library_cannot_be_built_one_sentence_says_so(tmp_path):
     said = done.stdout + done.stderr
     assert done.returncode != 0 and "no compiler" in said
     assert "rainref: build/release/lib has no librainref.so.0" in said and "did not make it: see what it says above" in said
+
+
+def wheel_of_tree(tree, platform, to):
+    pytest.importorskip("wheel")
+    return subprocess.run([sys.executable, "-B", ROOT / "src/python/rainref_build.py", "--tree", tree, "--platform", platform, "-o", to],
+                          capture_output=True, text=True)
+
+
+@pytest.mark.skipif(not (ROOT / "build/release/bin/rainref").exists(), reason="scripts/build was not run")
+def test_a_wheel_of_an_installation_has_all_of_it(tmp_path):
+    run("cmake", "--install", ROOT / "build/release", "--component", "python", "--prefix", tmp_path / "tree")
+    made = wheel_of_tree(tmp_path / "tree", "linux_" + os.uname().machine, tmp_path / "to")
+    assert made.returncode == 0, made.stderr
+    wheel = made.stdout.strip()
+    assert wheel == str(tmp_path / f"to/rainref-{rr.version()}-py3-none-linux_{os.uname().machine}.whl")
+    run(sys.executable, "-m", "pip", "install", "-q", "--no-index", "--no-deps", "--target", tmp_path / "site", wheel)
+    shutil.rmtree(tmp_path / "tree")
+    (tmp_path / "empty").mkdir()
+    clean = {k: v for k, v in os.environ.items() if k != "RAINREF_LIBRARY"} | {"PYTHONPATH": str(tmp_path / "site")}
+    here = {"cwd": tmp_path / "empty", "env": clean}
+    block = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.S)[1]
+    said = run(sys.executable, "-c", block + "\nprint(rainref._library._loaded._name)", **here)
+    assert "likely cause: not written" in said and said.splitlines()[-1].startswith(str(tmp_path / "site/rainref/lib"))
+    # Its program finds its own data, and hands on its exit code.
+    script = tmp_path / "site/bin/rainref"
+    assert "\n  puddle/default.toml\n" in run(script, "list", **here)
+    if (ROOT / "build/release/share/rainref/demo").exists():
+        assert "likely cause: refraction ratio inverted" in run(script, "demo", **here)
+    assert subprocess.run([script, "nonsense"], capture_output=True, **here).returncode == 2
+
+
+def test_a_wheel_for_another_platform_has_its_files(tmp_path):
+    tree = tmp_path / "tree"
+    for file in "bin/rainref.exe", "bin/rainref.dll", "share/rainref/scenes/puddle/default.toml", "share/rainref/profiles/vulkan.toml":
+        (tree / file).parent.mkdir(parents=True, exist_ok=True)
+        (tree / file).write_text(file)
+    made = wheel_of_tree(tree, "win_amd64", tmp_path / "to")
+    assert made.returncode == 0 and made.stdout.strip().endswith("-py3-none-win_amd64.whl"), made.stderr
+    names = {name.split("/purelib/")[-1] for name in zipfile.ZipFile(made.stdout.strip()).namelist()}
+    assert {"rainref/lib/rainref.dll", "rainref/bin/rainref.exe", "rainref/share/rainref/scenes/puddle/default.toml",
+            "rainref/share/rainref/profiles/vulkan.toml", "rainref_program.py"} <= names
+    assert not any("librainref" in name for name in names)
+
+
+def test_a_tree_without_a_library_is_one_clear_error(tmp_path):
+    made = wheel_of_tree(tmp_path, "linux_x86_64", tmp_path / "to")
+    assert made.returncode == 1 and "expected one of librainref.so.0, rainref.dll, librainref.0.dylib in its lib or bin" in made.stderr
+    assert not (tmp_path / "to").exists() and "Traceback" not in made.stderr
 
 
 def test_a_missing_library_is_one_clear_error(tmp_path):

@@ -1,9 +1,10 @@
-"""Finding librainref.so, loading it, and calling it."""
+"""Finding the library, loading it, and calling it."""
 
 from __future__ import annotations
 
 import ctypes as c
 import os
+import sys
 import weakref
 from collections.abc import Iterable
 from pathlib import Path
@@ -12,18 +13,19 @@ from typing import Any, TypeVar
 from . import _structs as s
 from .errors import error_of
 
-_NAME = "librainref.so.0"
+_NAME = {"win32": "rainref.dll", "darwin": "librainref.0.dylib"}.get(sys.platform, "librainref.so.0")
 _HERE = Path(__file__).resolve().parent
 
 
 def _places() -> list[str]:
-    """Possible places of the library: the one given by the environment, this package, the build folder of this file's clone, and the
-    system's search path."""
+    """Possible places of the library: the one given by the environment, this package, the unpacked archive around it, the build folder of
+    this file's clone, and the system's search path. On Windows a library lies beside the programs."""
     told = os.environ.get("RAINREF_LIBRARY")
     if told:
         return [told]
-    clone = _HERE.parents[2]
-    return [str(p) for p in (_HERE / "lib" / _NAME, clone / "build/release/lib" / _NAME) if p.exists()] + [_NAME]
+    archive, build = _HERE.parents[1], _HERE.parents[2] / "build/release"
+    folders = [_HERE / "lib", archive / "lib", archive / "bin", build / "lib", build / "bin"]
+    return [str(folder / _NAME) for folder in folders if (folder / _NAME).exists()] + [_NAME]
 
 
 def _load() -> c.CDLL:
