@@ -3,13 +3,14 @@
 need debootstrap
 # inside SYSTEM COMMAND...: as its root.
 inside() { chroot "$1" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "${@:2}"; }
-# unpack SUITE SYSTEM: the smallest system of a release that apt works in, anew.
+# unpack SUITE SYSTEM: the smallest system of a release that apt works in, anew. Debian has no keys of Ubuntu's archive.
 unpack() {
-  local log=$2.log
+  local log=$2.log keys=() mirror=()
+  case $1 in bionic | jammy) keys=(--no-check-gpg) mirror=(http://archive.ubuntu.com/ubuntu) ;; esac
   leave "$2"
   rm -rf --one-file-system "$2"
   mkdir -p "$2"
-  debootstrap --variant=minbase "$1" "$2" >"$log" 2>&1 || die "Could not unpack Debian's $1 (log: $log)"
+  debootstrap --variant=minbase "${keys[@]}" "$1" "$2" "${mirror[@]}" >"$log" 2>&1 || die "Could not unpack $1 (log: $log)"
   cp /etc/hosts /etc/resolv.conf "$2/etc/"
 }
 # copy_tree SYSTEM: the tree as it is here, as /rainref; what was built there is kept.

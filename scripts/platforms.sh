@@ -83,11 +83,11 @@ CMAKE
 
 # The toolchain file of PLATFORM, made anew if this file or the compiler is another one; the folder is build/platforms/PLATFORM.
 toolchain() {
-  local platform=$1 processor=${1#*-} folder=$PWD/build/platforms/$1 compiler emulator
+  local platform=$1 processor=${1#*-} folder=$PWD/build/platforms/$1 compiler
   case $platform in
-    linux-x86_64) need g++ curl; compiler=x86_64-linux-gnu-g++ emulator=env ;;
-    linux-aarch64) need g++-aarch64-linux-gnu qemu-user-static curl; compiler=aarch64-linux-gnu-g++ emulator= ;;
-    windows-x86_64) need g++-mingw-w64-x86-64-posix; compiler=x86_64-w64-mingw32-g++-posix emulator= ;;
+    linux-x86_64) need g++ curl; compiler=x86_64-linux-gnu-g++ ;;
+    linux-aarch64) need g++-aarch64-linux-gnu qemu-user-static curl; compiler=aarch64-linux-gnu-g++ ;;
+    windows-x86_64) need g++-mingw-w64-x86-64-posix; compiler=x86_64-w64-mingw32-g++-posix ;;
     *) die "unknown platform '$platform'; known are ${platforms[*]}" ;;
   esac
   local state
@@ -123,7 +123,6 @@ endforeach()
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(ENV{PKG_CONFIG_LIBDIR} $folder/libraries/lib/pkgconfig)
 CMAKE
-    [ -z "$emulator" ] || echo "set(CMAKE_CROSSCOMPILING_EMULATOR $emulator)" >>"$folder/toolchain.cmake"
     echo "$state" >"$folder/state"
   fi
 }
