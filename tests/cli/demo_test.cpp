@@ -40,7 +40,8 @@ TEST_F(Demo, JudgesAWrongPortAndTheRightOne) {
   for (const std::string& line : lines_of(o.out)) {
     if (!line.starts_with("$ rainref ")) continue;
     const std::string command = fmt::format("'{}' {}", RAINREF_PROGRAM, line.substr(10));
-    EXPECT_EQ(output_of(fmt::format("cd '{}' && {} > again", folder.path().string(), command)).second, line.find("/wrong/") != line.npos);
+    const int status = output_of(fmt::format("cd '{}' && {} > again", folder.path().string(), command)).second;
+    EXPECT_EQ(status != 0, line.find("/wrong/") != line.npos) << line;
     EXPECT_THAT(o.out, HasSubstr(contents(folder / "again")));
   }
   EXPECT_THAT(contents(folder / "rainref-demo/report.html"), AllOf(HasSubstr("refraction ratio inverted"), HasSubstr("refract(view")));
