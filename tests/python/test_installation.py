@@ -11,6 +11,7 @@ import pytest
 from conftest import ROOT
 
 import rainref as rr
+from rainref import _library
 
 PROGRAM = """
 import rainref, sys
@@ -81,6 +82,15 @@ def wheel_of_tree(tree, platform, to):
     pytest.importorskip("wheel")
     return subprocess.run([sys.executable, "-B", ROOT / "src/python/rainref_build.py", "--tree", tree, "--platform", platform, "-o", to],
                           capture_output=True, text=True)
+
+
+def test_the_package_in_an_archive_finds_the_library_beside_it(tmp_path):
+    shutil.copytree(ROOT / "src/python/rainref", tmp_path / "python/rainref", ignore=shutil.ignore_patterns("__pycache__"))
+    (tmp_path / "lib").mkdir()
+    (tmp_path / "lib/librainref.so.0").symlink_to(_library._loaded._name)
+    clean = {k: v for k, v in os.environ.items() if k != "RAINREF_LIBRARY"} | {"PYTHONPATH": str(tmp_path / "python")}
+    assert run(sys.executable, "-B", "-c", "import rainref; print(rainref._library._loaded._name)", env=clean, cwd=tmp_path).strip() \
+        == str(tmp_path / "lib/librainref.so.0")
 
 
 @pytest.mark.skipif(not (ROOT / "build/release/bin/rainref").exists(), reason="scripts/build was not run")
