@@ -47,7 +47,7 @@ class PictureReader {
   virtual ~PictureReader() = default;
   virtual const StoredPicture& picture() const = 0;
   /// Fills `texels` row by row with the channels from `first` to before `end`, interleaved, in the file's own types, without conversion.
-  /// Also throws if only a part could be read.
+  /// It is called once. Also throws if only a part could be read.
   virtual void read(std::size_t first, std::size_t end, std::byte* texels) = 0;
 };
 

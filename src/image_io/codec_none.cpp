@@ -1,4 +1,4 @@
-// For a build without OpenImageIO (RAINREF_IMAGE_IO=OFF): it reads no pictures and writes only PNG.
+// For a build without OpenImageIO (RAINREF_PICTURES=none): it reads no pictures and writes only PNG.
 #include <stdexcept>
 
 #include "image_io/codec.h"

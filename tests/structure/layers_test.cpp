@@ -46,7 +46,7 @@ struct Library {
 };
 const std::vector<Library> libraries{{"^(oneapi/)?tbb/", "parallel"},
                                      {"^hwy/", "math"},
-                                     {"^OpenImageIO/|^Imath/|^OpenEXR/|^png\\.h|^zlib\\.h", "image_io"},
+                                     {"^OpenImageIO/|^Imath/|^OpenEXR/|^png\\.h|^jpeglib\\.h|^zlib\\.h", "image_io"},
                                      {"^embree", "compositor"},
                                      {"^toml", "scene"},
                                      {"^CLI/", "cli"},
@@ -163,6 +163,7 @@ TEST(Layers, SubRoomsAreInNoCircle) {
   }
   for (const std::string& part : sub_rooms) EXPECT_FALSE(is_in_a_circle(arrows, part)) << part;
   EXPECT_TRUE(sub_rooms.contains("image_io/openimageio"));
+  EXPECT_TRUE(sub_rooms.contains("image_io/direct"));
 
   EXPECT_EQ(part_of("windshield/motion/glass.h"), "windshield/motion");
   EXPECT_EQ(part_of("windshield/uniforms.h"), "windshield/uniforms");
