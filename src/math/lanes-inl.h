@@ -32,6 +32,8 @@ struct Lanes {
 
   struct Mask {
     hn::Mask<D> m;
+    HWY_INLINE HWY_ATTR Mask() {}  // not implicit, because that would not be compiled for the target
+    HWY_INLINE HWY_ATTR Mask(hn::Mask<D> x) : m(x) {}
     friend HWY_INLINE HWY_ATTR Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
     friend HWY_INLINE HWY_ATTR Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
     friend HWY_INLINE HWY_ATTR Mask operator!(Mask a) { return {hn::Not(a.m)}; }
@@ -40,7 +42,7 @@ struct Lanes {
   /// Texel index: made by to_int, used by fetch.
   struct Int {
     hn::Vec<DI> i;
-    HWY_INLINE HWY_ATTR Int() {}  // not implicit, because that would not be compiled for the target
+    HWY_INLINE HWY_ATTR Int() {}
     HWY_INLINE HWY_ATTR Int(hn::Vec<DI> x) : i(x) {}
     friend HWY_INLINE HWY_ATTR Int operator+(Int a, std::int32_t b) { return {hn::Add(a.i, hn::Set(DI(), b))}; }
     friend HWY_INLINE HWY_ATTR Int clamp_index(Int a, Int size) {
