@@ -1,8 +1,5 @@
 #include "base/atomic_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -11,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/folders.h"
+#include "base/path_text.h"
+#include "base/system.h"
 #include "rainref/error.h"
 
 namespace rainref {
@@ -24,11 +23,10 @@ constexpr std::size_t buffer_bytes = std::size_t{1} << 16;
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), target_(path_) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path_, error);
-  if (fs::is_directory(status)) fail(EISDIR);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  const system::Kind kind = system::found(path_, true).kind;
+  if (kind == system::Kind::folder) fail(EISDIR);
+  if (kind == system::Kind::other) {
+    descriptor_ = system::open(path_, system::writing);
     if (descriptor_ < 0) fail(errno);
     return;
   }
@@ -47,7 +45,7 @@ void AtomicFile::create_temporary() {
     fail(e.code().value());
   }
   // The temporary's own descriptor holds its lock until it has its final name.
-  descriptor_ = ::fcntl(temporary_->descriptor(), F_DUPFD_CLOEXEC, 0);
+  descriptor_ = system::duplicate(temporary_->descriptor());
   if (descriptor_ < 0) fail(errno);
 }
 
@@ -64,9 +62,9 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 void AtomicFile::commit() {
   require_open();
   flush();
-  if (temporary_ && ::fsync(descriptor_) != 0) fail(errno);
+  if (temporary_ && system::sync(descriptor_) != 0) fail(errno);
   // Some file systems report a full disk only here. The descriptor is closed whatever close returns.
-  if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail(errno);
+  if (system::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
   if (!temporary_) return;
   try {
     temporary_->become(target_);
@@ -77,7 +75,7 @@ void AtomicFile::commit() {
 }
 
 void AtomicFile::require_open() const {
-  if (descriptor_ < 0) throw Error(ExitCode::internal, fmt::format("'{}' is already closed", path_.string()));
+  if (descriptor_ < 0) throw Error(ExitCode::internal, fmt::format("'{}' is already closed", path_text(path_)));
 }
 
 void AtomicFile::flush() {
@@ -87,7 +85,7 @@ void AtomicFile::flush() {
 
 void AtomicFile::write_through(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    const std::ptrdiff_t written = system::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
     // A short write is no error yet: the next one either continues or fails with the reason. Zero bytes would repeat forever.
@@ -97,13 +95,13 @@ void AtomicFile::write_through(std::span<const std::byte> bytes) {
 }
 
 void AtomicFile::discard() noexcept {
-  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  if (descriptor_ >= 0) system::close(std::exchange(descriptor_, -1));
   temporary_.reset();
 }
 
 void AtomicFile::fail(int error) {
   discard();
-  throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path_.string(), std::generic_category().message(error)));
+  throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path_text(path_), reason_of(error)));
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> bytes) {

@@ -1,4 +1,4 @@
-// Locks that end when a process is killed: flock, which belongs to open files, not process numbers, so namespaces do not matter.
+// Locks that end when a process is killed. On POSIX flock, which belongs to open files, not process numbers, so namespaces do not matter.
 #pragma once
 
 #include <filesystem>

@@ -1,15 +1,11 @@
 #include "base/folders.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <exception>
 #include <future>
 
-#include "base/system_failure.h"
+#include "base/system.h"
 
 namespace rainref {
 
@@ -37,7 +33,7 @@ MadeFolders::MadeFolders(const fs::path& folder) {
   }
   const Uninterrupted scope;
   for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
-    if (::mkdir(p->c_str(), 0777) == 0) {
+    if (system::make_folder(*p, false) == 0) {
       made_.insert(made_.begin(), *p);
     } else if (const int why = errno; why != EEXIST || !fs::is_directory(*p, error)) {
       // A dangling link blocks the path like a file.
@@ -61,15 +57,15 @@ void MadeFolders::keep() {
 
 void MadeFolders::remove() noexcept {
   const Uninterrupted scope;
-  for (const fs::path& p : made_) ::rmdir(p.c_str());
+  for (const fs::path& p : made_) system::remove_folder(p);
   made_.clear();
 }
 
 void sync_to_disk(const fs::path& path) {
-  const int descriptor = ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = system::open(path.empty() ? fs::path(".") : path, system::reading);
   if (descriptor < 0) throw_system_error(errno);
-  const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
-  ::close(descriptor);
+  const int error = system::sync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+  system::close(descriptor);
   if (error != 0) throw_system_error(error);
 }
 

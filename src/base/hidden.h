@@ -14,8 +14,9 @@ namespace rainref {
 /// An empty file or folder under an unused hidden name: `.rainref-`, 16 random hexadecimal digits, `.tmp`. The destructor removes it, as
 /// does an interruption.
 ///
-/// It is locked (flock) while the object lives. A killed process loses its lock, in any namespace and on any machine, so remove_leftovers()
-/// can tell leftovers from files that are being written. If the file system has no such locks, nothing counts as a leftover.
+/// It is locked (base/file_lock.h) while the object lives. A killed process loses its lock, in any namespace and on any machine, so
+/// remove_leftovers() can tell leftovers from files that are being written. If the file system has no such locks, nothing counts as a
+/// leftover.
 class Hidden {
  public:
   enum class Kind { file, folder, private_folder };  ///< private: for this user only
@@ -29,7 +30,7 @@ class Hidden {
   Hidden& operator=(const Hidden&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// For a file, open for writing; or of the folder.
+  /// For a file, open for writing; or of what the folder's lock stands on.
   int descriptor() const { return descriptor_; }
   /// Renames it to its final name. A file may replace a file; a folder may replace an empty folder.
   void become(const std::filesystem::path& target);

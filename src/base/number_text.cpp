@@ -1,13 +1,9 @@
 #include "base/number_text.h"
 
-#include <locale.h>
-#include <stdlib.h>
-
 #include <cmath>
-#include <string>
-#include <type_traits>
 
 #include "base/floating_point.h"
+#include "base/number_text_value.h"
 
 namespace rainref {
 namespace {
@@ -47,14 +43,8 @@ bool is_zero(std::string_view text) {
 template <class T>
 std::optional<T> number_from(std::string_view text) {
   if (!is_number(text)) return std::nullopt;
-  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", locale_t{});
-  const std::string ended(text);
-  const FloatingPointGuard guard;  // the C library rounds in the processor's current mode
-  T value;
-  if constexpr (std::is_same_v<T, float>)
-    value = ::strtof_l(ended.c_str(), nullptr, plain);
-  else
-    value = ::strtod_l(ended.c_str(), nullptr, plain);
+  const FloatingPointGuard guard;  // the library rounds in the processor's current mode
+  const T value = nearest_value<T>(text);
   if (!std::isfinite(value) || (value == 0 && !is_zero(text))) return std::nullopt;
   return value;
 }

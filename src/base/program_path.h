@@ -1,4 +1,4 @@
-// Finds a program.
+// Finds a program. CMake compiles one of program_path_<system>.cpp.
 #pragma once
 
 #include <filesystem>

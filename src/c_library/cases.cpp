@@ -1,6 +1,7 @@
 // Cases of passes for C: by number, with arrays that point into the cases.
 #include <algorithm>
 
+#include "base/path_text.h"
 #include "c_library/arrays.h"
 #include "c_library/call.h"
 #include "c_library/handles.h"
@@ -33,7 +34,7 @@ int rr_next_frame_cases(rr_simulation* simulation, const char* const* passes, si
 int rr_cases_of_pack(const char* folder, const char* const* passes, size_t pass_count, rr_cases** cases) {
   return call([&] {
     required(cases, "cases") = nullptr;
-    *cases = new rr_cases{judging::CaseList(&required(folder, "folder"), c_library::texts(passes, pass_count, "passes"))};
+    *cases = new rr_cases{judging::CaseList(utf8_path(&required(folder, "folder")), c_library::texts(passes, pass_count, "passes"))};
   });
 }
 

@@ -1,4 +1,5 @@
 // Verdicts on outputs in memory for C: texts point into the judgement.
+#include "base/path_text.h"
 #include "c_library/call.h"
 #include "c_library/handles.h"
 #include "judging/judge_folder.h"
@@ -61,7 +62,7 @@ int rr_judge(const rr_cases* cases, const rr_judge_options* options, rr_judgemen
     how.half = rounding(o.half);
     how.strict = o.strict != 0;
     how.exhaustive = o.exhaustive != 0;
-    if (o.spirv) how.spirv = o.spirv;
+    if (o.spirv) how.spirv = utf8_path(o.spirv);
     *judgement = std::make_unique<rr_judgement>(rr_judgement{judging::judge_cases(c.list, how, parallel::Executor(o.threads))}).release();
   });
 }
@@ -76,12 +77,13 @@ int rr_judge_folder(const char* pack, const char* port, const rr_folder_options*
     how.partial = o.partial != 0;
     how.strict = o.strict != 0;
     if (o.exhaustive != 0) how.sample = 0;
-    if (o.spirv) how.spirv = o.spirv;
+    if (o.spirv) how.spirv = utf8_path(o.spirv);
     if (o.progress) how.progress = [&o](int done, int of) { go_on(o, done, of); };
     const parallel::Executor executor(o.threads);
     how.executor = &executor;
-    const auto opened = std::make_shared<const capture::Pack>(&required(pack, "pack"));
-    *judgement = std::make_unique<rr_judgement>(rr_judgement{judging::judge_folder(opened, {&required(port, "port")}, how)}).release();
+    const auto opened = std::make_shared<const capture::Pack>(utf8_path(&required(pack, "pack")));
+    *judgement =
+        std::make_unique<rr_judgement>(rr_judgement{judging::judge_folder(opened, {utf8_path(&required(port, "port"))}, how)}).release();
   });
 }
 void rr_free_judgement(rr_judgement* judgement) {

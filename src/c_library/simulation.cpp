@@ -2,6 +2,7 @@
 #include <map>
 #include <mutex>
 
+#include "base/path_text.h"
 #include "c_library/call.h"
 #include "c_library/handles.h"
 #include "capture/hashing.h"
@@ -68,7 +69,7 @@ int rr_describe(const char* effect, const char** json) {
 }
 
 int rr_keep_images(const char* folder) {
-  return call([&] { keep_images(folder ? folder : ""); });
+  return call([&] { keep_images(utf8_path(folder ? folder : "")); });
 }
 int rr_open(const char* toml, const rr_open_options* options, rr_simulation** simulation) {
   return open(options, simulation, [&](const rr_open_options& o, std::vector<std::string> set) {
@@ -76,8 +77,9 @@ int rr_open(const char* toml, const rr_open_options* options, rr_simulation** si
   });
 }
 int rr_open_file(const char* path, const rr_open_options* options, rr_simulation** simulation) {
-  return open(options, simulation,
-              [&](const rr_open_options&, std::vector<std::string> set) { return read_scene(&required(path, "path"), std::move(set)); });
+  return open(options, simulation, [&](const rr_open_options&, std::vector<std::string> set) {
+    return read_scene(utf8_path(&required(path, "path")), std::move(set));
+  });
 }
 void rr_close(rr_simulation* simulation) {
   call([&] { delete simulation; });
@@ -117,8 +119,8 @@ int rr_next_frame_hashes(rr_simulation* simulation, const char** lines) {
   });
 }
 int rr_write_png(rr_simulation* simulation, const char* path) {
-  return call([&] { required(simulation, "simulation").running.write_png(&required(path, "path")); });
+  return call([&] { required(simulation, "simulation").running.write_png(utf8_path(&required(path, "path"))); });
 }
 int rr_write_exr(rr_simulation* simulation, const char* path) {
-  return call([&] { required(simulation, "simulation").running.write_exr(&required(path, "path")); });
+  return call([&] { required(simulation, "simulation").running.write_exr(utf8_path(&required(path, "path"))); });
 }

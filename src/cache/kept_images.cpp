@@ -1,12 +1,8 @@
 #include "cache/kept_images.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -15,6 +11,9 @@
 
 #include "base/hash.h"
 #include "base/hidden.h"
+#include "base/machine.h"
+#include "base/path_text.h"
+#include "base/system.h"
 #include "cache/own_file.h"
 #include "cache/prepared.h"
 #include "cache/program.h"
@@ -137,9 +136,9 @@ std::optional<std::vector<Image>> found(const fs::path& path, const std::string&
 
 void write_all(int descriptor, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    const std::ptrdiff_t written = system::write(descriptor, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) throw std::system_error(errno, std::generic_category());
+    if (written <= 0) throw_system_error(errno);
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
 }
@@ -154,7 +153,7 @@ void make_room(const Folder& in) {
   std::uintmax_t bytes = 0;
   for (const auto& entry : fs::directory_iterator(in.path)) {
     std::error_code error;  // another process may have removed it
-    if (entry.path().extension() != suffix) continue;
+    if (path_text(entry.path().extension()) != suffix) continue;
     const std::uintmax_t size = entry.file_size(error);
     if (error) continue;
     files.push_back({entry.last_write_time(error), entry.path(), size});
@@ -174,7 +173,7 @@ void keep(const Folder& in, const fs::path& path, const std::string& recipe, con
     remove_leftovers(in.path);
     Hidden file(in.path, Hidden::Kind::file);
     // Set explicitly, because files writable by others are not read, whatever the umask.
-    if (::fchmod(file.descriptor(), S_IRUSR | S_IWUSR) != 0) throw std::system_error(errno, std::generic_category());
+    if (system::make_private(file.descriptor()) != 0) throw_system_error(errno);
     write_all(file.descriptor(), raw_bytes(head_of(recipe, images)));
     std::vector<std::byte> gathered;
     pieces(recipe, images, [&](std::span<const std::byte> bytes) {
@@ -196,14 +195,8 @@ void keep(const Folder& in, const fs::path& path, const std::string& recipe, con
 void keep_in(fs::path path, std::uintmax_t most_bytes) { folder() = {std::move(path), most_bytes}; }
 
 fs::path folder_of_user() {
-  const auto variable = [](const char* name) {
-    const char* const value = std::getenv(name);
-    const fs::path path = value ? value : "";
-    return path.is_absolute() ? path : fs::path();  // relative paths must be ignored (XDG Base Directory Specification 0.8)
-  };
-  if (const fs::path cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache / "rainref";
-  const fs::path home = variable("HOME");
-  return home.empty() ? home : home / ".cache" / "rainref";
+  const fs::path cache = machine::cache_folder();
+  return cache.empty() ? cache : cache / "rainref";
 }
 
 namespace {
@@ -214,7 +207,7 @@ std::vector<Image> kept_or_made(const Recipe& recipe, const std::vector<Shape>& 
   const std::optional<Hash128> program = in.path.empty() ? std::nullopt : program_hash();
   if (!program) return make();
   const std::string whole = program->text() + recipe.text();
-  const fs::path path = in.path / (file_hash(std::as_bytes(std::span(whole))).text() + std::string(suffix));
+  const fs::path path = in.path / utf8_path(file_hash(std::as_bytes(std::span(whole))).text() + std::string(suffix));
   if (std::optional<std::vector<Image>> kept = found(path, whole, shapes, rows)) return std::move(*kept);
   std::vector<Image> made = make();
   keep(in, path, whole, made);

@@ -1,10 +1,6 @@
 // A kept file, with checks whether it can be trusted.
 #pragma once
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +9,7 @@
 #include <span>
 
 #include "base/hash.h"
+#include "base/system.h"
 
 namespace rainref::cache {
 
@@ -20,14 +17,15 @@ namespace rainref::cache {
 /// anyone can compute a hash. With this check the rights of the folder do not matter.
 class OwnFile {
  public:
-  explicit OwnFile(const std::filesystem::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {
-    struct stat status {};
-    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) return;
-    is_own_ = S_ISREG(status.st_mode) && status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
-    left_ = static_cast<std::uintmax_t>(status.st_size);
+  explicit OwnFile(const std::filesystem::path& path)
+      : descriptor_(system::open(path, system::reading | system::no_link | system::no_wait)) {
+    if (descriptor_ < 0) return;
+    const system::Found found = system::found(descriptor_);
+    is_own_ = found.kind == system::Kind::file && found.is_mine && !found.others_may_write;
+    left_ = found.bytes;
   }
   ~OwnFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (descriptor_ >= 0) system::close(descriptor_);
   }
   OwnFile(const OwnFile&) = delete;
   OwnFile& operator=(const OwnFile&) = delete;
@@ -39,7 +37,7 @@ class OwnFile {
   bool read(std::span<std::byte> to) {
     if (to.size() > left_) return false;
     for (std::size_t done = 0; done < to.size();) {
-      const ssize_t count = ::read(descriptor_, to.data() + done, to.size() - done);
+      const std::ptrdiff_t count = system::read(descriptor_, to.data() + done, to.size() - done);
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) return false;
       done += static_cast<std::size_t>(count);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "capture/manifest_write.h"
 #include "capture/new_folder.h"
 #include "rainref/error.h"
@@ -24,7 +25,7 @@ std::string may_replace_flat(const fs::path& folder) {
   if (!fs::is_regular_file(folder / flat_name)) return "the folder is not empty and no flat pack of rainref";
   for (const fs::directory_entry& e : fs::recursive_directory_iterator(folder))
     if (!e.is_directory() && e.path() != folder / flat_name && e.path().extension() != ".bin")
-      return fmt::format("the flat pack there would be replaced, but '{}' is no part of it", e.path().filename().string());
+      return fmt::format("the flat pack there would be replaced, but '{}' is no part of it", path_text(e.path().filename()));
   return "";
 }
 
@@ -114,7 +115,7 @@ void add_outputs(const std::string& folder, const PackOutput& output, Json& to) 
 PackWriter::Total write_flat(const Pack& pack, const fs::path& folder) {
   if (!pack.with_inputs)
     throw Error(ExitCode::usage,
-                fmt::format("{}: a capture without inputs has nothing for a port to read; make a pack", pack.folder().string()));
+                fmt::format("{}: a capture without inputs has nothing for a port to read; make a pack", path_text(pack.folder())));
   FlatFiles files(folder);
   Json flat{{"format", "rainref.flat"}, {"version", 1}, {"effect", pack.effect}, {"variant", pack.variant}};
   flat["cases"] = Json::array();

@@ -8,7 +8,7 @@
 
 namespace rainref::capture {
 
-inline constexpr const char* flat_name = "flat.json";
+inline constexpr char flat_name[] = "flat.json";
 
 /// Writes inputs and uniform blocks of every case as .bin files, rows without padding and mip levels one after the other, and flat.json,
 /// which names them and describes the outputs. The expected values of outputs are left out: a port writes its own. An array that several

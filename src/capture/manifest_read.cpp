@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/number_text.h"
+#include "base/path_text.h"
 #include "capture/difference.h"
 #include "capture/manifest_write.h"
 #include "capture/record_format.h"
@@ -66,7 +67,7 @@ PackFileEntry read_file_entry(const JsonField& from) {
   PackFileEntry file;
   const JsonField path = from["file"];
   file.path = path.text();
-  const std::filesystem::path p(file.path);
+  const std::filesystem::path p = utf8_path(file.path);
   const bool leaves =
       p.is_absolute() || std::any_of(p.begin(), p.end(), [](const auto& part) { return part == ".." || part == "." || part.empty(); });
   if (file.path.empty() || leaves || file.path.find_first_of(std::string("\\\0", 2)) != std::string::npos) {

@@ -15,7 +15,7 @@ namespace rainref::capture {
 
 inline constexpr const char* pack_format = "rainref.pack";
 inline constexpr int pack_version = 1;
-inline constexpr const char* manifest_name = "manifest.json";
+inline constexpr char manifest_name[] = "manifest.json";
 
 /// A file of a pack: its path relative to the pack's folder, with slashes.
 struct PackFile {

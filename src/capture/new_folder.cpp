@@ -1,7 +1,5 @@
 #include "capture/new_folder.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -10,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
+#include "base/system.h"
 #include "capture/write_back.h"
 #include "rainref/error.h"
 
@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why) {
-  throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path.string(), why));
+  throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path_text(path), why));
 }
-[[noreturn]] void fail(const fs::path& path, int error) { fail(path, std::generic_category().message(error)); }
+[[noreturn]] void fail(const fs::path& path, int error) { fail(path, reason_of(error)); }
 
 }  // namespace
 
@@ -55,7 +55,7 @@ bool NewFolder::has_older() const {
 }
 
 void NewFolder::write(const std::string& path, std::span<const std::byte> bytes) {
-  const fs::path shown = shown_ / path, file = hidden_->path() / path;
+  const fs::path shown = shown_ / utf8_path(path), file = hidden_->path() / utf8_path(path);
   const auto close = [](std::FILE* f) { std::fclose(f); };
   std::unique_ptr<std::FILE, decltype(close)> out(nullptr, close);
   {
@@ -63,14 +63,14 @@ void NewFolder::write(const std::string& path, std::span<const std::byte> bytes)
     std::error_code error;
     fs::create_directories(file.parent_path(), error);
     if (error) fail(shown, error.message());
-    out.reset(std::fopen(file.c_str(), "wbxe"));
+    out.reset(system::stream_to_new_file(file));
   }
   if (!out) fail(shown, errno);
   for (fs::path p = file.parent_path(); folders_.insert(p).second; p = p.parent_path()) {
   }
   if (std::fwrite(bytes.data(), 1, bytes.size(), out.get()) != bytes.size()) fail(shown, errno);
   if (std::fflush(out.get()) != 0) fail(shown, errno);
-  begin_write_back(::fileno(out.get()));
+  begin_write_back(system::descriptor_of(out.get()));
   files_.push_back(file);
   // A full disk may be reported only here.
   if (std::fclose(out.release()) != 0) fail(shown, errno);

@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/memory.h"
+#include "base/path_text.h"
+#include "base/system.h"
 #include "capture/difference.h"
 #include "capture/json_read.h"
 #include "capture/manifest_read.h"
@@ -26,17 +28,15 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
-  throw Error(ExitCode::port_files, fmt::format("{}: {}", file.string(), why));
+  throw Error(ExitCode::port_files, fmt::format("{}: {}", path_text(file), why));
 }
 
 std::vector<std::byte> whole_file(const fs::path& path, std::uintmax_t bytes) {
   if (const MemoryLimit limit = memory_limit(); bytes > limit.bytes)
     refuse(path, fmt::format("its {} are too many; {} {} of memory", memory_text(bytes), limit.owner, memory_text(limit.bytes)));
-  const auto unreadable = [&] {
-    throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::generic_category().message(errno)));
-  };
+  const auto unreadable = [&] { throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", path_text(path), reason_of(errno))); };
   const auto close = [](std::FILE* f) { std::fclose(f); };
-  const std::unique_ptr<std::FILE, decltype(close)> in(std::fopen(path.c_str(), "rbe"), close);
+  const std::unique_ptr<std::FILE, decltype(close)> in(system::stream_to_read(path), close);
   if (!in) unreadable();
   std::vector<std::byte> out(bytes);
   const std::size_t got = std::fread(out.data(), 1, out.size(), in.get());
@@ -97,7 +97,7 @@ Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {
     throw Error(ExitCode::io,
-                fmt::format("{}: {}", folder_.string(),
+                fmt::format("{}: {}", path_text(folder_),
                             fs::exists(folder_, error) ? "expected a pack's folder, found a file" : "there is no such folder"));
   }
   const fs::path path = folder_ / manifest_name;
@@ -105,10 +105,10 @@ Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
     // `run --capture` makes a folder inside the run's folder.
     const fs::path inner = folder_ / "capture";
     refuse(folder_, fmt::format("no pack: there is no {}{}", manifest_name,
-                                fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", inner.string()) : ""));
+                                fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", path_text(inner)) : ""));
   }
-  const nlohmann::ordered_json json = read_json(path, path.string(), large_json);
-  read_manifest(JsonField(json, path.string()), *this);
+  const nlohmann::ordered_json json = read_json(path, path_text(path), large_json);
+  read_manifest(JsonField(json, path_text(path)), *this);
 }
 
 const PackPass& Pack::pass(std::string_view name) const {
@@ -117,12 +117,12 @@ const PackPass& Pack::pass(std::string_view name) const {
     if (p.name == name) return p;
     names.push_back(p.name);
   }
-  throw Error(ExitCode::usage, fmt::format("{}: expected one of the passes {}, found '{}'{}", folder_.string(), fmt::join(names, ", "),
+  throw Error(ExitCode::usage, fmt::format("{}: expected one of the passes {}, found '{}'{}", path_text(folder_), fmt::join(names, ", "),
                                            name, did_you_mean(name, names)));
 }
 
 std::vector<std::byte> Pack::read_file(const PackFileEntry& file) const {
-  const fs::path path = folder_ / file.path;
+  const fs::path path = folder_ / utf8_path(file.path);
   std::error_code error;
   if (!fs::is_regular_file(path, error)) refuse(path, "the manifest names this file, but it is missing");
   // A link may point anywhere.
@@ -140,9 +140,9 @@ std::vector<std::byte> Pack::read_file(const PackFileEntry& file) const {
 Array Pack::read(const PackArray& array) const {
   Array out = array.shape;
   for (std::size_t level = 0; level < array.levels.size(); ++level) {
-    const fs::path path = folder_ / array.levels[level].path;
+    const fs::path path = folder_ / utf8_path(array.levels[level].path);
     std::vector<std::byte> file = read_file(array.levels[level]);
-    const NpyHeader header = parse_npy_header(file, path.string());
+    const NpyHeader header = parse_npy_header(file, path_text(path));
     const std::string why = header_mismatch(header, out, static_cast<int>(level));
     if (!why.empty()) refuse(path, why);
     file.erase(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(header.data_offset));  // moved, not copied to new memory
@@ -176,7 +176,7 @@ PassCase Pack::described(const PackCase& entry) const {
 PassCase Pack::read(const PackCase& entry) const {
   PassCase c = described(entry);
   c.uniforms = read_file(entry.uniforms);
-  require_uniforms(folder_ / entry.uniforms.path, entry, pass(entry.pass).block, c.uniforms);
+  require_uniforms(folder_ / utf8_path(entry.uniforms.path), entry, pass(entry.pass).block, c.uniforms);
   for (std::size_t i = 0; i < entry.inputs.size(); ++i) c.inputs[i].array = read(entry.inputs[i]);
   for (std::size_t o = 0; o < entry.outputs.size(); ++o) c.outputs[o].array = read(entry.outputs[o]);
   return c;
@@ -195,7 +195,7 @@ std::string Pack::file_beside(std::string_view besides) const {
   }
   for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
     if (entry.is_directory() && !entry.is_symlink()) continue;
-    std::string path = fs::relative(entry.path(), folder_).generic_string();
+    std::string path = path_text(fs::relative(entry.path(), folder_));
     if (!named.contains(path) && path != besides) return path;
   }
   return "";

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "capture/json_read.h"
 #include "rainref/error.h"
@@ -33,14 +34,14 @@ std::optional<std::uintmax_t> Checkpoint::bytes() const {
 
 RunSoFar Checkpoint::resume(simulation::Opened& opened, nlohmann::ordered_json& truth) const {
   const std::vector<std::byte> bytes = read_file(path_);
-  const state::Saved saved(bytes, path_.string());
-  const auto fail = [&](const std::string& why) { throw Error(ExitCode::usage, fmt::format("{}: {}", path_.string(), why)); };
+  const state::Saved saved(bytes, path_text(path_));
+  const auto fail = [&](const std::string& why) { throw Error(ExitCode::usage, fmt::format("{}: {}", path_text(path_), why)); };
   RunSoFar so_far;
   const nlohmann::ordered_json wanted = asked();
   const capture::JsonLimits limits{capture::large_json.bytes, capture::large_json.depth, ExitCode::usage};
   nlohmann::ordered_json so_compared;
   try {
-    const nlohmann::ordered_json note = capture::parse_json(saved.note(), path_.string() + ": note", limits);
+    const nlohmann::ordered_json note = capture::parse_json(saved.note(), path_text(path_) + ": note", limits);
     so_far.seconds = note.at("seconds").get<double>();
     for (const auto& t : note.at("passes"))
       so_far.times.push_back({t.at("name").get<std::string>(), t.at("seconds").get<double>(), t.at("calls").get<int>()});
@@ -69,7 +70,7 @@ void Checkpoint::write(const simulation::Opened& opened, const RunSoFar& so_far,
 void Checkpoint::remove() const {
   std::error_code error;
   std::filesystem::remove(path_, error);
-  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", path_.string(), error.message()));
+  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", path_text(path_), error.message()));
 }
 
 }  // namespace rainref::cli

@@ -1,7 +1,5 @@
 #include "cli/cli.h"
 
-#include <signal.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -91,6 +89,7 @@ int parse_and_run(int argc, const char* const* argv) {
 
 std::vector<Verb> add_verbs(CLI::App& app, const std::string& command) {
   app.name("rainref");
+  app.allow_windows_style_options(false);  // a path may begin with a slash
   app.description("rainref: the deterministic CPU reference for real-time rain");
   app.set_version_flag("--version", fmt::format("rainref {}, golden {} {}", version(), golden_generation, golden_hash()),
                        "Print the version, and which bits this build gives");
@@ -113,7 +112,7 @@ std::vector<Verb> add_verbs(CLI::App& app, const std::string& command) {
 int main(int argc, const char* const* argv) {
   undo_when_interrupted();  // first, because later threads must leave signals to it
   // If standard output is closed, report an error instead of ending, so that files are cleaned up.
-  const bool dies_of_pipes = ::signal(SIGPIPE, SIG_IGN) == SIG_DFL;
+  const bool dies_of_pipes = ignore_closed_pipes();
   const FloatingPointGuard guard;  // libraries loaded at the start may have changed the state
   ExitCode code = ExitCode::internal;
   std::string message;
@@ -135,10 +134,7 @@ int main(int argc, const char* const* argv) {
     message =
         std::ferror(stdout) ? fmt::format("standard output cannot be written: {}", e.what()) : fmt::format("internal error: {}", e.what());
   }
-  if (dies_of_pipes && code == ExitCode::io && std::ferror(stdout) && reader_is_gone()) {
-    ::signal(SIGPIPE, SIG_DFL);
-    ::raise(SIGPIPE);
-  }
+  if (dies_of_pipes && code == ExitCode::io && std::ferror(stdout) && reader_is_gone()) die_of_closed_pipe();
   complain(message);
   return static_cast<int>(code);
 }

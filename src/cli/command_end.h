@@ -1,4 +1,4 @@
-// How a child process ended.
+// How a child process ended. CMake compiles one of command_end_<system>.cpp.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace rainref::cli {
 
-/// One sentence about `what` from a waitpid status; "" for exit code 0.
+/// One sentence about `what` from the status of waitpid or, on Windows, of GetExitCodeProcess; "" for exit code 0.
 std::string failure_of(const std::string& what, int status);
 
 /// The last 20 lines of a text.

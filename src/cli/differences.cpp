@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "image/flipped.h"
 #include "image_io/write.h"
 
@@ -14,7 +15,7 @@ nlohmann::ordered_json write_comparison(const std::filesystem::path& stem, const
   for (const truth::Difference& d : comparison.differences) {
     const truth::Percentiles p = d.percentiles();
     std::filesystem::path path = stem;
-    path += "." + d.file_name() + ".png";
+    path += utf8_path("." + d.file_name() + ".png");
     image_io::write_png(path, flipped(d.picture()));
     differences[d.name()] = {{"unit", d.unit().empty() ? "1" : d.unit()},
                              {"pixels", p.count},
@@ -24,7 +25,7 @@ nlohmann::ordered_json write_comparison(const std::filesystem::path& stem, const
                              {"max", p.max},
                              {"mean", d.mean()},
                              {"scale", d.scale()},
-                             {"picture", path.filename().string()}};
+                             {"picture", path_text(path.filename())}};
   }
   return out;
 }

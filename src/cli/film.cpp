@@ -1,17 +1,10 @@
 #include "cli/film.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,12 +12,10 @@
 
 #include "base/folders.h"
 #include "base/hidden.h"
-#include "base/interruption.h"
+#include "base/path_text.h"
 #include "base/program_path.h"
-#include "base/signals.h"
-#include "cli/command_end.h"
 #include "cli/film_command.h"
-#include "cli/process_control.h"
+#include "cli/piped_program.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
@@ -33,31 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse_film(const fs::path& film, const std::string& why) {
-  throw Error(ExitCode::io, fmt::format("--film '{}': {}", film.string(), why));
+  throw Error(ExitCode::io, fmt::format("--film '{}': {}", path_text(film), why));
 }
-std::string reason_of(int error) { return std::generic_category().message(error); }
 
 fs::path found_ffmpeg(const fs::path& film) {
   fs::path program = program_in_path("ffmpeg");
   if (program.empty()) refuse_film(film, "ffmpeg, which makes films, is in no folder of PATH (Debian: apt-get install ffmpeg)");
   return program;
 }
-
-/// While it exists, writing to a closed pipe is an error of write() and does not end this process.
-class NoBrokenPipe {
- public:
-  NoBrokenPipe() {
-    struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;
-    ::sigaction(SIGPIPE, &ignore, &before_);
-  }
-  ~NoBrokenPipe() { ::sigaction(SIGPIPE, &before_, nullptr); }
-  NoBrokenPipe(const NoBrokenPipe&) = delete;
-  NoBrokenPipe& operator=(const NoBrokenPipe&) = delete;
-
- private:
-  struct sigaction before_ {};
-};
 
 }  // namespace
 
@@ -69,12 +43,11 @@ void require_film(const fs::path& path, FilmRate rate) {
   found_ffmpeg(path);
 }
 
-/// The ffmpeg process, its input and its messages.
+/// The ffmpeg process and the file that it writes.
 class Film::Process {
  public:
-  Process(const fs::path& film, int width, int height, FilmRate rate) : film_(film), messages_(std::tmpfile(), &std::fclose) {
+  Process(const fs::path& film, int width, int height, FilmRate rate) : film_(film) {
     require_film(film, rate);
-    if (!messages_) refuse_film(film, fmt::format("no temporary file: {}", reason_of(errno)));
     try {
       target_ = followed(film);
       folders_.emplace(target_.parent_path());
@@ -84,26 +57,22 @@ class Film::Process {
     } catch (const std::system_error& e) {
       refuse_film(film, fmt::format("cannot write there: {}", e.code().message()));
     }
-    start(found_ffmpeg(film).string(), film_arguments(film, width, height, rate, written_->path()));
-  }
-  ~Process() {
-    if (id_ > 0) kill();
-    close_pipe();
+    const fs::path program = found_ffmpeg(film);
+    const std::vector<std::string> arguments = film_arguments(film, width, height, rate, written_->path());
+    try {
+      ffmpeg_.emplace(program, arguments);
+    } catch (const std::runtime_error& e) {
+      refuse_film(film, e.what());
+    }
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
   void write(std::span<const std::byte> bytes) {
-    const NoBrokenPipe scope;
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(pipe_, bytes.data(), bytes.size());
-      if (count >= 0) {
-        bytes = bytes.subspan(static_cast<std::size_t>(count));
-      } else if (errno == EPIPE) {
-        end(true);
-      } else if (errno != EINTR) {
-        refuse_film(film_, fmt::format("no picture can be given to ffmpeg: {}", reason_of(errno)));
-      }
+    try {
+      if (!ffmpeg_->write(bytes)) end(true);
+    } catch (const std::system_error& e) {
+      refuse_film(film_, fmt::format("no picture can be given to ffmpeg: {}", e.code().message()));
     }
   }
   void finish() {
@@ -118,77 +87,19 @@ class Film::Process {
   }
 
  private:
-  // Everything that the child needs is made before the fork: with other threads, the child may not allocate.
-  void start(std::string program, std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), program);
-    std::vector<char*> argv;
-    for (std::string& word : arguments) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    int ends[2];
-    if (::pipe(ends) != 0) refuse_film(film_, fmt::format("no pipe: {}", reason_of(errno)));
-    for (const int end : ends) ::fcntl(end, F_SETFD, FD_CLOEXEC);
-    const int messages = ::fileno(messages_.get());
-    const pid_t parent = ::getpid();
-    const Uninterrupted scope;
-    id_ = ::fork();
-    const int why = errno;
-    if (id_ == 0) {
-      ::setpgid(0, 0);  // signals are for this program, which then ends ffmpeg and its children
-      ::signal(SIGPIPE, SIG_DFL);
-      take_signals_again();
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
-      if (::getppid() != parent) ::_exit(127);  // the parent ended before
-      ::dup2(ends[0], STDIN_FILENO);
-      ::dup2(messages, STDOUT_FILENO);
-      ::dup2(messages, STDERR_FILENO);
-      ::execv(program.c_str(), argv.data());
-      ::_exit(127);
-    }
-    ::close(ends[0]);
-    pipe_ = ends[1];
-    if (id_ < 0) refuse_film(film_, fmt::format("no process can be made: {}", reason_of(why)));
-    ::setpgid(id_, id_);  // both processes set it, because either may run first
-    undo_.emplace([id = id_] {
-      ::kill(-id, SIGKILL);
-      ::waitpid(id, nullptr, 0);
-    });
-  }
-  void close_pipe() {
-    if (pipe_ >= 0) ::close(std::exchange(pipe_, -1));
-  }
-  int wait() {
-    int status = 0;
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
-    }
-    const Uninterrupted scope;
-    undo_.reset();
-    id_ = -1;
-    return status;
-  }
-  void kill() {
-    ::kill(-id_, SIGKILL);
-    wait();
-  }
   /// Also ends the input. `is_early`: ffmpeg did not read all of it.
   void end(bool is_early) {
-    close_pipe();
-    std::string failure = failure_of("ffmpeg", wait());
+    const CommandEnd ended = ffmpeg_->end("ffmpeg");
+    std::string failure = ended.failure;
     if (failure.empty() && is_early) failure = "ffmpeg ended before it had all pictures";
     if (failure.empty()) return;
-    std::string text;
-    std::rewind(messages_.get());
-    for (int c; (c = std::fgetc(messages_.get())) != EOF && text.size() < (1u << 20);) text += static_cast<char>(c);
-    const std::vector<std::string> lines = last_lines_of(text);
-    refuse_film(film_, lines.empty() ? failure : fmt::format("{}; it printed: {}", failure, fmt::join(lines, " | ")));
+    refuse_film(film_, ended.last_lines.empty() ? failure : fmt::format("{}; it printed: {}", failure, fmt::join(ended.last_lines, " | ")));
   }
 
   fs::path film_, target_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages_;
   std::optional<MadeFolders> folders_;
   std::optional<Hidden> written_;
-  pid_t id_ = -1;
-  int pipe_ = -1;
-  std::optional<Undo> undo_;  // newer than the hidden file's, so ffmpeg ends before the file is deleted
+  std::optional<PipedProgram> ffmpeg_;  // newer than the hidden file, so ffmpeg ends before the file is deleted
 };
 
 Film::Film(const fs::path& path, int width, int height, FilmRate rate)

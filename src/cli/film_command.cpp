@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
@@ -49,7 +50,7 @@ const std::array<FilmFormat, 3>& formats() {
 }
 
 const FilmFormat& format_of(const fs::path& film, FilmRate rate) {
-  std::string suffix = film.extension().string();
+  std::string suffix = path_text(film.extension());
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c; });
   for (const FilmFormat& f : formats()) {
     if (suffix != f.suffix) continue;
@@ -57,10 +58,10 @@ const FilmFormat& format_of(const fs::path& film, FilmRate rate) {
       throw Error(ExitCode::usage,
                   fmt::format("--film '{}': expected at most {:g} pictures a second, which is what a GIF can show, found {:g}: --every {} "
                               "gives fewer",
-                              film.string(), f.most_per_second, rate.per_second(), 2 * rate.every));
+                              path_text(film), f.most_per_second, rate.per_second(), 2 * rate.every));
     return f;
   }
-  throw Error(ExitCode::usage, fmt::format("--film '{}': expected a name that ends in .mp4, .webm or .gif", film.string()));
+  throw Error(ExitCode::usage, fmt::format("--film '{}': expected a name that ends in .mp4, .webm or .gif", path_text(film)));
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ std::vector<std::string> film_arguments(const fs::path& film, int width, int hei
   add({"-vf", f.filter, "-an", "-threads", "1", "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
   add(f.encoder);
   // "file:", because a name may begin with a dash or contain a colon.
-  add({"-f", f.muxer, "file:" + output.string()});
+  add({"-f", f.muxer, "file:" + system_path_text(output)});
   return all;
 }
 

@@ -11,6 +11,7 @@
 #include "base/atomic_file.h"
 #include "base/folders.h"
 #include "base/number_text.h"
+#include "base/path_text.h"
 #include "capture/npy_write.h"
 #include "capture/pack_read.h"
 #include "cli/commands.h"
@@ -69,8 +70,9 @@ Destination destination(const capture::Pack& pack, const std::string& place) {
 /// Throws Error(port_files) for another file of this buffer, which a judgement would not tell from the new one.
 void require_alone(const fs::path& folder, const std::string& stem) {
   for (const char* extension : {".exr", ".dds", ".png", ".bin", ".json"})
-    if (std::error_code ignored; fs::exists(folder / (stem + extension), ignored))
-      throw Error(ExitCode::port_files, fmt::format("'{}' holds the same buffer; remove it first", (folder / (stem + extension)).string()));
+    if (std::error_code ignored; fs::exists(folder / utf8_path(stem + extension), ignored))
+      throw Error(ExitCode::port_files,
+                  fmt::format("'{}' holds the same buffer; remove it first", path_text(folder / utf8_path(stem + extension))));
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ int import_file(const ImportRequest& request) {
   const capture::Pack pack(request.pack);
   const Destination to = destination(pack, request.as);
   const capture::Array expected = pack.read(*to.output);
-  const fs::path folder = request.output / to.at->id;
+  const fs::path folder = request.output / utf8_path(to.at->id);
   require_alone(folder, to.stem());
   const port_dump::Origin own = port_dump::read_port_info(request.output).origin;
   port_dump::ImportedLevel taken = port_dump::import_level(request.file, expected, to.level, request.hints);
@@ -89,11 +91,11 @@ int import_file(const ImportRequest& request) {
   if (own == port_dump::Origin::bottom_left) taken.bytes = port_dump::turned_over(taken.bytes, static_cast<std::size_t>(made.height));
   made.levels = {std::move(taken.bytes)};
   MadeFolders parents(folder);
-  const fs::path path = folder / (to.stem() + ".npy");
+  const fs::path path = folder / utf8_path(to.stem() + ".npy");
   write_file(path, capture::npy_bytes(made, 0));
   parents.keep();
   for (const std::string& line : taken.said) say("{}\n", line);
-  say("{} {}x{} in {}\n", info(made.format).name, made.width, made.height, path.string());
+  say("{} {}x{} in {}\n", info(made.format).name, made.width, made.height, path_text(path));
   return 0;
 }
 

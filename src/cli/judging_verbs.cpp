@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/scene_flags.h"
@@ -108,12 +109,12 @@ void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
                                                                               : !f.request.fused.empty() ? "--fused"
                                                                                                          : "--port"));
   if (f.pack.empty() && changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
-  if (std::error_code ignored; std::filesystem::is_directory(f.pack, ignored)) {
+  if (std::error_code ignored; std::filesystem::is_directory(utf8_path(f.pack), ignored)) {
     throw Error(ExitCode::usage, fmt::format("--shadow: expected the scene that the port ran, found the folder '{}'; a manifest.json "
                                              "beside the dumps would serve as well",
                                              f.pack));
   }
-  request.shadow = *f.shadow;
+  request.shadow = utf8_path(*f.shadow);
   SceneFlags scene = f.scene;
   scene.scene = f.pack;
   request.scene = resolve(scene);
@@ -164,10 +165,10 @@ Verb validate_verb(CLI::App& app, const std::string& command) {
             if (f->causes_within) request.causes_within = whole_number(*f->causes_within, "--causes-within", 1, 1000000);
             if (f->spirv) {
               require_text(*f->spirv, "--spirv", "a folder");
-              request.spirv = *f->spirv;
+              request.spirv = utf8_path(*f->spirv);
             }
-            request.pack = f->pack;
-            request.port = f->port;
+            request.pack = utf8_path(f->pack);
+            request.port = utf8_path(f->port);
             request.threads = threads_of(f->threads);
             request.command = command;
             return validate(request);
@@ -195,7 +196,7 @@ Verb import_verb(CLI::App& app) {
   verb.add_option("--channel-order", f->order, "Raw bytes of four channels")->type_name("rgba|bgra");
   verb.footer("Example: rainref import picture.dds --as puddle.display/0012.0/out.picture --pack out/pack -o out/port");
   return {&verb, [f] {
-            ImportRequest request{f->file, f->pack, f->output, f->as, {}};
+            ImportRequest request{utf8_path(f->file), utf8_path(f->pack), utf8_path(f->output), f->as, {}};
             if (f->origin) {
               require_word(*f->origin, "--origin", "top-left or bottom-left", {"top-left", "bottom-left"});
               request.hints.origin = *f->origin == "top-left" ? port_dump::Origin::top_left : port_dump::Origin::bottom_left;
@@ -225,7 +226,7 @@ Verb mutate_verb(CLI::App& app) {
   verb.footer("Example: rainref mutate out/pack --profile vulkan");
   return {&verb, [f] {
             MutateRequest request = f->request;
-            request.pack = f->pack;
+            request.pack = utf8_path(f->pack);
             request.threads = threads_of(f->threads);
             return mutate(request);
           }};

@@ -12,6 +12,7 @@
 
 #include "base/hidden.h"
 #include "base/number_text.h"
+#include "base/path_text.h"
 #include "capture/manifest_write.h"
 #include "capture/pack_read.h"
 #include "cli/progress.h"
@@ -49,7 +50,7 @@ bool is_of_rainref(const fs::path& path, RunPicture::Kind kind) {
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& folder) : folder_(folder), summary_(folder / "summary.json") {
-  const auto fail = [&](const std::string& why) { throw Error(ExitCode::io, fmt::format("{}: {}", folder.string(), why)); };
+  const auto fail = [&](const std::string& why) { throw Error(ExitCode::io, fmt::format("{}: {}", path_text(folder), why)); };
   try {
     made_.emplace(followed(folder));
   } catch (const std::system_error& e) {
@@ -70,7 +71,7 @@ void OutputFolder::require_one_run(const RunOptions& options, const Checkpoint& 
   std::error_code error;
   std::set<std::int64_t> frames;  // of the other pictures
   for (fs::directory_iterator i(folder_, error), end; !error && i != end; i.increment(error)) {
-    const std::optional<RunPicture> picture = run_picture_of(i->path().filename().string());
+    const std::optional<RunPicture> picture = run_picture_of(path_text(i->path().filename()));
     if (!picture || !is_of_rainref(i->path(), picture->kind)) continue;
     const bool is_written = writes(*picture);
     (is_written ? replaced_ : others_).push_back(i->path());
@@ -78,7 +79,7 @@ void OutputFolder::require_one_run(const RunOptions& options, const Checkpoint& 
   }
   const fs::path captured = folder_ / "capture";
   removes_capture_ = options.capture == RunOptions::none && fs::exists(captured / capture::manifest_name, error);
-  const auto refuse = [&](const std::string& why) { throw Error(ExitCode::usage, fmt::format("{}: {}", folder_.string(), why)); };
+  const auto refuse = [&](const std::string& why) { throw Error(ExitCode::usage, fmt::format("{}: {}", path_text(folder_), why)); };
   if (options.overwrite) {
     if (!removes_capture_) return;
     try {
@@ -98,7 +99,7 @@ void OutputFolder::require_one_run(const RunOptions& options, const Checkpoint& 
   if (!others_.empty() && !is_one_look_after_another) {
     std::sort(others_.begin(), others_.end());
     refuse(fmt::format("expected no other run's results, found {} that this run does not write, such as {}: {}",
-                       counted(static_cast<long long>(others_.size()), "picture"), others_.front().filename().string(), ways));
+                       counted(static_cast<long long>(others_.size()), "picture"), path_text(others_.front().filename()), ways));
   }
   if (removes_capture_) refuse(fmt::format("expected no other run's results, found capture/: {}", ways));
 }
@@ -110,7 +111,7 @@ void OutputFolder::forget_older_run(const Checkpoint& checkpoint, bool goes_on) 
     const fs::path older = followed(summary_);
     if (fs::is_regular_file(older)) remove(older);
   } catch (const std::system_error& e) {
-    throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", summary_.string(), e.code().message()));
+    throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", path_text(summary_), e.code().message()));
   }
   for (const fs::path& path : others_) remove(path);
   // If this run is killed, an earlier run's pictures must not remain beside its own.
@@ -122,7 +123,7 @@ void OutputFolder::forget_older_run(const Checkpoint& checkpoint, bool goes_on) 
 void OutputFolder::remove(const fs::path& path) const {
   std::error_code error;
   fs::remove_all(path, error);
-  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", path.string(), error.message()));
+  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", path_text(path), error.message()));
 }
 
 }  // namespace rainref::cli

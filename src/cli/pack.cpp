@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "base/memory.h"
+#include "base/path_text.h"
 #include "capture/capture_recorder.h"
 #include "capture/flat_pack.h"
 #include "capture/pack_read.h"
@@ -91,10 +92,10 @@ class Packing {
         info_(*registry::find(config.effect())->info),
         passes_(std::move(passes)),
         frames_(frames),
-        unexercised_(scene::unexercised(simulation::scene_text(options.scene.scene), options.scene.scene.string())) {
+        unexercised_(scene::unexercised(simulation::scene_text(options.scene.scene), path_text(options.scene.scene))) {
     for (const auto& [pass, alternatives] : unexercised_)
       if (const std::vector<std::string> all = info_.pass_names(config.variant()); std::find(all.begin(), all.end(), pass) == all.end())
-        throw Error(ExitCode::usage, fmt::format("{}: unexercised.{}: expected a pass of this variant{}", options.scene.scene.string(),
+        throw Error(ExitCode::usage, fmt::format("{}: unexercised.{}: expected a pass of this variant{}", path_text(options.scene.scene),
                                                  pass, did_you_mean(pass, all)));
   }
 
@@ -102,7 +103,7 @@ class Packing {
     const auto wanted = [&](int frame, std::string_view pass) {
       return frames_.are_wanted(frame, pass) && std::find(passes_.begin(), passes_.end(), pass) != passes_.end();
     };
-    capture::PackWriter writer(options_.output, info_, config_, options_.scene.scene.filename().string(), true, passes_);
+    capture::PackWriter writer(options_.output, info_, config_, path_text(options_.scene.scene.filename()), true, passes_);
     std::map<std::string, judge::Exercise> exercised;
     capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) {
       writer.add(c);
@@ -190,13 +191,13 @@ int pack(const ForeignPackOptions& options) {
   const judging::ForeignPack made = judging::make_foreign_pack({options.effect, options.inputs, options.output}, executor);
   for (const std::string& warning : made.warnings) say("warning: {}\n", warning);
   say("{} of {} in {}, {}, in {}\n", counted(made.total.cases, "case"), fmt::join(made.passes, " "), counted(made.total.files, "file"),
-      memory_text(made.total.bytes), options.output.string());
+      memory_text(made.total.bytes), path_text(options.output));
   return 0;
 }
 
 int flat_pack(const std::filesystem::path& pack, const std::filesystem::path& output) {
   const capture::PackWriter::Total total = capture::write_flat(capture::Pack(pack), output);
-  say("{} in {}, {}, in {}\n", counted(total.cases, "case"), counted(total.files, "file"), memory_text(total.bytes), output.string());
+  say("{} in {}, {}, in {}\n", counted(total.cases, "case"), counted(total.files, "file"), memory_text(total.bytes), path_text(output));
   return 0;
 }
 
@@ -242,7 +243,7 @@ int pack(const PackOptions& options) {
         pass, ports.passing());
   say("{}", packing.not_exercised());
   say("{} of {} in {}, {}, in {}\n", counted(total.cases, "case"), fmt::join(passes, " "), counted(total.files, "file"),
-      memory_text(total.bytes), options.output.string());
+      memory_text(total.bytes), path_text(options.output));
   return 0;
 }
 

@@ -1,139 +1,24 @@
 #include "cli/port_command.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <iterator>
-#include <optional>
-#include <set>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "base/interruption.h"
-#include "base/number_text.h"
-#include "base/signals.h"
-#include "cli/command_end.h"
-#include "cli/process_control.h"
+#include "base/path_text.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t kept_bytes = 65536;
-
-[[noreturn]] void fail(const char* what) {
-  throw Error(ExitCode::io, fmt::format("--exec: {}: {}", what, std::generic_category().message(errno)));
-}
-
-// The child processes of this one. Empty if there is no /proc.
-std::set<pid_t> children() {
-  std::set<pid_t> found;
-  std::error_code error;
-  for (fs::directory_iterator i("/proc", error), end; !error && i != end; i.increment(error)) {
-    const std::string name = i->path().filename().string();
-    const std::optional<pid_t> id = whole_from<pid_t>(name);
-    if (!id) continue;
-    std::ifstream in(i->path() / "stat");
-    // If a process has just ended, its file opens but cannot be read: an iterator over its bytes throws, getline does not.
-    std::string text;
-    std::getline(in, text, '\0');
-    // "17 (a name) S 1 ...": the name may contain anything.
-    const std::size_t after = text.rfind(") ");
-    if (after == std::string::npos || after + 4 > text.size()) continue;
-    const std::string_view rest = std::string_view(text).substr(after + 4);
-    if (whole_from<pid_t>(rest.substr(0, rest.find(' '))) == ::getpid()) found.insert(*id);
-  }
-  return found;
-}
-
-/// A command's shell and all its descendants. While this exists, a process whose parent ends becomes a child of this one, so that none is
-/// lost, also after setsid or as a daemon.
-class ProcessTree {
- public:
-  ProcessTree() : others_(children()) {
-    ::prctl(PR_GET_CHILD_SUBREAPER, &was_reaper_, 0, 0, 0);
-    ::prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0);
-  }
-  ~ProcessTree() {
-    if (undo_) end();
-    ::prctl(PR_SET_CHILD_SUBREAPER, was_reaper_, 0, 0, 0);
-  }
-  ProcessTree(const ProcessTree&) = delete;
-  ProcessTree& operator=(const ProcessTree&) = delete;
-
-  void began(pid_t shell) {
-    shell_ = shell;
-    undo_.emplace([this] { kill_all(); });
-  }
-  bool shell_has_ended() const {
-    siginfo_t info{};
-    return ::waitid(P_PID, static_cast<id_t>(shell_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == shell_;
-  }
-  /// Kills the remaining processes. Returns the shell's status.
-  int end() {
-    const Uninterrupted scope;
-    const int status = kill_all();
-    undo_.reset();
-    return status;
-  }
-
- private:
-  std::set<pid_t> rest() const {
-    std::set<pid_t> left = children();
-    for (const pid_t id : others_) left.erase(id);
-    return left;
-  }
-  // The shell is not reaped until the group is killed, so that no other group can get its number.
-  int kill_all() {
-    ::kill(-shell_, SIGKILL);
-    int status = 0;
-    ::waitpid(shell_, &status, 0);
-    // A killed process leaves its children to this one. A process of another user, or one that hangs in a driver, remains.
-    const Clock::time_point end = Clock::now() + std::chrono::seconds(5);
-    for (std::set<pid_t> left = rest(); !left.empty() && Clock::now() < end; left = rest()) {
-      for (const pid_t id : left) ::kill(id, SIGKILL);
-      for (const pid_t id : left) {
-        if (::waitpid(id, nullptr, WNOHANG) == 0) ::poll(nullptr, 0, 1);
-      }
-    }
-    return status;
-  }
-
-  std::set<pid_t> others_;
-  int was_reaper_ = 0;
-  pid_t shell_ = -1;
-  std::optional<Undo> undo_;
-};
-
-bool is_plain(const fs::path& path) {
-  return path.string().find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-") == std::string::npos;
-}
-
-}  // namespace
-
 TemporaryRun::TemporaryRun() {
-  std::error_code error;
-  fs::path parent = fs::absolute(fs::temp_directory_path(error), error);
-  if (error || !is_plain(parent)) parent = "/tmp";
+  const fs::path parent = temporary_folder();
   remove_leftovers(parent);
   try {
     folder_.emplace(parent, Hidden::Kind::private_folder);
   } catch (const std::system_error& e) {
-    throw Error(ExitCode::io, fmt::format("--exec: no temporary folder in {}: {}", parent.string(), e.code().message()));
+    throw Error(ExitCode::io, fmt::format("--exec: no temporary folder in {}: {}", path_text(parent), e.code().message()));
   }
 }
 
@@ -142,14 +27,10 @@ PortFolders::PortFolders(const fs::path& pack, const fs::path& out) : pack_(fs::
   told_out_ = told(out_, "out");
 }
 
-fs::path PortFolders::told(const fs::path& real, const char* link) {
-  if (is_plain(real)) return real;
+std::string PortFolders::told(const fs::path& real, const char* link) {
+  if (std::string plain = plain_path(real); !plain.empty()) return plain;
   if (!links_) links_.emplace();
-  const fs::path path = links_->path() / link;
-  std::error_code error;
-  fs::create_directory_symlink(real, path, error);
-  if (error) throw Error(ExitCode::io, fmt::format("--exec: no link in {}: {}", links_->path().string(), error.message()));
-  return path;
+  return link_to(real, links_->path() / link);
 }
 
 std::string PortFolders::filled_in(const std::string& command) const {
@@ -157,91 +38,23 @@ std::string PortFolders::filled_in(const std::string& command) const {
   for (std::size_t i = 0; i < command.size();) {
     const std::string_view rest = std::string_view(command).substr(i);
     const bool is_pack = rest.starts_with("{pack}"), is_out = rest.starts_with("{out}");
-    result += is_pack ? told_pack_.string() : is_out ? told_out_.string() : std::string(1, command[i]);
+    result += is_pack ? in_command(result, told_pack_) : is_out ? in_command(result, told_out_) : std::string(1, command[i]);
     i += is_pack ? 6 : is_out ? 5 : 1;
   }
   return result;
 }
 
-std::vector<std::string> PortFolders::environment() const { return {"RAINREF_PACK=" + pack_.string(), "RAINREF_OUT=" + out_.string()}; }
+std::vector<std::string> PortFolders::environment() const {
+  return {"RAINREF_PACK=" + system_path_text(pack_), "RAINREF_OUT=" + system_path_text(out_)};
+}
 
 void PortFolders::check() const {
   std::error_code error;
-  if (told_out_ == out_ || fs::is_symlink(fs::symlink_status(told_out_, error))) return;
+  const fs::path link = links_ ? links_->path() / "out" : fs::path();
+  if (link.empty() || told_out_ != path_text(link) || fs::is_symlink(fs::symlink_status(link, error))) return;
   throw Error(ExitCode::port_files, fmt::format("--exec: the command removed {{out}}, which was a link to '{}'; expected it to write into "
                                                 "that folder, or a --port whose path has letters, digits and ._-/ alone",
-                                                out_.string()));
-}
-
-CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment) {
-  // Everything that the child needs is made before the fork: with other threads, the child may not allocate.
-  std::vector<std::string> variables = environment;
-  for (char** v = environ; *v; ++v) {
-    const std::string_view name = std::string_view(*v).substr(0, std::string_view(*v).find('='));
-    const auto is_same = [&](const std::string& added) { return added.starts_with(name) && added.substr(name.size(), 1) == "="; };
-    if (std::none_of(environment.begin(), environment.end(), is_same)) variables.emplace_back(*v);
-  }
-  std::vector<char*> pointers;
-  for (std::string& v : variables) pointers.push_back(v.data());
-  pointers.push_back(nullptr);
-  int out[2];
-  if (::pipe2(out, O_CLOEXEC) != 0) fail("no pipe");
-  ProcessTree tree;
-  {
-    const Uninterrupted scope;
-    const pid_t child = ::fork();
-    if (child < 0) {
-      const int error = errno;
-      ::close(out[0]);
-      ::close(out[1]);
-      errno = error;
-      fail("no process");
-    }
-    if (child == 0) {
-      ::setpgid(0, 0);
-      ::signal(SIGPIPE, SIG_DFL);
-      take_signals_again();
-      ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
-      ::dup2(out[1], STDOUT_FILENO);
-      ::dup2(out[1], STDERR_FILENO);
-      ::execle("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr), pointers.data());
-      ::_exit(127);
-    }
-    ::setpgid(child, child);  // both processes set it, because either may run first
-    tree.began(child);
-  }
-  ::close(out[1]);
-
-  const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout);
-  std::string text;
-  const auto read_some = [&](int wait_ms) {
-    pollfd waiting{out[0], POLLIN, 0};
-    if (::poll(&waiting, 1, wait_ms) <= 0) return false;
-    char buffer[4096];
-    const ssize_t count = ::read(out[0], buffer, sizeof buffer);
-    if (count <= 0) {
-      // The output is closed, but the command may still run.
-      if (wait_ms > 0) ::poll(nullptr, 0, wait_ms);
-      return false;
-    }
-    text.append(buffer, static_cast<std::size_t>(count));
-    if (text.size() > 2 * kept_bytes) text.erase(0, text.size() - kept_bytes);
-    return true;
-  };
-  // The shell's end counts, not the pipe's, because another process may keep the pipe open.
-  bool timed_out = false;
-  while (!tree.shell_has_ended()) {
-    timed_out = Clock::now() >= end;
-    if (timed_out) break;
-    read_some(20);
-  }
-  const int status = tree.end();
-  for (int i = 0; i < 64 && read_some(0); ++i) {
-  }
-  ::close(out[0]);
-  CommandEnd result{failure_of("the port's command", status), last_lines_of(text)};
-  if (timed_out) result.failure = fmt::format("the port's command was ended after {:g} s (--timeout)", timeout.count());
-  return result;
+                                                path_text(out_)));
 }
 
 }  // namespace rainref::cli

@@ -3,7 +3,8 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <unistd.h>
+
+#include "base/machine.h"
 
 namespace rainref::cli {
 
@@ -16,7 +17,7 @@ std::string duration_text(double seconds) {
 std::string counted(long long count, std::string_view what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
 
 Progress::Progress(std::string what, int total, const char* unit)
-    : what_(std::move(what)), unit_(unit), total_(total), shown_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), drawn_(start_) {
+    : what_(std::move(what)), unit_(unit), total_(total), shown_(machine::is_terminal(stderr)), start_(Clock::now()), drawn_(start_) {
   if (shown_) draw();
 }
 

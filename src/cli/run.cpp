@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -11,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/machine.h"
+#include "base/path_text.h"
 #include "cache/kept_images.h"
 #include "capture/capture_recorder.h"
 #include "capture/hashing.h"
@@ -42,23 +43,13 @@ struct Capture {
 
   Capture(const capture::EffectInfo& info, const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder,
           const std::function<bool(int)>& written)
-      : writer(folder, info, simulation::config_of_passes(config), options.scene.scene.filename().string(),
+      : writer(folder, info, simulation::config_of_passes(config), path_text(options.scene.scene.filename()),
                options.capture == RunOptions::all, info.pass_names(config.variant())),
         recorder(
             info, config.variant(), options.capture == RunOptions::all,
             [written](int frame, std::string_view pass) { return pass != truth::traced_pass && written(frame); },
             [this](const capture::PassCase& c) { writer.add(c); }) {}
 };
-
-/// Peak resident memory of this process, in bytes.
-std::size_t most_memory() {
-  std::ifstream status("/proc/self/status");
-  for (std::string key; status >> key; status.ignore(1 << 10, '\n')) {
-    std::size_t kib = 0;
-    if (key == "VmHWM:" && status >> kib) return kib << 10;
-  }
-  return 0;
-}
 
 /// Rejects invalid combinations of options.
 void check(const RunOptions& options, int frames) {
@@ -124,7 +115,7 @@ int run(const RunOptions& options) {
   const scene::Config config = load_scene(options.scene);
   const parallel::Executor executor(options.scene.threads);
   const std::filesystem::path folder =
-      options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
+      options.output.empty() ? std::filesystem::path("out") / utf8_path(config.effect()) / options.scene.scene.stem() : options.output;
   const int frames = static_cast<int>(config.integer("run.frames"));
   check(options, frames);
   if (!options.film.empty()) require_film(options.film, film_rate(options, config));
@@ -202,12 +193,12 @@ int run(const RunOptions& options) {
       if (written(frame)) {
         if (options.png || options.exr || options.compare_truth) forget_older_run();
         const std::string stem = fmt::format("{}.{:04}", config.effect(), frame);
-        if (options.png) opened.write_png(folder / (stem + ".png"));
-        if (options.exr) opened.write_exr(folder / (stem + ".exr"), true);
+        if (options.png) opened.write_png(folder / utf8_path(stem + ".png"));
+        if (options.exr) opened.write_exr(folder / utf8_path(stem + ".exr"), true);
         pictures += options.png + options.exr;
         if (options.compare_truth) {
           nlohmann::ordered_json of_frame{{"frame", frame}};
-          of_frame.update(write_comparison(folder / (stem + ".truth"), opened.compare_truth()));
+          of_frame.update(write_comparison(folder / utf8_path(stem + ".truth"), opened.compare_truth()));
           truth.push_back(of_frame);
         }
       }
@@ -226,7 +217,7 @@ int run(const RunOptions& options) {
   std::optional<double> between;
   if (const int count = frames - begin - 2; count > 0) between = 1e3 * (last_began - first_ended) / count;
   nlohmann::ordered_json report = summary(config, opened.inputs().files, executor, recorder, last, seconds, between, frames);
-  report["memory"] = {{"stated", stated}, {"taken", most_memory()}};
+  report["memory"] = {{"stated", stated}, {"taken", machine::most_memory()}};
   if (options.compare_truth) report["truth"] = truth;
   if (film) film->finish();
   forget_older_run();
@@ -239,9 +230,9 @@ int run(const RunOptions& options) {
   else
     say("{} in {}{}, {}{} and summary.json in {}{}\n", counted(frames, "frame"), duration_text(seconds),
         left ? fmt::format(", the first {} of them before", begin) : "", counted(pictures, "picture"), capture ? ", capture/" : "",
-        folder.string(),
+        path_text(folder),
         film ? fmt::format(", film of {} at {:g} a second: {}", counted(film->pictures(), "picture"),
-                           film_rate(options, config).per_second(), options.film.string())
+                           film_rate(options, config).per_second(), path_text(options.film))
              : "");
   return 0;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "cli/terminal.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
@@ -18,7 +19,7 @@ scene::Config load_scene(const SceneOptions& options) {
   try {
     if (const auto made = simulation::scene_of_picture(options.scene)) {
       if (made->golden_generation != std::to_string(golden_generation))
-        complain(fmt::format("warning: '{}' is of golden generation {}, and this is {}: expect other bits", options.scene.string(),
+        complain(fmt::format("warning: '{}' is of golden generation {}, and this is {}: expect other bits", path_text(options.scene),
                              made->golden_generation, golden_generation));
       return scene::parse(made->toml, options.scene, options.overrides, simulation::effect_table());
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "cli/option_values.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
@@ -26,7 +27,7 @@ void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames) {
 
 SceneOptions resolve(const SceneFlags& flags) {
   SceneOptions options;
-  options.scene = simulation::find_scene(flags.scene);
+  options.scene = simulation::find_scene(utf8_path(flags.scene));
   options.overrides = flags.set;
   if (flags.frames) options.overrides.push_back(fmt::format("run.frames={}", whole_number(*flags.frames, "--frames", 1, 1000000)));
   if (flags.size) {

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "base/number_text.h"
+#include "base/path_text.h"
 #include "cli/own_program.h"
 #include "cli/progress.h"
 #include "cli/terminal.h"
@@ -111,7 +112,7 @@ int sweep_plan(const SweepOptions& options) {
   }
   if (const std::string& exec = open.plan->judging.exec; !exec.empty()) {
     std::vector<std::string> files;
-    for (const fs::path& file : sweep::files_named_by(exec)) files.push_back(file.string());
+    for (const fs::path& file : sweep::files_named_by(exec)) files.push_back(path_text(file));
     say("exec: {}; a verdict of what else it runs stays until label changes, or run --again\n",
         files.empty() ? "names no file whose content would count" : fmt::format("the content of {} counts", fmt::join(files, ", ")));
   }
@@ -154,12 +155,12 @@ int sweep_gc(const SweepOptions& options) {
   for (const sweep::Rubbish& r : found) {
     bytes += r.bytes;
     if (!options.removes) {
-      say("{}: {}\n", r.path.string(), r.why);
+      say("{}: {}\n", path_text(r.path), r.why);
       continue;
     }
     std::error_code error;
     fs::remove_all(r.path, error);
-    if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", r.path.string(), error.message()));
+    if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", path_text(r.path), error.message()));
   }
   say("{}, {}{}\n", counted(static_cast<long long>(found.size()), "thing"), memory_text(bytes),
       options.removes ? ": removed"

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/path_text.h"
 #include "sweep/cells.h"
 #include "sweep/script.h"
 #include "sweep/shard.h"
@@ -23,7 +24,7 @@ struct OpenPlan {
 
   OpenPlan(const std::filesystem::path& file, const std::filesystem::path& out);
   /// The folder of the plan's tables.
-  std::filesystem::path tables() const { return store.root() / "plans" / plan->name(); }
+  std::filesystem::path tables() const { return store.root() / "plans" / utf8_path(plan->name()); }
 };
 
 /// A progress bar for checking the cells of a large plan.

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "cli/own_program.h"
 #include "cli/sweep.h"
@@ -34,7 +35,7 @@ class Ran {
   Ran(sweep::CellWriter& writer, std::vector<std::string> arguments) : writer_(writer) {
     const fs::path out = writer.folder() / "output.txt", err = writer.folder() / "error.txt";
     code_ = run_own_program(arguments, "", {out, err});
-    const std::string where = writer.folder().string() + "/";
+    const std::string where = path_text(writer.folder() / "");
     output_ = without(text_of(out), where);
     error_ = without(text_of(err), where);
     fs::remove(out);
@@ -44,7 +45,7 @@ class Ran {
   const std::string& output() const { return output_; }
   /// Throws the run's own error.
   [[noreturn]] void fail() const {
-    if (code_ < 0) throw Error(ExitCode::internal, fmt::format("died of signal {}", -code_));
+    if (code_ < 0) throw Error(ExitCode::internal, fmt::format("died of {}", death_text(code_)));
     std::string sentence = error_.substr(0, error_.find('\n'));
     if (sentence.starts_with("rainref: ")) sentence.erase(0, 9);
     const ExitCode code = code_ == 2 ? ExitCode::usage : code_ == 4 ? ExitCode::io : ExitCode::internal;
@@ -70,15 +71,15 @@ sweep::Made finish(sweep::CellWriter& writer, const sweep::Cell& cell, const Ran
 /// Takes all files that a child wrote below a folder of the cell.
 void take_files(sweep::CellWriter& writer, const std::string& folder) {
   std::set<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(writer.folder() / folder))
-    if (entry.is_regular_file()) names.insert(fs::relative(entry.path(), writer.folder()).string());
+  for (const auto& entry : fs::recursive_directory_iterator(writer.folder() / utf8_path(folder)))
+    if (entry.is_regular_file()) names.insert(path_text(fs::relative(entry.path(), writer.folder())));
   for (const std::string& name : names) writer.wrote(name);
 }
 
 sweep::Made make_pack(const OpenPlan& open, const sweep::Cell& cell, int threads, sweep::Names& names) {
   const sweep::Plan& plan = *open.plan;
   sweep::CellWriter writer(open.store.cell(cell.id));
-  std::vector<std::string> words{"pack",      plan.scenes[cell.scene].text, "-o", (writer.folder() / "pack").string(),
+  std::vector<std::string> words{"pack",      plan.scenes[cell.scene].text, "-o", path_text(writer.folder() / "pack"),
                                  "--threads", std::to_string(threads)};
   if (!plan.pack.at.empty()) words.insert(words.end(), {"--at", fmt::format("{}", fmt::join(plan.pack.at, ","))});
   if (!plan.pack.passes.empty()) words.insert(words.end(), {"--passes", fmt::format("{}", fmt::join(plan.pack.passes, ","))});
@@ -98,7 +99,7 @@ sweep::Made judge(const OpenPlan& open, const sweep::Cell& cell, int threads, sw
       std::to_string(threads)};
   if (!j.only.empty()) words.insert(words.end(), {"--only", fmt::format("{}", fmt::join(j.only, ","))});
   if (is_validate) {
-    words.insert(words.end(), {"--json", (writer.folder() / "report.json").string()});
+    words.insert(words.end(), {"--json", path_text(writer.folder() / "report.json")});
     if (!j.port.empty()) words.insert(words.end(), {"--port", j.port});
     if (!j.exec.empty())
       words.insert(words.end(), {"--exec", j.exec, "--timeout", std::to_string(j.timeout), "--repeat", std::to_string(j.repeat)});

@@ -11,6 +11,7 @@
 #include "base/atomic_file.h"
 #include "base/folders.h"
 #include "base/hidden.h"
+#include "base/path_text.h"
 #include "cli/film.h"
 #include "cli/progress.h"
 #include "cli/sweep.h"
@@ -58,7 +59,7 @@ std::string write_film(const OpenPlan& open, const sweep::Table& table, const fs
   std::vector<fs::path> pictures;
   for (std::size_t i = 0; i < cells.size() && cells[i].film == cells[0].film && !cells[0].film.empty(); ++i) {
     for (const sweep::KeptFile& f : table.rows[i].files)
-      if (f.path.starts_with("picture.") && f.path.ends_with(".png")) pictures.push_back(open.store.cell(cells[i].id) / f.path);
+      if (f.path.starts_with("picture.") && f.path.ends_with(".png")) pictures.push_back(open.store.cell(cells[i].id) / utf8_path(f.path));
   }
   if (pictures.size() < 2) return "no film: the first run has fewer than two pictures";
   try {
@@ -83,7 +84,7 @@ int sweep_collect(const SweepOptions& options) {
   const fs::path folder = open.tables();
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot make this folder: {}", folder.string(), error.message()));
+  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot make this folder: {}", path_text(folder), error.message()));
   remove_leftovers(folder);
   write_file(folder / "table.csv", sweep::table_csv(open.cells, table));
   sweep::write_database(folder / "table.sqlite", open.cells, table);
@@ -105,7 +106,7 @@ int sweep_collect(const SweepOptions& options) {
        {sweep::State::done, sweep::State::missing, sweep::State::refused, sweep::State::failed, sweep::State::damaged})
     if (const auto n = table.count(s); n > 0) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", n, sweep::name(s));
   say("{}: {}; table.csv, table.sqlite, films.csv, timings.csv{} in {}\n", counted(static_cast<long long>(table.rows.size()), "cell"),
-      counts, more, folder.string());
+      counts, more, path_text(folder));
   return table.count(sweep::State::done) == static_cast<std::int64_t>(table.rows.size()) ? 0 : 1;
 }
 

@@ -1,6 +1,4 @@
 // `rainref sweep run`.
-#include <signal.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <set>
@@ -8,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
+#include "base/signals.h"
 #include "cache/kept_images.h"
 #include "cache/prepared.h"
 #include "cli/own_program.h"
@@ -63,7 +63,7 @@ std::size_t all_deaths(const fs::path& out) {
   const sweep::Store store(out);
   std::set<std::string> ids;
   for (fs::directory_iterator i(out / "tries", error), end; !error && i != end; i.increment(error))
-    ids.insert(i->path().filename().string().substr(0, 32));
+    ids.insert(path_text(i->path().filename()).substr(0, 32));
   for (const std::string& id : ids) count += static_cast<std::size_t>(store.tries(id).dead);
   return count;
 }
@@ -75,9 +75,9 @@ int sweep_run(const SweepOptions& options) {
   for (std::size_t deaths = all_deaths(options.out);;) {
     const int code = run_own_program(own_arguments(), fmt::format("{}=1", worker));
     if (code >= 0) return code;
-    if (code == -SIGINT || code == -SIGTERM || code == -SIGHUP) return 128 - code;
+    if (is_interruption(-code)) return 128 - code;
     const std::size_t now = all_deaths(options.out);
-    complain(fmt::format("a process of this sweep died of signal {}{}", -code, now > deaths ? "; another one goes on" : ""));
+    complain(fmt::format("a process of this sweep died of {}{}", death_text(code), now > deaths ? "; another one goes on" : ""));
     // Each death that counts uses up a try of a cell, so this ends.
     if (now <= deaths) return static_cast<int>(ExitCode::internal);
     deaths = now;

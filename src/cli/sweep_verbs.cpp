@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/path_text.h"
 #include "cli/option_values.h"
 #include "cli/sweep.h"
 #include "cli/verbs.h"
@@ -28,9 +29,9 @@ struct Flags {
     SweepOptions o = options;
     require_text(out, "--output", "a folder");
     require_text(engine.empty() ? "-" : engine, "--engine", "an engine");
-    o.plan = plans.empty() ? plan : plans.front();
-    for (std::size_t i = 1; i < plans.size(); ++i) o.others.emplace_back(plans[i]);
-    o.out = out;
+    o.plan = utf8_path(plans.empty() ? plan : plans.front());
+    for (std::size_t i = 1; i < plans.size(); ++i) o.others.push_back(utf8_path(plans[i]));
+    o.out = utf8_path(out);
     o.shard = shard;
     o.engine = engine;
     o.image = image;

@@ -1,15 +1,13 @@
 #include "cli/terminal.h"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <string>
-#include <system_error>
 
+#include "base/machine.h"
 #include "base/printable.h"
+#include "base/system_failure.h"
 
 namespace rainref::cli {
 
@@ -19,7 +17,7 @@ void print_aside(std::string_view text) {
   std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 void print_report(std::string_view report) {
-  if (std::fwrite(report.data(), 1, report.size(), stdout) < report.size()) throw std::system_error(errno, std::generic_category());
+  if (std::fwrite(report.data(), 1, report.size(), stdout) < report.size()) throw_system_error(errno);
 }
 
 void complain(std::string_view message) {
@@ -29,9 +27,6 @@ void complain(std::string_view message) {
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-bool reader_is_gone() {
-  pollfd output{STDOUT_FILENO, 0, 0};
-  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
-}
+bool reader_is_gone() { return machine::reader_is_gone(stdout); }
 
 }  // namespace rainref::cli

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "capture/capture_recorder.h"
 #include "capture/manifest_write.h"
 #include "cli/commands.h"
@@ -36,14 +37,14 @@ void make_empty(const fs::path& wanted) {
   std::error_code error;
   fs::create_directories(wanted, error);
   if (error || !fs::is_directory(wanted, error)) {
-    throw Error(ExitCode::io, fmt::format("--port {}: cannot make this folder: {}", wanted.string(),
+    throw Error(ExitCode::io, fmt::format("--port {}: cannot make this folder: {}", path_text(wanted),
                                           error ? error.message() : "a file of that name exists"));
   }
   if (!fs::is_empty(wanted, error)) {
     throw Error(
         ExitCode::usage,
         fmt::format("--port {}: expected a new or empty folder for --exec to write to, found one with files: they could be an older run's",
-                    wanted.string()));
+                    path_text(wanted)));
   }
 }
 
@@ -79,7 +80,7 @@ PortRuns run_port(const ValidateRequest& request, const fs::path& folder) {
   PortRuns runs;
   Progress progress("running the port", request.repeat);
   for (int k = 1; k <= request.repeat; ++k) {
-    const fs::path out = request.repeat == 1 ? folder : folder / fmt::format("run.{}", k);
+    const fs::path out = request.repeat == 1 ? folder : folder / utf8_path(fmt::format("run.{}", k));
     make_empty(out);
     const PortFolders folders(request.pack, out);
     const CommandEnd end =
@@ -128,7 +129,7 @@ judging::Judged judge_pack(const ValidateRequest& request, const Reports& report
       throw Error(e.code(), fmt::format("{}; the port's command ended with exit code 0 and printed last: {}", e.what(), runs.last_line));
     }
   }
-  judgement.port = temporary ? "the outputs of --exec" : request.port.string();
+  judgement.port = temporary ? "the outputs of --exec" : path_text(request.port);
   if (!judgement.files.empty() && !runs.last_line.empty())
     judgement.notes.push_back("the port's command ended with exit code 0 and printed last: " + runs.last_line);
   return judged;
@@ -141,19 +142,19 @@ judge::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Ex
     const capture::Pack pack(request.shadow);
     if (!pack.with_inputs)
       throw Error(ExitCode::usage, fmt::format("{}: its manifest is of a capture without inputs, which nothing can be recomputed from",
-                                               request.shadow.string()));
+                                               path_text(request.shadow)));
     // A capture of rainref shares equal files. A port that writes its own dumps writes all of them.
     return judge::ShadowPlan::of_manifest(pack, pack.file_beside("port.json").empty());
   };
   if (request.scene.scene.empty()) {
     if (!has_manifest)
       throw Error(ExitCode::usage,
-                  fmt::format("--shadow {}: expected a manifest.json there, or the scene that the port ran", request.shadow.string()));
+                  fmt::format("--shadow {}: expected a manifest.json there, or the scene that the port ran", path_text(request.shadow)));
     return manifest();
   }
   const scene::Config config = load_scene(request.scene);
   const capture::EffectInfo& info = *registry::find(config.effect())->info;
-  judge::ShadowPlan plan = judge::ShadowPlan::of_effect(info, config.variant(), request.scene.scene.filename().string());
+  judge::ShadowPlan plan = judge::ShadowPlan::of_effect(info, config.variant(), path_text(request.scene.scene.filename()));
   std::set<int> frames;
   for (const judge::DumpedRun& run : judge::dumped_runs(request.shadow, plan.effect, info.pass_names(config.variant())))
     frames.insert(run.frame);
@@ -167,7 +168,7 @@ judge::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Ex
   if (const std::int64_t most = std::max(config.integer("run.frames"), unasked); last >= most) {
     throw Error(ExitCode::port_files,
                 fmt::format("{}: expected frames below {}, found {}; where the port ran longer, --set run.frames says so",
-                            request.shadow.string(), most, last));
+                            path_text(request.shadow), most, last));
   }
   Progress progress(config.effect(), last + 1);
   for (int frame = 0; frame <= last; ++frame) {
@@ -182,7 +183,7 @@ judging::Judged judge_shadow(const ValidateRequest& request, const Reports& repo
   static_cast<void>(judge::judging_profile(request.profile));
   if (!fs::is_directory(request.shadow))
     throw Error(ExitCode::port_files,
-                fmt::format("--shadow {}: expected a folder with the port's dumps, found none", request.shadow.string()));
+                fmt::format("--shadow {}: expected a folder with the port's dumps, found none", path_text(request.shadow)));
   const auto planned = std::make_shared<const judge::ShadowPlan>(shadow_plan(request, executor));
   const judge::ShadowPlan& plan = *planned;
   std::vector<std::string> passes;
@@ -194,8 +195,8 @@ judging::Judged judge_shadow(const ValidateRequest& request, const Reports& repo
   }
   const std::vector<judge::DumpedRun> dumped = judge::dumped_runs(request.shadow, plan.effect, passes);
   if (dumped.empty()) {
-    throw Error(ExitCode::port_files,
-                fmt::format("{}: expected folders such as {}.{}/0000.0, found none", request.shadow.string(), plan.effect, passes.front()));
+    throw Error(ExitCode::port_files, fmt::format("{}: expected folders such as {}.{}/0000.0, found none", path_text(request.shadow),
+                                                  plan.effect, passes.front()));
   }
   std::vector<std::string> ids;
   for (const judge::DumpedRun& run : dumped) ids.push_back(run.id);

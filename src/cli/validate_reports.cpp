@@ -11,6 +11,7 @@
 
 #include "base/folders.h"
 #include "base/hidden.h"
+#include "base/path_text.h"
 #include "cli/commands.h"
 #include "cli/terminal.h"
 #include "rainref/error.h"
@@ -50,7 +51,7 @@ Reports::File Reports::opened(const char* option, const std::optional<std::strin
   if (!path) return {};
   if (path->empty()) throw Error(ExitCode::usage, fmt::format("{}: expected a file, found ''", option));
   if (*path == "-") return {nullptr, true};
-  return {std::make_unique<AtomicFile>(*path), false};
+  return {std::make_unique<AtomicFile>(utf8_path(*path)), false};
 }
 void Reports::finish(File& f, std::string_view text) {
   if (f.is_standard_output) {
@@ -65,7 +66,7 @@ void Reports::finish(File& f, std::string_view text) {
 Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(allow_untested) {
   if (o.baseline) {
     if (o.baseline->empty()) throw Error(ExitCode::usage, "--baseline: expected a file, found ''");
-    baseline_ = reports::Baseline::read(*o.baseline);
+    baseline_ = reports::Baseline::read(utf8_path(*o.baseline));
   }
   json_ = opened("--json", o.json);
   junit_ = opened("--junit", o.junit);
@@ -82,7 +83,7 @@ Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(
     throw Error(ExitCode::usage, other->second == name ? fmt::format("two reports cannot have one name: '{}'", name)
                                                        : fmt::format("two reports cannot be one file: '{}' and '{}'", other->second, name));
   };
-  if (o.baseline) claim(*o.baseline, followed(*o.baseline));
+  if (o.baseline) claim(*o.baseline, followed(utf8_path(*o.baseline)));
   if (json_.file) claim(*o.json, json_.file->target());
   if (junit_.file) claim(*o.junit, junit_.file->target());
   if (html_.file) claim(*o.html, html_.file->target());
@@ -109,8 +110,8 @@ void Reports::write(const judge::PortJudgement& j, const reports::PageSource& so
 
 void Reports::write_error(const Error& error, const ValidateRequest& request) {
   judge::PortJudgement j;
-  j.pack = request.pack.string();
-  j.port = request.shadow.empty() ? request.port.string() : request.shadow.string();
+  j.pack = path_text(request.pack);
+  j.port = request.shadow.empty() ? path_text(request.port) : path_text(request.shadow);
   j.profile = request.profile;
   j.command = request.command;
   j.reason = error.what();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/scene_flags.h"
@@ -67,7 +68,9 @@ Verb describe_verb(CLI::App& app) {
             if (f->spirv.empty()) return describe(f->effect, f->json, f->layout);
             if (f->json || f->layout.language || f->layout.pass || f->layout.variant)
               throw Error(ExitCode::usage, "--spirv: expected no other option beside it");
-            return describe_shaders({f->spirv.begin(), f->spirv.end()});
+            std::vector<std::filesystem::path> shaders;
+            for (const std::string& shader : f->spirv) shaders.push_back(utf8_path(shader));
+            return describe_shaders(shaders);
           }};
 }
 
@@ -115,9 +118,9 @@ Verb run_verb(CLI::App& app) {
             options.png = f->image == "png" || f->image == "both";
             options.exr = f->image == "exr" || f->image == "both";
             if (f->output) require_text(*f->output, "--output", "a folder");
-            options.output = f->output.value_or("");
+            options.output = utf8_path(f->output.value_or(""));
             if (f->film) require_text(*f->film, "--film", "a file");
-            options.film = f->film.value_or("");
+            options.film = utf8_path(f->film.value_or(""));
             if (f->every) options.every = whole_number(*f->every, "--every", 1, 1000000);
             if (f->first) options.first = whole_number(*f->first, "--first", 0, 999999);
             if (f->checkpoint_every) options.checkpoint_every = whole_number(*f->checkpoint_every, "--checkpoint-every", 1, 1000000);
@@ -184,17 +187,17 @@ Verb pack_verb(CLI::App& app) {
             }
             if (!f->flat.empty()) {
               if (!f->inputs.empty()) throw Error(ExitCode::usage, "--inputs: only beside --spirv");
-              return flat_pack(f->flat, f->output);
+              return flat_pack(utf8_path(f->flat), utf8_path(f->output));
             }
             if (!f->spirv.empty()) {
               require_text(f->inputs, "--inputs", "the folder of a run");
-              ForeignPackOptions own{f->spirv, f->inputs, f->output};
+              ForeignPackOptions own{utf8_path(f->spirv), utf8_path(f->inputs), utf8_path(f->output)};
               if (f->scene.threads) own.threads = whole_number(*f->scene.threads, "--threads", 1, parallel::Executor::max_threads);
               return pack(own);
             }
             if (!f->inputs.empty()) throw Error(ExitCode::usage, "--inputs: only beside --spirv");
             PackOptions options;
-            options.output = f->output;
+            options.output = utf8_path(f->output);
             for (const std::string& frame : list_of(f->at.value_or("0,1,12")))
               options.frames.push_back(whole_number(frame, "--at", 0, 1000000));
             options.may_add_frames = !f->at;
@@ -215,7 +218,7 @@ Verb diff_verb(CLI::App& app) {
   verb.add_option("A", f->a, "Folder of a capture or pack")->type_name("DIR")->required();
   verb.add_option("B", f->b, "Folder of another")->type_name("DIR")->required();
   verb.footer("Example: rainref diff out/a/capture out/b/capture");
-  return {&verb, [f] { return diff(f->a, f->b); }};
+  return {&verb, [f] { return diff(utf8_path(f->a), utf8_path(f->b)); }};
 }
 
 Verb selftest_verb(CLI::App& app) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "cache/prepared.h"
 #include "effect/npy_picture.h"
@@ -29,7 +30,7 @@ NamedFile::NamedFile(const scene::Config& config, const std::string& of)
     : key(of), name(config.text(of)), origin(config.entry(of).origin), directory(config.directory()) {}
 
 std::filesystem::path NamedFile::path_of(const std::string& file) const {
-  const std::filesystem::path path = file;
+  const std::filesystem::path path = utf8_path(file);
   return path.is_relative() && origin.kind == scene::Origin::file ? directory / path : path;
 }
 Error NamedFile::placed(ExitCode code, const std::string& message) const {
@@ -50,7 +51,8 @@ struct Decoded {
   std::size_t bytes() const { return cache::bytes_of(picture.image); }
 };
 Decoded decode(const int&, const std::string& path, const Hash128& /*of its bytes*/, const image_io::Content& content) {
-  Decoded made{is_npy(path) ? read_npy(path, content) : image_io::read(path, {}, content)};
+  const std::filesystem::path file = utf8_path(path);
+  Decoded made{is_npy(file) ? read_npy(file, content) : image_io::read(file, {}, content)};
   made.picture.image.share();
   return made;
 }
@@ -62,8 +64,8 @@ image_io::Picture read_picture(const NamedFile& named, const std::string& file) 
   const image_io::Content content = content_of(named.key);
   try {
     std::error_code error;
-    if (!cache::remembers() || !std::filesystem::is_regular_file(path, error)) return decode(0, path, {}, content).picture;
-    return copy_of(cache::prepared("picture", 0, decode, path.string(), file_hash(read_file(path)), content)->picture);
+    if (!cache::remembers() || !std::filesystem::is_regular_file(path, error)) return decode(0, path_text(path), {}, content).picture;
+    return copy_of(cache::prepared("picture", 0, decode, path_text(path), file_hash(read_file(path)), content)->picture);
   } catch (const Error& e) {
     throw named.placed(e.code(), e.what());
   }

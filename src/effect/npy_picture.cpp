@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "capture/hashing.h"
 #include "capture/npy_read.h"
@@ -101,11 +102,11 @@ bool is_npy(const std::filesystem::path& path) {
 }
 
 image_io::Picture inspect_npy(const std::filesystem::path& path, std::span<const std::byte> bytes, image_io::Content content) {
-  return described(array_of(path.string(), bytes), content);
+  return described(array_of(path_text(path), bytes), content);
 }
 
 image_io::Picture read_npy(const std::filesystem::path& path, image_io::Content content) {
-  const std::string file = path.string();
+  const std::string file = path_text(path);
   const std::vector<std::byte> bytes = read_file(path);
   const Array array = array_of(file, bytes);
   const std::byte* from = bytes.data() + array.header.data_offset;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "faults/list_faults.h"
 #include "faults/list_replay.h"
 #include "judge/check_pack.h"
@@ -166,7 +167,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
   for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
   check_pack(pack);
   MutationReport report;
-  report.pack = pack.folder().string();
+  report.pack = path_text(pack.folder());
   report.profile = options.profile;
   int done = 0;
   for (const capture::PackPass& pass : pack.passes) {

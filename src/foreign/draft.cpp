@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "capture/manifest_write.h"
 #include "foreign/effect_file.h"
 #include "scene/json.h"
@@ -45,8 +46,8 @@ ordered_json output_of(const Wanted& w) {
 ordered_json pass_of(const std::filesystem::path& shader) {
   spirv::Program program;
   program.spirv = shader;
-  const spirv::Module module(spirv::read_spirv(program), "'" + shader.string() + "'");
-  ordered_json out{{"name", shader.stem().string()}, {"sentence", ""}, {"spirv", shader.filename().string()}};
+  const spirv::Module module(spirv::read_spirv(program), "'" + path_text(shader) + "'");
+  ordered_json out{{"name", path_text(shader.stem())}, {"sentence", ""}, {"spirv", path_text(shader.filename())}};
   ordered_json inputs = ordered_json::array(), outputs = ordered_json::array();
   for (const Wanted& w : spirv::interface_of(module)) {
     if (w.bound == Bound::uniform_buffer) out["uniform_block"] = scene::uniform_block_json(w.block);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "capture/json_field.h"
 #include "capture/json_read.h"
 #include "capture/manifest_read.h"
@@ -48,10 +49,10 @@ class PassReader {
     static const std::vector<std::string> keys{"name", "sentence", "spirv", "uniform_block", "inputs", "outputs"};
     from.require_known(keys);
     pass_.name = name_in(from["name"]);
-    pass_.program.spirv = folder / from["spirv"].text();
+    pass_.program.spirv = folder / utf8_path(from["spirv"].text());
     if (may_read) may_read(pass_.program.spirv);
     pass_.words = spirv::read_spirv(pass_.program);
-    const spirv::Module module(pass_.words, "'" + pass_.program.spirv.string() + "'");
+    const spirv::Module module(pass_.words, "'" + path_text(pass_.program.spirv) + "'");
     if (module.is_cooperative)
       module.refuse(0, 0, "its invocations work together: a reference must be one whose invocations are judged one by one");
     wanted_ = spirv::interface_of(module);
@@ -91,7 +92,7 @@ class PassReader {
     pass_.program.at.push_back({found->set, found->binding});
     return *found;
   }
-  std::string shader() const { return "'" + pass_.program.spirv.filename().string() + "'"; }
+  std::string shader() const { return "'" + path_text(pass_.program.spirv.filename()) + "'"; }
 
   void read_block() {
     const auto found = std::find_if(wanted_.begin(), wanted_.end(), [](const Wanted& w) { return w.bound == Bound::uniform_buffer; });
@@ -258,8 +259,8 @@ const Pass* EffectFile::find(const std::string& name) const {
 }
 
 EffectFile read_effect(const std::filesystem::path& path, const MayRead& may_read) {
-  const nlohmann::ordered_json json = capture::read_json(path, path.string(), file_limits);
-  const JsonField top(json, path.string());
+  const nlohmann::ordered_json json = capture::read_json(path, path_text(path), file_limits);
+  const JsonField top(json, path_text(path));
   if (!top.has("format") || top["format"].dump() != fmt::format("\"{}\"", file_format))
     top.refuse(fmt::format("this describes no effect: expected \"format\": \"{}\"", file_format));
   static const std::vector<std::string> keys{"format", "version", "effect", "passes"};

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "rainref/error.h"
 #include "spirv/spirv_model.h"
 
@@ -35,16 +36,16 @@ std::string case_fault(const EffectFile& effect, const Pass& pass, const capture
 std::shared_ptr<const EffectFile> reference_of(const capture::Pack& pack) {
   if (pack.reference.empty()) return nullptr;
   const auto refuse = [&](const std::string& why) {
-    throw Error(ExitCode::port_files, fmt::format("{}: {}", pack.folder().string(), why));
+    throw Error(ExitCode::port_files, fmt::format("{}: {}", path_text(pack.folder()), why));
   };
   // Hashes first, and no other file: a description may name any path.
   for (const capture::PackFileEntry& file : pack.reference) static_cast<void>(pack.read_file(file));
   const auto must_be_named = [&](const std::filesystem::path& path) {
-    const std::string shader = path.lexically_relative(pack.folder()).generic_string();
+    const std::string shader = path_text(path.lexically_relative(pack.folder()));
     if (std::none_of(pack.reference.begin(), pack.reference.end(), [&](const auto& f) { return f.path == shader; }))
       refuse(fmt::format("the manifest does not name the shader '{}'", shader));
   };
-  auto effect = std::make_shared<EffectFile>(read_effect(pack.folder() / pack.reference.front().path, must_be_named));
+  auto effect = std::make_shared<EffectFile>(read_effect(pack.folder() / utf8_path(pack.reference.front().path), must_be_named));
   if (effect->info.name != pack.effect || pack.variant != variant)
     refuse(
         fmt::format("its reference is of effect '{}', the manifest of '{}', variant '{}'", effect->info.name, pack.effect, pack.variant));
@@ -68,7 +69,7 @@ std::shared_ptr<const EffectFile> reference_of(const capture::Pack& pack) {
 std::unique_ptr<capture::PassModel> model_of(const EffectFile& effect, const std::string& name, const capture::PassCase& c) {
   const Pass* pass = effect.find(name);
   if (!pass) return nullptr;
-  return spirv::spirv_model(c, pass->program, pass->words, "'" + pass->program.spirv.filename().string() + "'");
+  return spirv::spirv_model(c, pass->program, pass->words, "'" + path_text(pass->program.spirv.filename()) + "'");
 }
 
 capture::PassCase case_of(const EffectFile& effect, const Pass& pass, int frame, int step) {

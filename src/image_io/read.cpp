@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "image_io/decode.h"
 #include "image_io/hdr_header.h"
@@ -134,7 +135,7 @@ Hash128 canonical_hash(const Image& image) {
   return hasher.finish();
 }
 
-std::string quoted(const std::filesystem::path& path) { return fmt::format("'{}'", path.string()); }
+std::string quoted(const std::filesystem::path& path) { return fmt::format("'{}'", path_text(path)); }
 FileKind known_kind(const std::string& file, std::span<const std::byte> bytes) {
   if (bytes.empty()) throw Error(ExitCode::usage, file + ": empty file");
   const std::optional<FileKind> kind = kind_of(bytes);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/atomic_file.h"
+#include "base/path_text.h"
 #include "image_io/codec.h"
 #include "rainref/error.h"
 
@@ -88,7 +89,7 @@ void write_exr(const std::filesystem::path& path, const std::vector<Layer>& laye
     interleave(*layer.image, bytes, texel_bytes, out);
     out += bytes;
   }
-  write_file(path, encoded_exr(path.string(), picture, texels));
+  write_file(path, encoded_exr(path_text(path), picture, texels));
 }
 
 }  // namespace rainref::image_io

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "capture/check_case.h"
 #include "foreign/reference.h"
 #include "judge/keyed.h"
@@ -18,7 +19,7 @@ void check_pack(const capture::Pack& pack) {
   if (foreign::reference_of(pack)) return;
   const effect::Effect& effect = registry::effect_of_pack(pack.effect);
   const auto refuse = [&](const std::string& why) {
-    throw Error(ExitCode::port_files, fmt::format("{}: {}", pack.folder().string(), why));
+    throw Error(ExitCode::port_files, fmt::format("{}: {}", path_text(pack.folder()), why));
   };
   if (effect.info->pass_names(pack.variant).empty()) refuse(fmt::format("{} has no variant '{}'", pack.effect, pack.variant));
   for (const capture::PackCase& entry : pack.cases) {
@@ -43,7 +44,7 @@ void check_pack(const capture::Pack& pack) {
 capture::PassCase read_case(const capture::Pack& pack, const capture::PackCase& entry) {
   capture::PassCase c = pack.read(entry);
   if (const std::string why = capture::record_fault(c); !why.empty())
-    throw Error(ExitCode::port_files, fmt::format("{}: {}: {}", pack.folder().string(), entry.id, why));
+    throw Error(ExitCode::port_files, fmt::format("{}: {}: {}", path_text(pack.folder()), entry.id, why));
   return c;
 }
 
@@ -58,7 +59,7 @@ void require_reference(const capture::Pack& pack, const capture::PassCase& c, co
         ExitCode::port_files,
         fmt::format(
             "{}: {}/out.{}: expected what this version computes, found other values: the pack was made by rainref {}; make it again",
-            pack.folder().string(), c.folder(), c.outputs[o].name, pack.producer));
+            path_text(pack.folder()), c.folder(), c.outputs[o].name, pack.producer));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "capture/bound_texture.h"
 #include "judge/alternatives.h"
 #include "judge/check_pack.h"
@@ -144,7 +145,7 @@ void FusedInputs::replace(const PackCase& entry, PassCase& c, PortFiles* port) c
       if (!takes(edge, entry.pass, from) || input == c.inputs.end() || output == given.outputs.end()) continue;
       if (is_given) {
         port_dump::KeptForm kept;
-        input->array = port->read(source->id, "out." + edge.input, output->array, &kept);
+        input->array = port->read(utf8_path(source->id), "out." + edge.input, output->array, &kept);
         if (kept && kept->widest > 0) throw needs_files(c, from, "their form in port.json rounds what was computed");
         are_ports_own = true;
         continue;

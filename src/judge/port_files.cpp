@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "port_dump/read_buffer.h"
 #include "registry/registry.h"
 
@@ -48,8 +49,8 @@ PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::stri
       alpha_1_.insert(buffer.name);
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {
-    throw Error(ExitCode::port_files,
-                fmt::format("{}: expected a folder of a port, found {}", folder_.string(), fs::exists(folder_, error) ? "a file" : "none"));
+    throw Error(ExitCode::port_files, fmt::format("{}: expected a folder of a port, found {}", path_text(folder_),
+                                                  fs::exists(folder_, error) ? "a file" : "none"));
   }
   info_ = port_dump::read_port_info(folder_);
   if (!own) return;
@@ -58,12 +59,12 @@ PortFiles::PortFiles(fs::path folder, const std::string& effect, const std::stri
   for (const auto& [name, sources] : info_.encodings)
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw Error(ExitCode::port_files, fmt::format("'{}': encodings: expected a buffer of {}, found '{}'{}",
-                                                    (folder_ / "port.json").string(), effect, name, did_you_mean(name, names)));
+                                                    path_text(folder_ / "port.json"), effect, name, did_you_mean(name, names)));
 }
 
 capture::Array PortFiles::read(const fs::path& run, const std::string& stem, const capture::Array& expected, port_dump::KeptForm* kept) {
   // A level may be read alone, so the file name does not identify the buffer.
-  const std::string key = fmt::format("{} {} {}x{} {}", (folder_ / run / stem).string(), rainref::info(expected.format).name,
+  const std::string key = fmt::format("{} {} {}x{} {}", path_text(folder_ / run / utf8_path(stem)), rainref::info(expected.format).name,
                                       expected.width, expected.height, expected.levels.size());
   if (buffers_ && buffers_->arrays.contains(key)) {
     const auto open = buffers_->kept.find(key);
@@ -115,15 +116,15 @@ void require_apart(const fs::path& pack, const fs::path& port, ExitCode code) {
   throw Error(
       code,
       fmt::format("{}: expected what the port itself wrote, found the pack's own '{}': its expected outputs would be judged by themselves",
-                  port.string(), pack.string()));
+                  path_text(port), path_text(pack)));
 }
 
 bool PortFiles::has_output(const std::string& run) const {
-  const std::filesystem::path of_pass = (folder_ / run).parent_path();
+  const std::filesystem::path of_pass = (folder_ / utf8_path(run)).parent_path();
   std::error_code error;
   if (!std::filesystem::exists(of_pass, error)) return false;
   for (std::filesystem::recursive_directory_iterator i(of_pass, error), end; !error && i != end; i.increment(error)) {
-    if (i->path().filename().string().starts_with("out")) return true;
+    if (path_text(i->path().filename()).starts_with("out")) return true;
     if (i.depth() > 0) i.disable_recursion_pending();
   }
   return static_cast<bool>(error);  // an unreadable folder is rejected later, by name

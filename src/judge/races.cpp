@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "judge/check_pack.h"
 #include "judge/conclude.h"
 
@@ -49,7 +50,9 @@ Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::p
       for (PortFiles& port : ports) {
         FileFaults& faults = &port == &ports.front() ? first_run : later_runs;
         const std::string stem = "out." + output.name;
-        if (!faults.attempt(entry.pass, entry.id, stem, [&] { found.push_back(port.read(entry.id, stem, shape)); }) && found.empty()) break;
+        if (!faults.attempt(entry.pass, entry.id, stem, [&] { found.push_back(port.read(utf8_path(entry.id), stem, shape)); }) &&
+            found.empty())
+          break;
       }
       if (found.size() < ports.size()) continue;
       const std::size_t size = shape.is_records ? shape.element_bytes() : static_cast<std::size_t>(info(shape.format).channel_bytes);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "capture/check_case.h"
 #include "judge/conclude.h"
 #include "judge/evaluations.h"
@@ -49,7 +50,7 @@ class Shadow {
         throw Error(ExitCode::port_files,
                     fmt::format("'{}': encodings.{}: expected whole records, found some members: a port's own run has no expected record "
                                 "that gives the others",
-                                (files_.folder() / "port.json").string(), buffer));
+                                path_text(files_.folder() / "port.json"), buffer));
     for (const PlannedRun& r : plan.runs) runs_.push_back({r.c.folder(), r.c.pass, r.c.frame, r.c.step, r.c.level, &r, &r, false});
     for (const DumpedRun& d : dumped) {
       const auto known = std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == d.id; });
@@ -73,7 +74,7 @@ class Shadow {
     read_all();
     PortJudgement result;
     result.pack = plan_.scene;
-    result.port = files_.folder().string();
+    result.port = path_text(files_.folder());
     result.profile = options_.profile;
     result.effect = plan_.effect;
     result.variant = plan_.variant;
@@ -112,7 +113,7 @@ class Shadow {
     const auto runs = std::count_if(plan_.runs.begin(), plan_.runs.end(),
                                     [&](const PlannedRun& r) { return r.c.pass == d.pass && r.c.frame == d.frame; });
     throw Error(ExitCode::port_files,
-                fmt::format("'{}': {}", (files_.folder() / d.id).string(),
+                fmt::format("'{}': {}", path_text(files_.folder() / utf8_path(d.id)),
                             plan_.from_scene
                                 ? fmt::format("{} runs {} {} time{} in frame {}", plan_.scene, d.pass, runs, runs == 1 ? "" : "s", d.frame)
                                 : fmt::format("the manifest has no run of {} to say how its buffers are; name the scene", d.pass)));
@@ -127,13 +128,13 @@ class Shadow {
       // A manifest names one file for equal arrays; the port's own dump has priority.
       try {
         for (const std::string& file : port_dump::stems_of(stem, files_.info()))
-          static_cast<void>(port_dump::find_dump_file(files_.folder() / run.id, file));
+          static_cast<void>(port_dump::find_dump_file(files_.folder() / utf8_path(run.id), file));
       } catch (const Error&) {
         // Each level may be shared with another run.
         Array all;
         for (std::size_t level = 0; level < shared.size(); ++level) {
           const fs::path path(shared[level]);
-          Array one = files_.read(path.parent_path(), path.filename().string(), level_of(input.array, static_cast<int>(level)), kept);
+          Array one = files_.read(path.parent_path(), path_text(path.filename()), level_of(input.array, static_cast<int>(level)), kept);
           if (level == 0)
             all = std::move(one);
           else
@@ -142,24 +143,25 @@ class Shadow {
         return all;
       }
     }
-    return files_.read(run.id, stem, input.array, kept);
+    return files_.read(utf8_path(run.id), stem, input.array, kept);
   }
   std::vector<std::byte> read_uniforms(const Run& run) const {
-    fs::path path = files_.folder() / run.id / "uniforms.bin";
+    fs::path path = files_.folder() / utf8_path(run.id) / "uniforms.bin";
     std::error_code ignored;
-    if (!fs::exists(path, ignored) && run.plan && !run.plan->uniform_file.empty()) path = files_.folder() / run.plan->uniform_file;
+    if (!fs::exists(path, ignored) && run.plan && !run.plan->uniform_file.empty())
+      path = files_.folder() / utf8_path(run.plan->uniform_file);
     if (!fs::exists(path, ignored))
-      throw Error(ExitCode::port_files, fmt::format("'{}' is missing: the uniform block that the run took", path.string()));
+      throw Error(ExitCode::port_files, fmt::format("'{}' is missing: the uniform block that the run took", path_text(path)));
     const std::size_t size = run.like->c.uniforms.size();
     std::vector<std::byte> bytes = port_dump::read_port_file(path, std::max(size, std::size_t{1} << 20));
     if (bytes.size() != size)
       throw Error(ExitCode::port_files,
-                  fmt::format("'{}': expected the {} bytes of the uniform block, found {}", path.string(), size, bytes.size()));
+                  fmt::format("'{}': expected the {} bytes of the uniform block, found {}", path_text(path), size, bytes.size()));
     return bytes;
   }
   Array read_output(const Run& run, std::size_t o, port_dump::KeptForm* kept = nullptr) {
     const capture::CaseOutput& output = run.like->c.outputs[o];
-    return files_.read(run.id, "out." + output.name, output.array, kept);
+    return files_.read(utf8_path(run.id), "out." + output.name, output.array, kept);
   }
   /// Reads a buffer by its name in DumpedContents.
   Array read_buffer(const std::string& buffer) {

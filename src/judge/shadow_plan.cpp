@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "base/number_text.h"
+#include "base/path_text.h"
 #include "capture/npy_write.h"
 #include "judge/check_pack.h"
 #include "rainref/error.h"
@@ -73,7 +74,7 @@ Array level_of(const Array& array, int level) {
 ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack, bool shares_files) {
   check_pack(pack);
   if (!pack.reference.empty())
-    throw Error(ExitCode::usage, fmt::format("{}: a pack that brings its own reference judges ports by --port", pack.folder().string()));
+    throw Error(ExitCode::usage, fmt::format("{}: a pack that brings its own reference judges ports by --port", path_text(pack.folder())));
   ShadowPlan plan;
   plan.effect = pack.effect;
   plan.variant = pack.variant;
@@ -206,23 +207,23 @@ std::vector<DumpedRun> dumped_runs(const fs::path& folder, const std::string& ef
   for (const std::string& pass : passes) names.push_back(fmt::format("{}.{}", effect, pass));
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
+    const std::string name = path_text(entry.path().filename());
     if (!entry.is_directory() || !name.starts_with(effect + ".") || std::find(names.begin(), names.end(), name) != names.end()) continue;
     throw Error(ExitCode::port_files,
-                fmt::format("'{}': no pass of this effect and variant{}", entry.path().string(), did_you_mean(name, names)));
+                fmt::format("'{}': no pass of this effect and variant{}", path_text(entry.path()), did_you_mean(name, names)));
   }
-  if (error) throw Error(ExitCode::io, fmt::format("'{}': {}", folder.string(), error.message()));
+  if (error) throw Error(ExitCode::io, fmt::format("'{}': {}", path_text(folder), error.message()));
   std::vector<DumpedRun> out;
   for (std::size_t p = 0; p < passes.size(); ++p) {
     const std::size_t first = out.size();
-    if (!fs::is_directory(folder / names[p], error)) continue;
-    for (const auto& entry : fs::directory_iterator(folder / names[p])) {
+    if (!fs::is_directory(folder / utf8_path(names[p]), error)) continue;
+    for (const auto& entry : fs::directory_iterator(folder / utf8_path(names[p]))) {
       DumpedRun run;
-      const std::string name = entry.path().filename().string();
+      const std::string name = path_text(entry.path().filename());
       if (!entry.is_directory()) continue;
       if (!parse_run(name, run) || name != run_name(run))
         throw Error(ExitCode::port_files,
-                    fmt::format("'{}': expected <frame>.<step> with four digits or more, such as 0012.0", entry.path().string()));
+                    fmt::format("'{}': expected <frame>.<step> with four digits or more, such as 0012.0", path_text(entry.path())));
       run.pass = passes[p];
       run.id = fmt::format("{}/{}", names[p], name);
       out.push_back(run);

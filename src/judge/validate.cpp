@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "judge/check_pack.h"
 #include "judge/conclude.h"
 #include "judge/evaluations.h"
@@ -51,10 +52,10 @@ void require_any_folder(const Pack& pack, const ValidateOptions& options, const 
   const auto first = std::find_if(pack.cases.begin(), pack.cases.end(), may_be_there);
   std::error_code ignored;
   if (first != pack.cases.end() && std::none_of(pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) {
-        return may_be_there(c) && !absent.contains(c.pass) && std::filesystem::is_directory(port.folder() / c.id, ignored);
+        return may_be_there(c) && !absent.contains(c.pass) && std::filesystem::is_directory(port.folder() / utf8_path(c.id), ignored);
       }))
     throw Error(ExitCode::port_files,
-                fmt::format("{}: expected folders such as {} with the port's outputs, found none", port.folder().string(), first->id));
+                fmt::format("{}: expected folders such as {} with the port's outputs, found none", path_text(port.folder()), first->id));
 }
 
 /// Reads a case with the port's outputs, and collects errors of its files.
@@ -71,14 +72,14 @@ PortRun read_run(const Pack& pack, const PackCase& entry, const FusedInputs& fus
     const std::string stem = "out." + output.name;
     faults.attempt(entry.pass, entry.id, stem, [&] {
       for (const std::string& file : port_dump::stems_of(stem, port.info()))
-        require_apart(pack.folder() / entry.outputs[o].levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, file).path,
-                      ExitCode::port_files);
+        require_apart(pack.folder() / utf8_path(entry.outputs[o].levels.front().path),
+                      port_dump::find_dump_file(port.folder() / utf8_path(entry.id), file).path, ExitCode::port_files);
       port_dump::KeptForm kept;
-      capture::Array own = port.read(entry.id, stem, output.array, &kept);
+      capture::Array own = port.read(utf8_path(entry.id), stem, output.array, &kept);
       if (output.judge == capture::Judge::bits && kept && kept->widest > 0)
         throw Error(ExitCode::port_files,
                     fmt::format("'{}': encodings.{}: expected an exact form, as its bits are judged, found one that rounds",
-                                (port.folder() / "port.json").string(), output.name));
+                                path_text(port.folder() / "port.json"), output.name));
       run.stored.push_back(std::move(own));
       run.kept.push_back(std::move(kept));
     });
@@ -115,7 +116,7 @@ std::string fused_note(const Pack& pack, const PortFiles& port, const std::strin
 
 PortJudgement unjudged(const Pack& pack, const std::string& profile) {
   PortJudgement j;
-  j.pack = pack.folder().string();
+  j.pack = path_text(pack.folder());
   j.profile = profile;
   j.effect = pack.effect;
   j.variant = pack.variant;
@@ -141,7 +142,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   const enclosed::Profile& chosen = profile(options.profile);
   for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
   if (!pack.with_inputs)
-    throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
+    throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", path_text(pack.folder())));
   check_pack(pack);
   require_apart(pack.folder(), folder, ExitCode::usage);
   const std::shared_ptr<ReadBuffers> buffers = options.buffers ? options.buffers : std::make_shared<ReadBuffers>();
@@ -155,7 +156,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   require_any_folder(pack, options, absent, port);
 
   PortJudgement result = unjudged(pack, options.profile);
-  result.port = folder.string();
+  result.port = path_text(folder);
   describe_port(port.info(), result);
 
   const JudgeOptions how{&chosen, chosen.reference ? nullptr : &profile("typical"), options.executor, declared_mode(port.info()),

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "capture/capture_recorder.h"
 #include "judge/check_pack.h"
 #include "judge/shadow_plan.h"
@@ -86,7 +87,7 @@ CaseList::CaseList(const Simulation& simulation) : effect_(simulation.effect()),
 CaseList::CaseList(const std::filesystem::path& folder, const std::vector<std::string>& passes) {
   pack_ = std::make_shared<const capture::Pack>(folder);
   if (!pack_->with_inputs)
-    throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack_->folder().string()));
+    throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", path_text(pack_->folder())));
   judge::check_pack(*pack_);
   effect_ = pack_->effect;
   variant_ = pack_->variant;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "capture/check_case.h"
 #include "capture/json_read.h"
@@ -36,7 +37,7 @@ class RunFiles {
   RunFiles(const foreign::EffectFile& effect, fs::path folder) : effect_(effect), folder_(std::move(folder)) {
     std::error_code error;
     if (!fs::is_directory(folder_, error))
-      throw Error(ExitCode::port_files, fmt::format("{}: expected a folder with the inputs of a run, found none", folder_.string()));
+      throw Error(ExitCode::port_files, fmt::format("{}: expected a folder with the inputs of a run, found none", path_text(folder_)));
     info_ = port_dump::read_port_info(folder_);
   }
   /// In the order of execution.
@@ -45,10 +46,11 @@ class RunFiles {
     for (const foreign::Pass& pass : effect_.passes) names.push_back(pass.name);
     std::vector<judge::DumpedRun> all = judge::dumped_runs(folder_, effect_.info.name, names);
     if (all.empty())
-      throw Error(ExitCode::port_files,
-                  fmt::format("{}: expected folders such as {}.{}/0000.0, found none", folder_.string(), effect_.info.name, names.front()));
+      throw Error(ExitCode::port_files, fmt::format("{}: expected folders such as {}.{}/0000.0, found none", path_text(folder_),
+                                                    effect_.info.name, names.front()));
     for (const judge::DumpedRun& run : all)
-      if (run.level >= 0) throw Error(ExitCode::port_files, fmt::format("{}: expected no level in its name", (folder_ / run.id).string()));
+      if (run.level >= 0)
+        throw Error(ExitCode::port_files, fmt::format("{}: expected no level in its name", path_text(folder_ / utf8_path(run.id))));
     const auto place = [&](const judge::DumpedRun& run) {
       return std::tuple(run.frame, run.step, std::find(names.begin(), names.end(), run.pass) - names.begin());
     };
@@ -57,27 +59,27 @@ class RunFiles {
   }
   std::vector<std::byte> uniforms(const foreign::Pass& pass, const std::string& id) const {
     if (pass.block.members.empty()) return std::vector<std::byte>(pass.block.size);
-    const fs::path path = folder_ / id / "uniforms.bin";
+    const fs::path path = folder_ / utf8_path(id) / "uniforms.bin";
     std::vector<std::byte> bytes = read_file(path, {pass.block.size, ExitCode::port_files});
     std::size_t least = 0;  // bytes after the last member are padding, which a host may omit
     for (const scene::Member& m : pass.block.members) least = std::max(least, m.offset + m.size());
     if (bytes.size() < least)
-      throw Error(ExitCode::port_files,
-                  fmt::format("{}: expected the {} bytes of {}, found {}", path.string(), pass.block.size, pass.block.name, bytes.size()));
+      throw Error(ExitCode::port_files, fmt::format("{}: expected the {} bytes of {}, found {}", path_text(path), pass.block.size,
+                                                    pass.block.name, bytes.size()));
     bytes.resize(pass.block.size);
     return bytes;
   }
   bool has(const std::string& id, const std::string& stem) const {
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder_ / id, error))
-      if (entry.path().filename().string().starts_with(stem + ".")) return true;
+    for (const auto& entry : fs::directory_iterator(folder_ / utf8_path(id), error))
+      if (path_text(entry.path().filename()).starts_with(stem + ".")) return true;
     return false;
   }
   Array read(const std::string& id, const std::string& stem, const Array& expected) const {
     port_dump::ReadNotes notes;
-    return port_dump::read_port_buffer(folder_ / id, stem, expected, info_, notes);
+    return port_dump::read_port_buffer(folder_ / utf8_path(id), stem, expected, info_, notes);
   }
-  std::string path(const std::string& id) const { return (folder_ / id).string(); }
+  std::string path(const std::string& id) const { return path_text(folder_ / utf8_path(id)); }
 
  private:
   const foreign::EffectFile& effect_;
@@ -149,11 +151,11 @@ class Packing {
   }
   /// The judge evaluates each invocation only for its own texel; the whole dispatch must give the same.
   void require_own_texels(const foreign::Pass& pass, const PassCase& c, const judge::DumpedRun& at) const {
-    const std::vector<Array> whole = spirv::execute(c, pass.program, pass.words, "'" + pass.program.spirv.filename().string() + "'");
+    const std::vector<Array> whole = spirv::execute(c, pass.program, pass.words, "'" + path_text(pass.program.spirv.filename()) + "'");
     for (std::size_t o = 0; o < whole.size(); ++o)
       if (whole[o].levels != c.outputs[o].array.levels)
         refuse(at, fmt::format("{} writes other texels of {} than that of its invocation: it cannot be a reference",
-                               pass.program.spirv.filename().string(), c.outputs[o].name));
+                               path_text(pass.program.spirv.filename()), c.outputs[o].name));
   }
   void require_numbers(const PassCase& c, const judge::DumpedRun& at) const {
     for (const judge::Slot& slot : judge::slots_of(c)) {
@@ -186,7 +188,7 @@ scene::Config config_of(const foreign::EffectFile& effect) {
 
 /// Adds the description with its shaders.
 void add_reference(capture::PackWriter& writer, const fs::path& description, const foreign::EffectFile& effect) {
-  nlohmann::ordered_json json = capture::read_json(description, description.string(), capture::large_json);
+  nlohmann::ordered_json json = capture::read_json(description, path_text(description), capture::large_json);
   for (std::size_t p = 0; p < effect.passes.size(); ++p) json["passes"][p]["spirv"] = effect.passes[p].name + ".spv";
   const std::string text = json.dump(1) + "\n";
   writer.add_reference("reference/effect.json", std::as_bytes(std::span(text)));
@@ -202,7 +204,7 @@ ForeignPack make_foreign_pack(const ForeignPackRequest& request, const parallel:
   ForeignPack made;
   for (const foreign::Pass& pass : effect.passes)
     if (std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.pass == pass.name; })) made.passes.push_back(pass.name);
-  capture::PackWriter writer(request.output, effect.info, config_of(effect), request.effect.filename().string(), true, made.passes);
+  capture::PackWriter writer(request.output, effect.info, config_of(effect), path_text(request.effect.filename()), true, made.passes);
   Packing packing(effect, files, executor);
   for (const judge::DumpedRun& at : runs) writer.add(packing.run(*effect.find(at.pass), at));
   packing.add_coverage(writer);

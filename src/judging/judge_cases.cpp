@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "faults/diagnose.h"
 #include "image/code_range.h"
 #include "judge/check_pack.h"
@@ -70,7 +71,7 @@ judge::PortJudgement judged(const CaseList& cases, const JudgeOptions& o, const 
   }
   if (tasks.empty()) throw Error(ExitCode::port_files, "cases: expected outputs of a port, given for one case or more, found none");
   judge::PortJudgement result;
-  result.pack = cases.pack() ? cases.pack()->folder().string() : cases.scene();
+  result.pack = cases.pack() ? path_text(cases.pack()->folder()) : cases.scene();
   result.port = o.port;
   result.profile = o.profile;
   result.effect = cases.effect();

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "faults/diagnose.h"
 #include "judge/check_pack.h"
 #include "judge/conclude.h"
@@ -90,7 +91,7 @@ void ask_shaders(const capture::Pack& pack, const std::filesystem::path& port, c
     if (entry == pack.cases.end()) return std::nullopt;
     StoredRun run{judge::read_case(pack, *entry), {}, pack.pass(entry->pass).block};
     for (const capture::CaseOutput& output : run.c.outputs)
-      run.stored.push_back(files.read(id, "out." + output.name, output.array, &run.kept.emplace_back()));
+      run.stored.push_back(files.read(utf8_path(id), "out." + output.name, output.array, &run.kept.emplace_back()));
     return run;
   };
   judging::ask_shaders(

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "judge/fused.h"
 #include "judge/judge.h"
 #include "judge/reference_outputs.h"
@@ -38,7 +39,7 @@ std::vector<OwnInput> own_inputs(const FailedRun& failed, const capture::Pack& p
     const capture::PackCase* source = input == c.inputs.end() ? nullptr : judge::source_of(pack, c.folder(), edge.from);
     if (!source) continue;
     try {
-      Array own = port.read(source->id, "out." + edge.input, input->array);
+      Array own = port.read(utf8_path(source->id), "out." + edge.input, input->array);
       const bool differs = own.width != input->array.width ||
                            !std::equal(own.levels.begin(), own.levels.end(), input->array.levels.begin(), input->array.levels.end());
       if (differs) found.push_back({static_cast<std::size_t>(input - c.inputs.begin()), edge.input, edge.from, std::move(own)});

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "judge/alternatives.h"
 #include "judge/evaluations.h"
 #include "judge/invocation_judge.h"
@@ -24,7 +25,7 @@ using Places = std::vector<std::array<int, 2>>;
 
 constexpr std::size_t most_places = 32;
 
-std::string name_of(const spirv::Program& program) { return "'" + program.spirv.filename().string() + "'"; }
+std::string name_of(const spirv::Program& program) { return "'" + path_text(program.spirv.filename()) + "'"; }
 
 /// Failing texels; if there are none, some spread over the picture.
 Places places_of(const judge::CaseJudgement& judged, const PassModel& model) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "rainref/error.h"
 
@@ -45,7 +46,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> out;
   std::error_code error;
   for (fs::directory_iterator i(folder, error), end; !error && i != end && out.size() < most_names; i.increment(error)) {
-    out.push_back(i->path().filename().string());
+    out.push_back(path_text(i->path().filename()));
   }
   std::ranges::sort(out);
   return out;
@@ -53,46 +54,46 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 [[noreturn]] void refuse_missing(const fs::path& folder, const std::string& stem) {
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) refuse(fmt::format("no folder '{}': the port wrote nothing of this run", folder.string()));
+  if (!fs::is_directory(folder, ignored)) refuse(fmt::format("no folder '{}': the port wrote nothing of this run", path_text(folder)));
   for (const RefusedType& type : refused_types) {
-    const fs::path path = folder / (stem + type.extension);
+    const fs::path path = folder / utf8_path(stem + type.extension);
     if (is_there(path))
-      refuse(fmt::format("'{}': {}: no evidence of a buffer's values; save NPY, EXR, DDS or raw bytes", path.string(), type.reason));
+      refuse(fmt::format("'{}': {}: no evidence of a buffer's values; save NPY, EXR, DDS or raw bytes", path_text(path), type.reason));
   }
-  if (is_there(folder / (stem + ".json")))
-    refuse(fmt::format("'{}' describes raw bytes, but '{}.bin' is missing", (folder / (stem + ".json")).string(), stem));
+  if (is_there(folder / utf8_path(stem + ".json")))
+    refuse(fmt::format("'{}' describes raw bytes, but '{}.bin' is missing", path_text(folder / utf8_path(stem + ".json")), stem));
   const std::vector<std::string> names = names_in(folder);
   std::string hint;
   for (const char* extension : extensions) {
     if (hint.empty()) hint = did_you_mean(stem + extension, names);
   }
-  refuse(fmt::format("'{}': no '{}' as .npy, .exr, .dds, .png or .bin with .json{}", folder.string(), stem, hint));
+  refuse(fmt::format("'{}': no '{}' as .npy, .exr, .dds, .png or .bin with .json{}", path_text(folder), stem, hint));
 }
 
 }  // namespace
 
-std::string DumpFile::quoted() const { return fmt::format("'{}'", path.string()); }
+std::string DumpFile::quoted() const { return fmt::format("'{}'", path_text(path)); }
 
 DumpFile find_dump_file(const fs::path& folder, std::string_view stem_view) {
   const std::string stem(stem_view);
   std::vector<std::string> found;
   DumpFile out;
   for (std::size_t i = 0; i < extensions.size(); ++i) {
-    const fs::path path = folder / (stem + extensions[i]);
+    const fs::path path = folder / utf8_path(stem + extensions[i]);
     if (!is_there(path)) continue;
     found.push_back(stem + extensions[i]);
     out = {path, static_cast<FileType>(i), {}};
   }
   if (found.empty()) refuse_missing(folder, stem);
-  if (found.size() > 1) refuse(fmt::format("'{}': {} hold the same buffer; keep one", folder.string(), fmt::join(found, " and ")));
-  const fs::path sidecar = folder / (stem + ".json");
+  if (found.size() > 1) refuse(fmt::format("'{}': {} hold the same buffer; keep one", path_text(folder), fmt::join(found, " and ")));
+  const fs::path sidecar = folder / utf8_path(stem + ".json");
   if (out.type == FileType::bin) {
     if (!is_there(sidecar)) {
       refuse(fmt::format("{}: raw bytes need '{}.json' beside them with format, width and height", out.quoted(), stem));
     }
     out.sidecar = sidecar;
   } else if (is_there(sidecar)) {
-    refuse(fmt::format("'{}' describes raw bytes, but the buffer is {}; keep one", sidecar.string(), out.quoted()));
+    refuse(fmt::format("'{}' describes raw bytes, but the buffer is {}; keep one", path_text(sidecar), out.quoted()));
   }
   return out;
 }
@@ -106,7 +107,7 @@ std::vector<std::byte> read_port_file(const fs::path& path, std::uint64_t most) 
                             : type == fs::file_type::character ? "a device"
                             : type == fs::file_type::block     ? "a device"
                                                                : nullptr;
-  if (found) refuse(fmt::format("'{}': expected a file, found {}", path.string(), found));
+  if (found) refuse(fmt::format("'{}': expected a file, found {}", path_text(path), found));
   return read_file(path, {most, ExitCode::port_files});
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "math/half.h"
 #include "port_dump/dump_file.h"
 #include "port_dump/raw_bytes.h"
@@ -94,7 +95,7 @@ std::vector<std::size_t> pitches_for(std::size_t bytes, std::size_t row, std::si
 class Importer {
  public:
   Importer(const std::filesystem::path& path, const capture::Array& expected, int level, const ImportHints& hints, Alpha alpha)
-      : file_(fmt::format("'{}'", path.string())),
+      : file_(fmt::format("'{}'", path_text(path))),
         bytes_(read_port_file(path, std::uint64_t{1} << 32)),
         expected_(expected),
         level_(level),

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "capture/json_field.h"
 #include "capture/json_read.h"
 #include "port_dump/apis.h"
@@ -84,7 +85,7 @@ PortInfo read_port_info(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::symlink_status(path, ignored).type() == std::filesystem::file_type::not_found) return {};
   const std::vector<std::byte> bytes = read_port_file(path, capture::small_json.bytes);
-  return parse_port_info({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, fmt::format("'{}'", path.string()));
+  return parse_port_info({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, fmt::format("'{}'", path_text(path)));
 }
 
 }  // namespace rainref::port_dump

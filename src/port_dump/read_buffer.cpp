@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "capture/json_read.h"
 #include "capture/npy_read.h"
 #include "image_io/evidence.h"
@@ -132,7 +133,7 @@ struct LoadedFile {
             file.quoted(),
             bytes,
             {reinterpret_cast<const char*>(sidecar.data()), sidecar.size()},
-            fmt::format("'{}'", file.sidecar.string())};
+            fmt::format("'{}'", path_text(file.sidecar))};
   }
 };
 

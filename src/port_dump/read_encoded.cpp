@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "port_dump/conversion.h"
 #include "port_dump/kept.h"
 #include "port_dump/read_buffer.h"
@@ -32,7 +33,7 @@ struct Stem {
 };
 
 [[noreturn]] void refuse(const std::filesystem::path& folder, std::string_view stem, const std::string& why) {
-  throw Error(ExitCode::port_files, fmt::format("'{}': encodings.{}: {}", (folder / std::string(stem)).string(), buffer_of(stem), why));
+  throw Error(ExitCode::port_files, fmt::format("'{}': encodings.{}: {}", path_text(folder / utf8_path(stem)), buffer_of(stem), why));
 }
 
 /// The values of a channel as the port stored them, or with the other sign, or counted from the other end.

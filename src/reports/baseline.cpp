@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "judge/conclude.h"
 #include "scene/toml_reader.h"
@@ -58,7 +59,7 @@ std::string Baseline::Entry::text() const {
 
 Baseline Baseline::read(const std::filesystem::path& file) {
   const std::vector<std::byte> bytes = read_file(file, {std::uint64_t{1} << 20, ExitCode::usage});
-  return parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+  return parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path_text(file));
 }
 
 Baseline Baseline::parse(std::string_view toml, const std::string& file) {

@@ -11,6 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "base/floating_point.h"
+#include "base/path_text.h"
+#include "base/system.h"
 #include "scene/check.h"
 #include "scene/unexercised.h"
 
@@ -107,7 +109,7 @@ class Assembly {
     for (Config::Entry& e : entries_) {
       if (!e.parameter.used_by(variant_)) continue;
       if (e.parameter.is_required && e.origin.kind == Origin::by_default) {
-        refuse({Origin::file, {file.string()}}, e.parameter.key, "missing; expected " + expectation(e.parameter));
+        refuse({Origin::file, {path_text(file)}}, e.parameter.key, "missing; expected " + expectation(e.parameter));
       }
       used.push_back(std::move(e));
     }
@@ -167,7 +169,7 @@ std::string deciding(const Parameter& p, const std::vector<RawEntry>& entries, c
   for (const RawEntry& e : entries) {
     if (e.key == p.key) return std::get<std::string>(checked(e.value, p, {Origin::file, e.at}));
   }
-  refuse({Origin::file, {file.string()}}, p.key, "missing; expected " + expectation(p));
+  refuse({Origin::file, {path_text(file)}}, p.key, "missing; expected " + expectation(p));
 }
 
 bool says(const std::vector<RawEntry>& entries, std::string_view key) {
@@ -177,16 +179,14 @@ bool says(const std::vector<RawEntry>& entries, std::string_view key) {
 }  // namespace
 
 std::string read_scene(const std::filesystem::path& file) {
-  const SourceLocation at{file.string()};
+  const SourceLocation at{path_text(file)};
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     throw Error(ExitCode::io, at, "expected a scene file, found a directory");
   }
-  const auto cannot_read = [&](int why) {
-    return Error(ExitCode::io, at, fmt::format("cannot be read: {}", std::generic_category().message(why)));
-  };
+  const auto cannot_read = [&](int why) { return Error(ExitCode::io, at, fmt::format("cannot be read: {}", reason_of(why))); };
   const auto close = [](std::FILE* f) { std::fclose(f); };
-  const std::unique_ptr<std::FILE, decltype(close)> stream(std::fopen(file.string().c_str(), "rb"), close);
+  const std::unique_ptr<std::FILE, decltype(close)> stream(system::stream_to_read(file), close);
   if (!stream) throw cannot_read(errno);
   std::string text(read_limit, '\0');
   text.resize(std::fread(text.data(), 1, text.size(), stream.get()));
@@ -203,7 +203,7 @@ Config parse(std::string_view toml, const std::filesystem::path& file, const std
              const EffectTable& effects) {
   const FloatingPointGuard guard;
   const std::vector<Override> given = split(overrides);
-  return parse(read_toml(toml, file.string()), file, given, effects);
+  return parse(read_toml(toml, path_text(file)), file, given, effects);
 }
 
 Config parse(const std::vector<RawEntry>& entries, const std::filesystem::path& file, const std::vector<Override>& given,
@@ -228,7 +228,7 @@ Config parse(const SceneText& scene, const EffectTable& effects) {
   std::vector<std::string> overrides;
   if (!says(entries, "variant")) overrides.push_back("variant=corrected");  // before the caller's own, which override it
   overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());
-  return parse(scene.toml, scene.file, overrides, effects);
+  return parse(scene.toml, utf8_path(scene.file), overrides, effects);
 }
 
 Config parse(const SceneText& scene, const Effect& effect, std::span<const char* const> pictures) {
@@ -239,7 +239,7 @@ Config parse(const SceneText& scene, const Effect& effect, std::span<const char*
   if (!says(entries, "effect")) overrides.push_back("effect=" + effect.name);
   if (!says(entries, "variant")) overrides.push_back("variant=" + effect.variants.back());
   overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());
-  const Config config = parse(scene.toml, scene.file, overrides, {{effect}});
+  const Config config = parse(scene.toml, utf8_path(scene.file), overrides, {{effect}});
   for (const char* key : pictures) {
     const bool is_used =
         std::any_of(config.entries().begin(), config.entries().end(), [&](const Config::Entry& e) { return e.parameter.key == key; });

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/floating_point.h"
+#include "base/path_text.h"
 #include "cache/prepared.h"
 #include "image/flipped.h"
 #include "image_io/write.h"
@@ -40,9 +41,9 @@ void write_top_first(const std::filesystem::path& path, std::vector<image_io::La
 
 void write_map(const std::filesystem::path& folder, const effect::Map& map) {
   if (map.image->format() == Format::rgba8)
-    image_io::write_png(folder / fmt::format("{}.png", map.name), flipped(*map.image), image_io::PngChannels::rgba);
+    image_io::write_png(folder / utf8_path(fmt::format("{}.png", map.name)), flipped(*map.image), image_io::PngChannels::rgba);
   else
-    write_top_first(folder / fmt::format("{}.exr", map.name), {{"", {"R", "G", "B", "A"}, map.image}});
+    write_top_first(folder / utf8_path(fmt::format("{}.exr", map.name)), {{"", {"R", "G", "B", "A"}, map.image}});
 }
 
 }  // namespace

@@ -5,9 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "image_io/codec_folder.h"
 #include "rainref/error.h"
-#include "simulation/own_file.h"
+#include "base/code_file.h"
 
 namespace rainref::simulation {
 namespace {
@@ -20,11 +21,11 @@ std::vector<fs::path> own_folders(const std::string& name = "scenes") {
   std::vector<fs::path> folders;
   const auto add = [&](const fs::path& here, const char* from_here) {
     std::error_code error;
-    const fs::path folder = fs::canonical((here / from_here).parent_path() / name, error);
+    const fs::path folder = fs::canonical((here / utf8_path(from_here)).parent_path() / utf8_path(name), error);
     if (!error && std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
   };
   constexpr const char* from_any = "../share/rainref/scenes";
-  const fs::path here = own_file().parent_path();
+  const fs::path here = code_file().parent_path();
   for (const char* from_here : {RAINREF_SCENES_FROM_PROGRAM, RAINREF_SCENES_FROM_LIBRARY, from_any}) add(here, from_here);
   if (const fs::path module = image_io::codec_folder(); !module.empty())
     for (const char* from_here : {RAINREF_SCENES_FROM_MODULE, from_any}) add(module, from_here);
@@ -35,7 +36,7 @@ std::vector<std::string> scenes_below(const fs::path& root) {
   std::vector<std::string> found;
   std::error_code none;
   for (const auto& entry : fs::recursive_directory_iterator(root, fs::directory_options::skip_permission_denied, none))
-    if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
+    if (entry.path().extension() == ".toml") found.push_back(path_text(entry.path()));
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -45,7 +46,7 @@ std::vector<std::string> scenes_below(const fs::path& root) {
 std::vector<std::string> own_scenes() {
   for (const fs::path& folder : own_folders()) {
     std::vector<std::string> found = scenes_below(folder);
-    for (std::string& file : found) file = fs::path(file).lexically_relative(folder).string();
+    for (std::string& file : found) file = path_text(utf8_path(file).lexically_relative(folder));
     if (!found.empty()) return found;
   }
   return {};
@@ -90,18 +91,18 @@ std::string did_you_mean_scene(const fs::path& wrong) {
   const fs::path beside = wrong.parent_path();
   std::vector<std::string> siblings;
   for (const auto& entry : fs::directory_iterator(beside.empty() ? "." : beside, none)) {
-    if (entry.path().extension() == ".toml") siblings.push_back((beside / entry.path().filename()).string());
+    if (entry.path().extension() == ".toml") siblings.push_back(path_text(beside / entry.path().filename()));
   }
   std::sort(siblings.begin(), siblings.end());
   for (const std::string& file : siblings) add(file, file);
   for (const std::string& file : known_scenes()) {
     add(file, file);
     // "puddle/default.toml", "scenes/puddle/default.toml", in any folder; "default.toml" alone would match any effect's.
-    const fs::path path(file), in_effect = path.parent_path().filename() / path.filename();
-    add(in_effect.string(), file);
-    add(("scenes" / in_effect).string(), file);
+    const fs::path path = utf8_path(file), in_effect = path.parent_path().filename() / path.filename();
+    add(path_text(in_effect), file);
+    add(path_text("scenes" / in_effect), file);
   }
-  const std::string near = nearest_name(wrong.lexically_normal().string(), names);
+  const std::string near = nearest_name(path_text(wrong.lexically_normal()), names);
   if (near.empty()) return "";
   return fmt::format("; did you mean '{}'?", files[static_cast<std::size_t>(std::find(names.begin(), names.end(), near) - names.begin())]);
 }

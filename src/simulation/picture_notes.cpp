@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "capture/hashing.h"
 #include "rainref/error.h"
@@ -35,7 +36,7 @@ std::string scene_text(const scene::Config& config, int frame) {
     if (key == "run.frames")
       out += fmt::format("{} = {}\n", key, frame + 1);
     else if (names_file(e))
-      out += fmt::format("{} = {}\n", key, scene::value_text(std::filesystem::path(std::get<std::string>(e.value)).filename().string()));
+      out += fmt::format("{} = {}\n", key, scene::value_text(path_text(utf8_path(std::get<std::string>(e.value)).filename())));
     else if (e.parameter.is_required || key == "effect" || key == "variant" || key == "seed" ||
              e.value != e.parameter.default_in(config.variant()))
       out += fmt::format("{} = {}\n", key, scene::value_text(e.value));
@@ -57,7 +58,7 @@ Hash128 scene_hash(const scene::Config& config, const effect::Inputs& inputs) {
 void refuse_folders(const std::string& scene, const std::string& picture) {
   for (const scene::RawEntry& e : scene::read_toml(scene, picture)) {
     const auto* text = std::get_if<std::string>(&e.value.data);
-    if (!text || std::filesystem::path(*text).filename() == *text) continue;
+    if (!text || path_text(utf8_path(*text).filename()) == *text) continue;
     throw Error(ExitCode::usage,
                 fmt::format("'{}': {}: expected the name of a file beside the picture, as rainref writes it there, found {}", picture,
                             e.key, e.value.text()));
@@ -91,13 +92,13 @@ std::optional<SceneOfPicture> scene_of_picture(const std::filesystem::path& file
   std::ifstream(file, std::ios::binary).read(first.data(), first.size());
   if (!image_io::may_have_notes(std::as_bytes(std::span(first)))) return std::nullopt;
   const std::vector<std::byte> bytes = read_file(file);
-  const std::string name = fmt::format("'{}'", file.string());
+  const std::string name = fmt::format("'{}'", path_text(file));
   std::optional<std::string> scene = image_io::find_note(name, bytes, scene_key);
   if (!scene)
     throw Error(
         ExitCode::usage,
         fmt::format("{}: expected a scene, or a picture with the scene in it as rainref writes them; found a picture without", name));
-  refuse_folders(*scene, file.string());
+  refuse_folders(*scene, path_text(file));
   return SceneOfPicture{std::move(*scene), image_io::find_note(name, bytes, generation_key).value_or("")};
 }
 

@@ -1,3 +1,4 @@
+#include "base/path_text.h"
 #include "rainref/simulation.h"
 
 #include <mutex>
@@ -73,7 +74,7 @@ struct Simulation::State {
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set) {
   const FloatingPointGuard guard;
   const std::filesystem::path found = simulation::find_scene(file);
-  if (auto scene = simulation::scene_of_picture(found)) return {std::move(scene->toml), std::move(set), found.string()};
+  if (auto scene = simulation::scene_of_picture(found)) return {std::move(scene->toml), std::move(set), path_text(found)};
   std::vector<std::byte> bytes;
   try {
     bytes = read_file(found);
@@ -82,7 +83,7 @@ SceneText read_scene(const std::filesystem::path& file, std::vector<std::string>
     if (e.code() != ExitCode::io || std::filesystem::exists(found, none)) throw;
     throw Error(e.code(), e.what() + simulation::did_you_mean_scene(file));
   }
-  return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), found.string()};
+  return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), path_text(found)};
 }
 
 std::shared_ptr<const scene::Scenery> street_at_night(std::uint64_t seed, bool clear_lane) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "capture/bound_texture.h"
 #include "capture/json_read.h"
@@ -29,7 +30,7 @@ constexpr std::size_t most_bytes = 4 << 20;   // of a module
 
 std::map<std::string, Program> read_programs(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "bindings.json";
-  const nlohmann::json all = capture::read_json(file, "'" + file.string() + "'", capture::small_json);
+  const nlohmann::json all = capture::read_json(file, "'" + path_text(file) + "'", capture::small_json);
   try {
     const std::map<std::string, port_runner::Program> programs = port_runner::programs_of(all, folder);
     return {programs.begin(), programs.end()};

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 
 namespace rainref::sweep {
@@ -99,7 +100,7 @@ Axis cases_axis(const std::filesystem::path& file, std::int64_t most_rows) {
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
   Axis axis;
   for (int number = 1; !rest.empty(); ++number) {
-    const SourceLocation at{file.string(), number};
+    const SourceLocation at{path_text(file), number};
     const std::size_t end = rest.find('\n');
     std::string_view line = rest.substr(0, end);
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
@@ -123,7 +124,7 @@ Axis cases_axis(const std::filesystem::path& file, std::int64_t most_rows) {
     std::vector<scene::Override>& row = axis.rows.emplace_back();
     for (std::size_t i = 0; i < found.size(); ++i) row.push_back({axis.keys[i], found[i], at});
   }
-  if (axis.rows.empty()) throw Error(ExitCode::usage, SourceLocation{file.string()}, "expected a head and at least one case, found none");
+  if (axis.rows.empty()) throw Error(ExitCode::usage, SourceLocation{path_text(file)}, "expected a head and at least one case, found none");
   return axis;
 }
 
@@ -177,7 +178,7 @@ std::vector<Axis> axes_from(std::span<const RawEntry> entries, const std::filesy
     if (key == "cases") {
       const auto* name = std::get_if<std::string>(&e.value.data);
       if (!name) refuse(e.value.at, key, "expected the name of a CSV file, found " + e.value.text());
-      Axis axis = cases_axis(folder / *name, most_cells / cells);
+      Axis axis = cases_axis(folder / utf8_path(*name), most_cells / cells);
       grow(static_cast<std::int64_t>(axis.rows.size()), e.at);
       add(std::move(axis), e.at);
     } else if (const auto* values = std::get_if<std::vector<RawValue>>(&e.value.data)) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "capture/json_field.h"
 #include "capture/json_read.h"
@@ -17,7 +18,7 @@ namespace rainref::sweep {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* record_name = "cell.json";
+constexpr char record_name[] = "cell.json";
 constexpr std::int64_t most_frame = 1'000'000;
 
 std::string hash_text(std::span<const std::byte> bytes) { return file_hash(bytes).text(); }
@@ -35,7 +36,7 @@ void CellWriter::write(const std::string& path, std::span<const std::byte> bytes
 }
 
 void CellWriter::wrote(const std::string& path) {
-  const std::vector<std::byte> bytes = read_file(folder() / path);
+  const std::vector<std::byte> bytes = read_file(folder() / utf8_path(path));
   files_.push_back({path, bytes.size(), hash_text(bytes)});
 }
 
@@ -61,10 +62,10 @@ CellRecord read_record(const fs::path& cell) {
   const std::vector<std::byte> bytes = read_file(path, {capture::large_json.bytes, capture::large_json.code});
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string_view body = text.substr(std::min(text.find('\n'), text.size() - !text.empty()) + !text.empty());
-  const nlohmann::ordered_json json = capture::parse_json(text, path.string(), capture::large_json);
-  const capture::JsonField from(json, path.string());
+  const nlohmann::ordered_json json = capture::parse_json(text, path_text(path), capture::large_json);
+  const capture::JsonField from(json, path_text(path));
   if (from["xxh3"].text() != hash_text(std::as_bytes(std::span(body)))) from.refuse("is damaged");
-  if (from["cell"].text() != cell.filename().string()) from["cell"].fail(cell.filename().string());
+  if (from["cell"].text() != path_text(cell.filename())) from["cell"].fail(path_text(cell.filename()));
   CellRecord record;
   std::set<std::string> names;
   const auto new_name = [&](const capture::JsonField& field, const std::string& name) {
@@ -84,7 +85,7 @@ CellRecord read_record(const fs::path& cell) {
   for (const capture::JsonField& f : from["files"].elements()) {
     KeptFile& file = record.files.emplace_back();
     file.path = new_name(f, f["path"].text());
-    if (!lies_inside(file.path)) f["path"].fail("a path in the cell's folder");
+    if (!lies_inside(utf8_path(file.path))) f["path"].fail("a path in the cell's folder");
     file.bytes = static_cast<std::uintmax_t>(f["bytes"].whole(0, INT64_MAX));
     file.hash = f["xxh3"].text();
   }
@@ -95,8 +96,8 @@ std::string damage_of(const fs::path& cell, CellRecord& record) {
   try {
     record = read_record(cell);
     for (const KeptFile& f : record.files) {
-      const std::string found = hash_text(read_file(cell / f.path, {f.bytes, ExitCode::port_files}));
-      if (found != f.hash) return fmt::format("{}: expected hash {}, found {}", (cell / f.path).string(), f.hash, found);
+      const std::string found = hash_text(read_file(cell / utf8_path(f.path), {f.bytes, ExitCode::port_files}));
+      if (found != f.hash) return fmt::format("{}: expected hash {}, found {}", path_text(cell / utf8_path(f.path)), f.hash, found);
     }
   } catch (const Error& e) {
     return e.what();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "effect/inputs.h"
 #include "rainref/version.h"
@@ -37,8 +38,8 @@ void place(scene::Override& o, const std::filesystem::path& folder) {
   if (!effect::names_files(o.key)) return;
   std::string* text = std::get_if<std::string>(&o.value);
   if (!text) text = std::get_if<std::string>(&std::get<scene::RawValue>(o.value).data);
-  if (text && !text->empty() && std::filesystem::path(*text).is_relative())
-    *text = std::filesystem::absolute(folder / *text).lexically_normal().string();
+  if (text && !text->empty() && utf8_path(*text).is_relative())
+    *text = path_text(std::filesystem::absolute(folder / utf8_path(*text)).lexically_normal());
 }
 
 /// Checks that the effect has the buffers that a plan keeps.
@@ -91,7 +92,7 @@ Cells::Cells(const Plan& plan, const Planned& planned) : plan_(plan) {
   double cells = static_cast<double>(is_judging ? plan.judging.packs.size() : plan.scenes.size());
   for (const std::uint32_t n : counts) cells *= n;
   if (cells > static_cast<double>(most_cells))
-    throw Error(ExitCode::usage, SourceLocation{plan.file.string()},
+    throw Error(ExitCode::usage, SourceLocation{path_text(plan.file)},
                 fmt::format("axes: expected at most {} cells, found {:.0f}", most_cells, cells));
   const auto points = static_cast<std::int64_t>(cells);
   std::int64_t done = 0;
@@ -190,13 +191,12 @@ void Cells::add_simulated(Cell point, const scene::Config& config) {
   simulation::memory_of(config);  // reads the settings, and so refuses combinations of keys that are invalid
   point.frames = config.integer("run.frames");
   if (plan_.first >= point.frames)
-    throw Error(ExitCode::usage, SourceLocation{plan_.file.string()},
+    throw Error(ExitCode::usage, SourceLocation{path_text(plan_.file)},
                 fmt::format("frames: expected a first frame before run.frames {}, found {}", point.frames, plan_.first));
   std::string text = fmt::format("rainref cell 1\nbits {}\n", golden_hash()) + inputs_.text_of(config);
   if (plan_.verb == Verb::pack) {
-    text +=
-        fmt::format("scene {} {}\nframes {}\nat {}\npasses {}\n", std::filesystem::path(plan_.scenes[point.scene].text).filename().string(),
-                    scene_ids_[point.scene], point.frames, fmt::join(plan_.pack.at, " "), fmt::join(plan_.pack.passes, " "));
+    text += fmt::format("scene {} {}\nframes {}\nat {}\npasses {}\n", path_text(utf8_path(plan_.scenes[point.scene].text).filename()),
+                        scene_ids_[point.scene], point.frames, fmt::join(plan_.pack.at, " "), fmt::join(plan_.pack.passes, " "));
     point.end = point.frames;
     point.id = id_of("pack\n" + text);
     return add(point);
@@ -214,7 +214,7 @@ void Cells::add_judged(Cell point) {
   const JudgingAsked& j = plan_.judging;
   const Placed& pack = j.packs[point.scene];
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(std::filesystem::path(pack.text) / "manifest.json", ignored))
+  if (!std::filesystem::is_regular_file(utf8_path(pack.text) / "manifest.json", ignored))
     throw Error(ExitCode::io, pack.at, fmt::format("pack: expected the folder of a pack, found no {}/manifest.json", pack.text));
   std::string text =
       fmt::format("rainref cell 1\nbits {}\nverb {}\npack {}\nprofile {}\nonly {}\nlabel {}\n", golden_hash(), name(plan_.verb),
@@ -230,11 +230,11 @@ void Cells::add_judged(Cell point) {
 
 void Cells::add(Cell cell) {
   if (static_cast<std::int64_t>(cells_.size()) == most_cells)
-    throw Error(ExitCode::usage, SourceLocation{plan_.file.string()},
+    throw Error(ExitCode::usage, SourceLocation{path_text(plan_.file)},
                 fmt::format("chunk: expected at most {} cells, found more", most_cells));
   const auto [same, is_new] = by_id_.try_emplace(cell.id, cells_.size());
   if (!is_new)
-    throw Error(ExitCode::usage, SourceLocation{plan_.file.string()},
+    throw Error(ExitCode::usage, SourceLocation{path_text(plan_.file)},
                 fmt::format("two cells are the same: {}; and {}", words(cells_[same->second]), words(cell)));
   cells_.push_back(std::move(cell));
 }

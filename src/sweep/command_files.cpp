@@ -5,6 +5,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/path_text.h"
 #include "base/program_path.h"
 
 namespace rainref::sweep {
@@ -44,8 +45,8 @@ void add_words(std::string_view command, std::vector<std::string>& words) {
 /// Empty if the word names no file.
 fs::path file_of(const std::string& word) {
   std::error_code error;
-  if (fs::is_regular_file(word, error)) return fs::absolute(word).lexically_normal();
-  if (word.empty() || word.find('/') != std::string::npos) return {};
+  if (const fs::path file = utf8_path(word); fs::is_regular_file(file, error)) return fs::absolute(file).lexically_normal();
+  if (word.empty() || utf8_path(word).has_parent_path()) return {};
   const fs::path program = program_in_path(word);
   constexpr std::array of_machine{"/bin", "/sbin", "/usr/bin", "/usr/sbin"};
   const auto is_of_machine = [&](const char* folder) { return program.parent_path() == folder; };

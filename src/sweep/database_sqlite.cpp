@@ -1,3 +1,4 @@
+#include "base/path_text.h"
 #include "sweep/database.h"
 
 #include <memory>
@@ -125,7 +126,7 @@ void write_database(const std::filesystem::path& path, const Cells& cells, const
     database.close();
     write_file(path, read_file(made));
   } catch (const std::system_error& e) {
-    throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path.string(), e.code().message()));
+    throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path_text(path), e.code().message()));
   }
 }
 

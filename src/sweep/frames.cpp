@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "capture/capture_recorder.h"
 #include "capture/hashing.h"
@@ -57,7 +58,7 @@ Begun begin_from_state(simulation::Opened& opened, const Store& store, const Cel
     try {
       const fs::path path = store.state(cell.film, frame);
       const std::vector<std::byte> bytes = read_file(path);
-      const state::Saved saved(bytes, path.string());
+      const state::Saved saved(bytes, path_text(path));
       if (saved.frame() == frame) {
         opened.load(saved);
         begun.frame = frame;

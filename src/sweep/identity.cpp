@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "effect/inputs.h"
 #include "effect/picture_sequence.h"
@@ -46,7 +47,7 @@ std::string id_of(std::string_view text) { return file_hash(std::as_bytes(std::s
 std::string Inputs::hash_of(const scene::Config& config, const std::string& key) {
   const effect::NamedFile named(config, key);
   const fs::path path = named.path_of(named.name);
-  std::string name = fs::absolute(path).lexically_normal().string();
+  std::string name = path_text(fs::absolute(path).lexically_normal());
   const bool is_sequence = effect::is_sequence(named.name) && has(config, "sequence.first");
   if (is_sequence)
     name += fmt::format(" {} {} {}", config.integer("sequence.first"), config.integer("sequence.count"), config.integer("run.frames"));
@@ -99,22 +100,23 @@ std::string Inputs::text_of(const scene::Config& config) {
 }
 
 std::string Inputs::bytes_hash(const fs::path& file) {
-  std::string& hash = known_[fs::absolute(file).lexically_normal().string() + "/bytes"];
+  std::string& hash = known_[path_text(fs::absolute(file).lexically_normal()) + "/bytes"];
   if (hash.empty()) hash = file_hash(read_file(file)).text();
   return hash;
 }
 
 std::string Inputs::folder_hash(const fs::path& folder) {
-  std::string& hash = known_[folder.string() + "/"];
+  std::string& hash = known_[path_text(folder) + "/"];
   if (!hash.empty()) return hash;
   std::error_code error;
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator i(folder, error), end; !error && i != end; i.increment(error))
     if (i->is_regular_file()) files.push_back(i->path());
-  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", path_text(folder), error.message()));
   std::sort(files.begin(), files.end());
   std::string all;
-  for (const fs::path& file : files) all += fmt::format("{} {}\n", fs::relative(file, folder).string(), file_hash(read_file(file)).text());
+  for (const fs::path& file : files)
+    all += fmt::format("{} {}\n", path_text(fs::relative(file, folder)), file_hash(read_file(file)).text());
   return hash = id_of(all);
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/number_text.h"
+#include "base/path_text.h"
 #include "judge/profiles.h"
 #include "simulation/own_scenes.h"
 #include "sweep/axes.h"
@@ -104,10 +105,10 @@ void take_size(const RawEntry& e, Plan& plan) {
 
 /// The path of a scene's file relative to the plan; if there is none, the bundled scene of this name.
 std::filesystem::path scene_file(const Plan& plan, const std::string& named) {
-  const std::filesystem::path beside = plan.file.parent_path() / named;
+  const std::filesystem::path beside = plan.file.parent_path() / utf8_path(named);
   std::error_code none;
   if (std::filesystem::exists(beside, none)) return beside;
-  const std::filesystem::path own = simulation::own_scene(named);
+  const std::filesystem::path own = simulation::own_scene(utf8_path(named));
   return own.empty() ? beside : own;
 }
 
@@ -121,7 +122,7 @@ const std::map<std::string, Key>& keys() {
       judge{Verb::validate, Verb::mutate}, validate{Verb::validate}, pack{Verb::pack};
   const auto scene_files = [](const RawEntry& e, Plan& plan) {
     for (const Placed& p : texts_of(e, "the file of a scene, or a list of them"))
-      plan.scenes.push_back({scene_file(plan, p.text).string(), p.at, p.text});
+      plan.scenes.push_back({path_text(scene_file(plan, p.text)), p.at, p.text});
   };
   static const std::map<std::string, Key> all{
       {"verb", {{}, [](const RawEntry&, Plan&) {}}},
@@ -149,7 +150,7 @@ const std::map<std::string, Key>& keys() {
         [](const RawEntry& e, Plan& plan) {
           for (const Placed& p : texts_of(e, "the folder of a pack, or a list of them"))
             plan.judging.packs.push_back(
-                {std::filesystem::absolute(plan.file.parent_path() / p.text).lexically_normal().string(), p.at, p.text});
+                {path_text(std::filesystem::absolute(plan.file.parent_path() / utf8_path(p.text)).lexically_normal()), p.at, p.text});
         }}},
       {"profile",
        {judge,
@@ -166,7 +167,8 @@ const std::map<std::string, Key>& keys() {
       {"port",
        {validate,
         [](const RawEntry& e, Plan& plan) {
-          plan.judging.port = std::filesystem::absolute(plan.file.parent_path() / text_of(e, "a folder")).lexically_normal().string();
+          plan.judging.port =
+              path_text(std::filesystem::absolute(plan.file.parent_path() / utf8_path(text_of(e, "a folder"))).lexically_normal());
         }}},
       {"timeout", {validate, [](const RawEntry& e, Plan& plan) { plan.judging.timeout = whole_of(e.value, e, 1, 1000000); }}},
       {"repeat", {validate, [](const RawEntry& e, Plan& plan) { plan.judging.repeat = whole_of(e.value, e, 1, 1000); }}},
@@ -179,7 +181,7 @@ const std::map<std::string, Key>& keys() {
 Verb verb_of(const std::vector<RawEntry>& entries, const std::filesystem::path& file) {
   const auto said = std::find_if(entries.begin(), entries.end(), [](const RawEntry& e) { return e.key == "verb"; });
   if (said == entries.end())
-    throw Error(ExitCode::usage, SourceLocation{file.string()},
+    throw Error(ExitCode::usage, SourceLocation{path_text(file)},
                 fmt::format("verb: missing; expected one of {}", fmt::join(verb_names, ", ")));
   const std::string word = text_of(*said, "a verb");
   for (std::size_t i = 0; i < verb_names.size(); ++i)
@@ -206,13 +208,13 @@ void take(const RawEntry& e, Plan& plan) {
 
 void require_whole(const Plan& plan) {
   const auto missing = [&](const char* key, const char* what) {
-    throw Error(ExitCode::usage, SourceLocation{plan.file.string()}, fmt::format("{}: missing; expected {}", key, what));
+    throw Error(ExitCode::usage, SourceLocation{path_text(plan.file)}, fmt::format("{}: missing; expected {}", key, what));
   };
   const bool is_judging = plan.verb == Verb::validate || plan.verb == Verb::mutate;
   if (!is_judging && plan.scenes.empty()) missing("scene", "the file of a scene, or a list of them");
   if (is_judging && plan.judging.packs.empty()) missing("pack", "the folder of a pack, or a list of them");
   if (is_judging && !plan.axes.empty())
-    throw Error(ExitCode::usage, SourceLocation{plan.file.string()},
+    throw Error(ExitCode::usage, SourceLocation{path_text(plan.file)},
                 fmt::format("axes: not used by verb '{}', whose cells are its packs and profiles", name(plan.verb)));
   if (plan.verb == Verb::validate && plan.judging.exec.empty() && plan.judging.port.empty())
     missing("exec", "a port's command, or port, the folder of its outputs");
@@ -223,11 +225,11 @@ void require_whole(const Plan& plan) {
 const char* name(Verb verb) { return verb_names[static_cast<std::size_t>(verb)]; }
 
 Plan read_plan(const std::filesystem::path& file) {
-  const std::vector<RawEntry> entries = scene::read_toml(scene::read_scene(file), file.string());
+  const std::vector<RawEntry> entries = scene::read_toml(scene::read_scene(file), path_text(file));
   Plan plan;
   plan.file = file;
   if (const std::string name = plan.name(); name == "." || name == "..")
-    throw Error(ExitCode::usage, SourceLocation{file.string()},
+    throw Error(ExitCode::usage, SourceLocation{path_text(file)},
                 fmt::format("expected a file whose name without .toml is that of a folder, found '{}'", name));
   plan.verb = verb_of(entries, file);
   std::vector<RawEntry> axes;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/path_text.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "sweep/keep.h"
@@ -57,7 +58,7 @@ struct Plan {
   JudgingAsked judging;
 
   /// The file's name without folder and extension.
-  std::string name() const { return file.stem().string(); }
+  std::string name() const { return path_text(file.stem()); }
 };
 
 /// Reads and checks a plan's own keys. Files that it names are relative to it; a missing scene is replaced by the bundled scene of that

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/hidden.h"
+#include "base/path_text.h"
 #include "rainref/error.h"
 #include "sweep/cell_record.h"
 
@@ -30,7 +31,7 @@ std::vector<fs::path> entries(const fs::path& folder, fs::file_type type) {
   if (!fs::is_directory(fs::symlink_status(folder, error))) return found;
   for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
     std::error_code gone;
-    if (i->symlink_status(gone).type() == type && !i->path().filename().string().starts_with(".")) found.push_back(i->path());
+    if (i->symlink_status(gone).type() == type && !path_text(i->path().filename()).starts_with(".")) found.push_back(i->path());
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -46,7 +47,7 @@ std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& pl
     throw Error(ExitCode::usage,
                 fmt::format("{}: expected a folder that `rainref sweep run` marked by its file rainref-store, found none; the "
                             "next `sweep run` into a folder of an older version marks it",
-                            store.root().string()));
+                            path_text(store.root())));
   std::set<std::string> ids, unfinished;
   for (const Cells& cells : plans) {
     for (const Cell& cell : cells.all()) {
@@ -57,10 +58,10 @@ std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& pl
   std::vector<Rubbish> found;
   const auto add = [&](const fs::path& path, const char* why) { found.push_back({path, why, bytes_below(path)}); };
   for (const fs::path& folder : folders(store.root() / "cells")) {
-    const std::string begin = folder.filename().string();
+    const std::string begin = path_text(folder.filename());
     if (begin.size() == 2) remove_leftovers(folder);
     for (const fs::path& cell : folders(folder)) {
-      const std::string id = cell.filename().string();
+      const std::string id = path_text(cell.filename());
       if (!is_id(id) || id.substr(0, 2) != begin) continue;
       if (!ids.contains(id))
         add(cell, "a cell of no plan");
@@ -71,16 +72,16 @@ std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& pl
   remove_leftovers(store.root() / "failed");
   for (const fs::path& tables : folders(store.root() / "plans")) remove_leftovers(tables);
   for (const fs::path& failure : files(store.root() / "failed"))
-    if (is_id(failure.stem().string()) && failure.extension() == ".json" && !ids.contains(failure.stem().string()))
+    if (is_id(path_text(failure.stem())) && failure.extension() == ".json" && !ids.contains(path_text(failure.stem())))
       add(failure, "a failure of no plan");
   for (const fs::path& film : folders(store.root() / "states")) {
-    const std::string id = film.filename().string();
+    const std::string id = path_text(film.filename());
     if (!is_id(id)) continue;
     remove_leftovers(film);
     if (!unfinished.contains(id)) add(film, "states that no cell waits for");
   }
   for (const fs::path& left : files(store.root() / "tries")) {
-    const std::string name = left.filename().string(), id = name.substr(0, 32);
+    const std::string name = path_text(left.filename()), id = name.substr(0, 32);
     if (is_id(id) && is_hidden_name(name.substr(32)) && !ids.contains(id) && store.tries(id).dead > 0)
       add(left, "left by a killed process");
   }

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "base/path_text.h"
 #include "base/printable.h"
 #include "rainref/error.h"
 #include "scene/value_text.h"
@@ -28,7 +29,7 @@ std::string yaml(const std::string& text) { return nlohmann::json(text).dump(-1,
 /// A script consists of lines, and engines also expand braces in paths.
 void require_plain(const ScriptAsked& asked) {
   const std::pair<const char*, std::string> texts[] = {
-      {"program", asked.program.string()}, {"PLAN", asked.plan.string()}, {"--output", asked.out.string()}, {"--image", asked.image}};
+      {"program", path_text(asked.program)}, {"PLAN", path_text(asked.plan)}, {"--output", path_text(asked.out)}, {"--image", asked.image}};
   for (const auto& [name, text] : texts) {
     const auto refuse = [name = name, &text = text](const char* expected) {
       throw Error(ExitCode::usage, fmt::format("{}: expected {}, found {}", name, expected, scene::toml_string(text)));
@@ -44,7 +45,8 @@ void require_plain(const ScriptAsked& asked) {
 }
 
 std::string sweep(const ScriptAsked& a, const char* action, const std::string& more) {
-  return fmt::format("{} sweep {} {} -o {}{}", quoted(a.program.string()), action, quoted(a.plan.string()), quoted(a.out.string()), more);
+  return fmt::format("{} sweep {} {} -o {}{}", quoted(path_text(a.program)), action, quoted(path_text(a.plan)), quoted(path_text(a.out)),
+                     more);
 }
 std::string run(const ScriptAsked& a, const std::string& shard) {
   return sweep(a, "run", fmt::format(" --shard {} --threads {}", shard, a.threads));
@@ -65,7 +67,7 @@ id=${{id%%;*}}
 printf '#!/bin/sh\n%s\n' {5} |
   sbatch --parsable --job-name=rainref-collect --dependency=afterany:"$id" --open-mode=append --output={1}/collect_%j.txt "$@"
 )",
-                     a.shards, quoted((a.out / "slurm").string()), a.shards - 1, a.threads, job(run(a, "auto")),
+                     a.shards, quoted(path_text(a.out / "slurm")), a.shards - 1, a.threads, job(run(a, "auto")),
                      job(sweep(a, "collect", "")));
 }
 
@@ -78,7 +80,7 @@ mkdir -p {1}
 seq 0 {2} | parallel --joblog {1}/parallel.log --retries 3 "$@" {3} || true
 exec {4}
 )",
-                     a.shards, quoted(a.out.string()), a.shards - 1, quoted(run(a, fmt::format("{{}}/{}", a.shards))),
+                     a.shards, quoted(path_text(a.out)), a.shards - 1, quoted(run(a, fmt::format("{{}}/{}", a.shards))),
                      sweep(a, "collect", ""));
 }
 
@@ -90,7 +92,7 @@ mkdir -p {1}
 id=$(printf '#!/bin/sh\n%s\n' {2} | qsub -terse -N rainref-sweep -r y -t 1-{0} -j y -o {1} "$@")
 printf '#!/bin/sh\n%s\n' {3} | qsub -N rainref-collect -hold_jid "${{id%%.*}}" -j y -o {1} "$@"
 )",
-                     a.shards, quoted((a.out / "sge").string()), job(run(a, "auto")), job(sweep(a, "collect", "")));
+                     a.shards, quoted(path_text(a.out / "sge")), job(run(a, "auto")), job(sweep(a, "collect", "")));
 }
 
 std::string kubernetes(const ScriptAsked& a) {
@@ -124,7 +126,7 @@ spec:
       - name: results
         persistentVolumeClaim: {{claimName: rainref-sweep}}
 )",
-                     a.shards, 3 * a.shards, yaml(a.image), run(a, "auto/" + shards), sweep(a, "collect", ""), yaml(a.out.string()),
+                     a.shards, 3 * a.shards, yaml(a.image), run(a, "auto/" + shards), sweep(a, "collect", ""), yaml(path_text(a.out)),
                      a.threads);
 }
 

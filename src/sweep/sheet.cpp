@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/path_text.h"
 #include "image_io/read.h"
 
 namespace rainref::sweep {
@@ -15,7 +16,7 @@ std::filesystem::path last_picture(const Cell& cell, const Row& row, const Store
   std::string last;
   for (const KeptFile& f : row.files)
     if (f.path.starts_with("picture.") && f.path.ends_with(".png")) last = std::max(last, f.path);
-  return last.empty() ? std::filesystem::path() : store.cell(cell.id) / last;
+  return last.empty() ? std::filesystem::path() : store.cell(cell.id) / utf8_path(last);
 }
 
 Image shrunk(const Image& picture, int largest) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/hidden.h"
+#include "base/path_text.h"
 
 namespace rainref::sweep {
 
@@ -36,7 +37,7 @@ class Store {
   /// True if a run has marked the folder.
   bool is_marked() const;
 
-  std::filesystem::path cell(const std::string& id) const { return root_ / "cells" / id.substr(0, 2) / id; }
+  std::filesystem::path cell(const std::string& id) const { return root_ / "cells" / utf8_path(id.substr(0, 2)) / utf8_path(id); }
   bool has(const std::string& id) const;
 
   std::optional<Failure> failure(const std::string& id) const;
@@ -55,7 +56,7 @@ class Store {
   /// Marks the cell as being made during the object's lifetime; if the process is killed, the remaining mark counts as a death.
   std::unique_ptr<Hidden> begin(const std::string& id) const;
 
-  std::filesystem::path states(const std::string& film) const { return root_ / "states" / film; }
+  std::filesystem::path states(const std::string& film) const { return root_ / "states" / utf8_path(film); }
   std::filesystem::path state(const std::string& film, std::int64_t frame) const;
   /// The last frame at or before this one that has a state; 0 if there is none.
   std::int64_t newest_state(const std::string& film, std::int64_t frame) const;

@@ -1,7 +1,5 @@
 #include "sweep/work.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <chrono>
 #include <fstream>
@@ -12,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "base/folders.h"
+#include "base/machine.h"
+#include "base/path_text.h"
 #include "rainref/error.h"
 
 namespace rainref::sweep {
@@ -23,9 +23,7 @@ class TimeLog {
   explicit TimeLog(const std::filesystem::path& folder) : folder_(folder) {}
   void add(const Cell& cell, const Made& made, double seconds) {
     if (!file_.is_open()) {
-      std::array<char, 256> host{};
-      if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '-';
-      host_ = host.data();
+      host_ = machine::host_name();
       file_.open(folder_ / (Hidden::random_name().substr(9, 16) + ".csv"), std::ios::app);
     }
     file_ << fmt::format("{},{},{:.6f},{},{}\n", cell.id, host_, seconds, made.bytes, made.begun_at) << std::flush;
@@ -88,7 +86,7 @@ class Shift {
     try {
       sync_to_disk(std::exchange(names_, {}));
     } catch (const std::system_error& e) {
-      throw Error(ExitCode::io, fmt::format("{}: {}", store_.root().string(), e.code().message()));
+      throw Error(ExitCode::io, fmt::format("{}: {}", path_text(store_.root()), e.code().message()));
     }
   }
 

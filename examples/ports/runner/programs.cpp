@@ -85,7 +85,8 @@ Program read_program(const Place& from, const fs::path& folder) {
   from.object({"spirv", "inputs", "outputs"}, {"constants", "lists", "one_group", "group", "capacity"});
   const auto at = [&](const char* name) { return from.inside(name, *from.find(name)); };
   Program p;
-  p.spirv = folder / at("spirv").text();
+  const std::string file = at("spirv").text();
+  p.spirv = folder / fs::path(std::u8string(file.begin(), file.end()));
   p.inputs = at("inputs").texts();
   p.outputs = at("outputs").texts();
   if (p.outputs.empty()) at("outputs").refuse("at least one output");

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "rainref/error.h"
 #include "scene/check.h"
 #include "scene/member_parameter.h"
@@ -96,7 +97,7 @@ MotionSettings motion_settings_from(const scene::Config& config) {
   if (!s.vehicle.key_frames.empty() || !config.text("vehicle.drive_cycle").empty())
     for (const char* key : {"vehicle.speed", "vehicle.yaw_rate"}) refuse_beside(key, "vehicle.key_frames or vehicle.drive_cycle");
   if (!s.weather.wind_key_frames.empty()) refuse_beside("world.wind", "world.wind_key_frames");
-  s.vehicle.drive_cycle = config.text("vehicle.drive_cycle");
+  s.vehicle.drive_cycle = utf8_path(config.text("vehicle.drive_cycle"));
   const bool in_file = config.entry("vehicle.drive_cycle").origin.kind == scene::Origin::file;
   if (!s.vehicle.drive_cycle.empty() && s.vehicle.drive_cycle.is_relative() && in_file)
     s.vehicle.drive_cycle = config.directory() / s.vehicle.drive_cycle;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/number_text.h"
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "math/real64.h"
 #include "rainref/error.h"
@@ -19,7 +20,7 @@ namespace rainref::windshield {
 Vehicle::Vehicle(const VehicleSettings& settings) : settings_(settings) {
   if (!settings.drive_cycle.empty() && !settings.key_frames.empty()) {
     throw Error(ExitCode::usage, fmt::format("vehicle.drive_cycle and vehicle.key_frames: expected one of them, found '{}' and '{}'",
-                                             settings.drive_cycle.string(), settings.key_frames));
+                                             path_text(settings.drive_cycle), settings.key_frames));
   }
   if (!settings.drive_cycle.empty()) cycle_ = read_drive_cycle(settings.drive_cycle);
   if (!settings.key_frames.empty()) cycle_ = parse_key_frames(settings.key_frames, "vehicle.key_frames");
@@ -142,7 +143,7 @@ DriveCycle read_drive_cycle(const std::filesystem::path& file) {
       throw Error(e.code(), std::string("vehicle.drive_cycle: ") + e.what());
     }
   }();
-  return parse_drive_cycle({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+  return parse_drive_cycle({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path_text(file));
 }
 
 DriveCycle parse_key_frames(std::string_view text, const std::string& key) {

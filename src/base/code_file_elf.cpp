@@ -3,21 +3,21 @@
 
 #include <system_error>
 
-#include "simulation/own_file.h"
+#include "base/code_file.h"
 
-namespace rainref::simulation {
+namespace rainref {
 
 namespace fs = std::filesystem;
 
-fs::path own_file() {
+fs::path code_file() {
   std::error_code error;
   Dl_info symbol;
   void* map = nullptr;
-  if (::dladdr1(reinterpret_cast<const void*>(&own_file), &symbol, &map, RTLD_DL_LINKMAP) != 0 && map) {
+  if (::dladdr1(reinterpret_cast<const void*>(&code_file), &symbol, &map, RTLD_DL_LINKMAP) != 0 && map) {
     const char* const library = static_cast<const link_map*>(map)->l_name;  // "" for the program itself
     if (library && *library) return fs::canonical(library, error);
   }
   return fs::read_symlink("/proc/self/exe", error);
 }
 
-}  // namespace rainref::simulation
+}  // namespace rainref

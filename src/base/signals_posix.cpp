@@ -57,4 +57,12 @@ void take_signals_again() noexcept {
   if (has_mask) ::pthread_sigmask(SIG_SETMASK, &mask_before, nullptr);
 }
 
+bool is_interruption(int signal) { return signal == SIGINT || signal == SIGTERM || signal == SIGHUP; }
+
+bool ignore_closed_pipes() { return ::signal(SIGPIPE, SIG_IGN) == SIG_DFL; }
+void die_of_closed_pipe() {
+  ::signal(SIGPIPE, SIG_DFL);
+  ::raise(SIGPIPE);
+}
+
 }  // namespace rainref

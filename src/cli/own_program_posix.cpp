@@ -1,17 +1,17 @@
-#include "cli/own_program.h"
-
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
-#include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/path_text.h"
 #include "base/signals.h"
+#include "base/system_failure.h"
+#include "cli/own_program.h"
+#include "cli/own_words.h"
 #include "cli/process_control.h"
 #include "rainref/error.h"
 
@@ -19,8 +19,6 @@ extern char** environ;
 
 namespace rainref::cli {
 namespace {
-
-constexpr const char* program_link = "/proc/self/exe";
 
 // Runs after fork(): may only call what a signal handler may call.
 [[noreturn]] void become(const char* program, char** arguments, char** variables, int output, int error, pid_t parent) {
@@ -36,30 +34,14 @@ constexpr const char* program_link = "/proc/self/exe";
 int opened(const std::filesystem::path& path) {
   if (path.empty()) return -1;
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0)
-    throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path.string(), std::generic_category().message(errno)));
+  if (descriptor < 0) throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path_text(path), reason_of(errno)));
   return descriptor;
 }
 
 }  // namespace
 
-std::filesystem::path own_program() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink(program_link, error);
-  if (error) throw Error(ExitCode::io, fmt::format("{}: {}", program_link, error.message()));
-  return program;
-}
-
-std::vector<std::string> own_arguments() {
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> all;
-  for (std::string word; std::getline(in, word, '\0');) all.push_back(word);
-  if (!all.empty()) all.erase(all.begin());
-  return all;
-}
-
 int run_own_program(const std::vector<std::string>& arguments, const std::string& variable, const ChildOutput& to) {
-  const std::string program = own_program().string();
+  const std::string program = path_text(own_program());
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv, variables;
@@ -71,15 +53,17 @@ int run_own_program(const std::vector<std::string>& arguments, const std::string
   variables.push_back(nullptr);
   const int output = opened(to.standard_output), error = opened(to.standard_error);
   const pid_t parent = ::getpid(), child = ::fork();
-  if (child == 0) become(program_link, argv.data(), variables.data(), output, error, parent);
+  if (child == 0) become(own_program_name(), argv.data(), variables.data(), output, error, parent);
   const int why = errno;
   for (const int descriptor : {output, error})
     if (descriptor >= 0) ::close(descriptor);
-  if (child < 0) throw Error(ExitCode::io, fmt::format("no process can be made: {}", std::generic_category().message(why)));
+  if (child < 0) throw Error(ExitCode::io, fmt::format("no process can be made: {}", reason_of(why)));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
+
+std::string death_text(int code) { return fmt::format("signal {}", -code); }
 
 }  // namespace rainref::cli
