@@ -12,7 +12,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(_WIN32) && defined(RAINREF_BUILDS_C_LIBRARY)
+#define RR_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define RR_API __declspec(dllimport)
+#elif defined(__GNUC__)
 #define RR_API __attribute__((visibility("default")))
 #else
 #define RR_API
