@@ -32,7 +32,7 @@ struct Lanes {
 
   struct Mask {
     hn::Mask<D> m;
-    HWY_INLINE HWY_ATTR Mask() {}  // not implicit, because that would not be compiled for the target
+    HWY_ATTR Mask() {}  // not implicit, because that would not be compiled for the target
     HWY_INLINE HWY_ATTR Mask(hn::Mask<D> x) : m(x) {}
     friend HWY_INLINE HWY_ATTR Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
     friend HWY_INLINE HWY_ATTR Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
