@@ -1,8 +1,8 @@
 #include "drops/drops.h"
 
 #include <atomic>
-#include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ MassBalance& MassBalance::operator+=(const MassBalance& other) {
   return *this;
 }
 
-void DropArrays::Free::operator()(std::byte* p) const { std::free(p); }
+void DropArrays::Free::operator()(std::byte* p) const { ::operator delete (p, std::align_val_t{alignment}); }
 
 std::size_t DropArrays::memory_bytes(std::int64_t capacity) { return fields * stride_bytes(capacity); }
 
@@ -41,7 +41,7 @@ DropArrays::DropArrays(std::int64_t capacity) : capacity_(capacity) {
     throw Error(ExitCode::usage, fmt::format("capacity for drops: expected a number from 1 to {}, found {}", most_slots, capacity));
   }
   stride_ = stride_bytes(capacity);
-  memory_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, memory_bytes(capacity))));
+  memory_.reset(static_cast<std::byte*>(::operator new (memory_bytes(capacity), std::align_val_t{alignment}, std::nothrow)));
   if (!memory_)
     throw Error(ExitCode::usage, fmt::format("{} drops: {} of memory could not be had", capacity, memory_text(memory_bytes(capacity))));
   std::memset(memory_.get(), 0, memory_bytes(capacity));
