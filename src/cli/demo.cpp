@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/atomic_file.h"
+#include "base/path_text.h"
 #include "base/read_file.h"
 #include "capture/npy_write.h"
 #include "capture/pack_read.h"
@@ -92,9 +93,9 @@ void run_port(const fs::path& output, const char* port) {
   for (const capture::PackCase& entry : pack.cases) {
     const spirv::Program& program = programs.at(pack.pass(entry.pass).formula);
     const std::vector<capture::Array> stored =
-        spirv::execute(pack.read(entry), program, spirv::read_spirv(program), "'" + program.spirv.filename().string() + "'");
+        spirv::execute(pack.read(entry), program, spirv::read_spirv(program), "'" + path_text(program.spirv.filename()) + "'");
     for (std::size_t i = 0; i < stored.size(); ++i)
-      write(results / entry.outputs.at(i).levels.at(0).path, capture::npy_bytes(stored[i], 0));
+      write(results / utf8_path(entry.outputs.at(i).levels.at(0).path), capture::npy_bytes(stored[i], 0));
   }
   write_file(results / "port.json", "{\"api\": \"CPU\", \"device\": \"(rainref executed the shader itself)\", \"half_store\": \"rne\"}\n");
 }

@@ -234,7 +234,7 @@ Verb demo_verb(CLI::App& app) {
   verb.footer("Example: rainref demo");
   return {&verb, [output] {
             require_text(*output, "--output", "a folder");
-            return demo(*output);
+            return demo(utf8_path(*output));
           }};
 }
 

@@ -133,7 +133,7 @@ class Shadow {
         // Each level may be shared with another run.
         Array all;
         for (std::size_t level = 0; level < shared.size(); ++level) {
-          const fs::path path(shared[level]);
+          const fs::path path = utf8_path(shared[level]);
           Array one = files_.read(path.parent_path(), path_text(path.filename()), level_of(input.array, static_cast<int>(level)), kept);
           if (level == 0)
             all = std::move(one);

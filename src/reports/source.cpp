@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/path_text.h"
 #include "judge/port_files.h"
 
 namespace rainref::reports {
@@ -36,7 +37,7 @@ PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::fil
         if (o.name != output) continue;
         OutputBuffers b{o.rules, {}};
         b.expected.array = pack->read(o);
-        b.port = files->read(id, "out." + output, b.expected.array);
+        b.port = files->read(utf8_path(id), "out." + output, b.expected.array);
         return b;
       }
     }

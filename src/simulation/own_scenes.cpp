@@ -27,7 +27,7 @@ std::vector<fs::path> own_folders(const std::string& name = "scenes") {
   constexpr const char* from_any = "../share/rainref/scenes";
   const fs::path here = code_file().parent_path();
   for (const char* from_here : {RAINREF_SCENES_FROM_PROGRAM, RAINREF_SCENES_FROM_LIBRARY, from_any}) add(here, from_here);
-  if (const fs::path module = image_io::codec_folder(); !module.empty())
+  if (const fs::path module = utf8_path(image_io::codec_folder()); !module.empty())
     for (const char* from_here : {RAINREF_SCENES_FROM_MODULE, from_any}) add(module, from_here);
   return folders;
 }

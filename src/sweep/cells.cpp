@@ -76,7 +76,7 @@ Cells::Cells(const Plan& plan, const Planned& planned) : plan_(plan) {
   const bool is_judging = plan.verb == Verb::validate || plan.verb == Verb::mutate;
   for (const Placed& file : plan.scenes) {
     try {
-      const std::string text = simulation::scene_text(file.text);
+      const std::string text = simulation::scene_text(utf8_path(file.text));
       scenes_.push_back(scene::read_toml(text, file.text));
       scene_ids_.push_back(id_of(text));
     } catch (const Error& e) {
@@ -139,7 +139,7 @@ std::vector<scene::Override> Cells::said(const Cell& cell) const {
 }
 
 scene::Config Cells::config(const Cell& cell) const {
-  return scene::parse(scenes_[cell.scene], plan_.scenes[cell.scene].text, said(cell), simulation::effect_table());
+  return scene::parse(scenes_[cell.scene], utf8_path(plan_.scenes[cell.scene].text), said(cell), simulation::effect_table());
 }
 
 void Cells::change(scene::Config& config, const Cell& from, const Cell& to) const {
@@ -218,10 +218,10 @@ void Cells::add_judged(Cell point) {
     throw Error(ExitCode::io, pack.at, fmt::format("pack: expected the folder of a pack, found no {}/manifest.json", pack.text));
   std::string text =
       fmt::format("rainref cell 1\nbits {}\nverb {}\npack {}\nprofile {}\nonly {}\nlabel {}\n", golden_hash(), name(plan_.verb),
-                  inputs_.folder_hash(pack.text), j.profiles[point.rows[0]].text, fmt::join(j.only, " "), j.label);
+                  inputs_.folder_hash(utf8_path(pack.text)), j.profiles[point.rows[0]].text, fmt::join(j.only, " "), j.label);
   if (plan_.verb == Verb::validate) {
     text += fmt::format("exec {}\nrepeat {}\nport {}\n", j.exec, j.repeat,
-                        j.port.empty() || !j.exec.empty() ? j.port : inputs_.folder_hash(j.port));
+                        j.port.empty() || !j.exec.empty() ? j.port : inputs_.folder_hash(utf8_path(j.port)));
     for (const std::filesystem::path& file : files_named_by(j.exec)) text += fmt::format("exec holds {}\n", inputs_.bytes_hash(file));
   }
   point.id = id_of(text);

@@ -48,7 +48,7 @@ Value typed(const std::string& text) {
 class Database {
  public:
   explicit Database(const std::filesystem::path& path) {
-    check(sqlite3_open(path.c_str(), &handle_));
+    check(sqlite3_open(path_text(path).c_str(), &handle_));
     run(schema);
   }
   ~Database() { sqlite3_close(handle_); }

@@ -119,7 +119,7 @@ class Keeping {
         writer_.write(fmt::format("picture.{:06}.png", frame), opened_.png_bytes());
       } else if (keep.what == Keep::What::exr) {
         const std::string name = fmt::format("picture.{:06}.exr", frame);
-        opened_.write_exr(writer_.folder() / name, false);
+        opened_.write_exr(writer_.folder() / utf8_path(name), false);
         writer_.wrote(name);
       } else {
         const auto buffer = found.find(keep.buffer);

@@ -24,7 +24,7 @@ class TimeLog {
   void add(const Cell& cell, const Made& made, double seconds) {
     if (!file_.is_open()) {
       host_ = machine::host_name();
-      file_.open(folder_ / (Hidden::random_name().substr(9, 16) + ".csv"), std::ios::app);
+      file_.open(folder_ / utf8_path(Hidden::random_name().substr(9, 16) + ".csv"), std::ios::app);
     }
     file_ << fmt::format("{},{},{:.6f},{},{}\n", cell.id, host_, seconds, made.bytes, made.begun_at) << std::flush;
   }
