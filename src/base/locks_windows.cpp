@@ -143,8 +143,9 @@ FileLock lock_file(int descriptor) {
 bool is_still(int descriptor, const std::filesystem::path& path) {
   system::Found opened = system::found(descriptor), named = system::found(path, false);
   if (named.kind == system::Kind::folder && opened.kind == system::Kind::file) named = system::found(system::lock_of(path), false);
-  return opened.kind != system::Kind::nothing && named.kind != system::Kind::nothing && opened.device == named.device &&
-         opened.file == named.file;
+  const bool has_device = opened.device != 0;  // Wine does not know that of an opened file that got another name
+  return opened.kind != system::Kind::nothing && named.kind != system::Kind::nothing && opened.file == named.file &&
+         (opened.device == named.device || !has_device);
 }
 
 }  // namespace rainref

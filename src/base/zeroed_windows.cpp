@@ -4,6 +4,8 @@
 
 #include <malloc.h>
 
+#include <atomic>
+#include <cstdint>
 #include <cstring>
 
 #include "base/zeroed.h"
@@ -12,11 +14,24 @@ namespace rainref::zeroed {
 namespace {
 
 constexpr std::size_t paged_from = std::size_t{1} << 20;
+constexpr std::size_t shift_by = 512, shifts = 8;             // within a page
+constexpr std::uintptr_t reserved = std::uintptr_t{1} << 16;  // the system's blocks begin at its multiples
+
+/// As in zeroed_linux.cpp: blocks that begin alike are mistaken for each other by Intel's cores.
+std::size_t next_shift() {
+  static std::atomic<std::size_t> turn{0};
+  return turn.fetch_add(1, std::memory_order_relaxed) % shifts * shift_by;
+}
 
 }  // namespace
 
 std::byte* take(std::size_t bytes) {
-  if (bytes >= paged_from) return static_cast<std::byte*>(::VirtualAlloc(nullptr, bytes, MEM_RESERVE | MEM_COMMIT, PAGE_READWRITE));
+  if (bytes > SIZE_MAX / 2) return nullptr;
+  if (bytes >= paged_from) {
+    const std::size_t shift = next_shift();
+    void* const block = ::VirtualAlloc(nullptr, shift + bytes, MEM_RESERVE | MEM_COMMIT, PAGE_READWRITE);
+    return block ? static_cast<std::byte*>(block) + shift : nullptr;
+  }
   void* const memory = ::_aligned_malloc(bytes, 64);
   return static_cast<std::byte*>(memory ? std::memset(memory, 0, bytes) : nullptr);
 }
@@ -24,7 +39,7 @@ void prefer_large_pages(void*, std::size_t) {}
 void give_back(std::byte* memory, std::size_t bytes) {
   if (!memory) return;
   if (bytes >= paged_from)
-    ::VirtualFree(memory, 0, MEM_RELEASE);
+    ::VirtualFree(memory - reinterpret_cast<std::uintptr_t>(memory) % reserved, 0, MEM_RELEASE);
   else
     ::_aligned_free(memory);
 }
