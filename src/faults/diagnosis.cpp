@@ -169,9 +169,10 @@ Compared compared(Replay& run, const Tried& best, const Names& others, const Nam
   return out;
 }
 
-/// Adds causes with equal values everywhere to the first one's text, in order of plausibility: the port has one of them. Returns their names.
+/// Adds causes with equal values everywhere to the first one's text, in order of plausibility: the port has one of them. Returns their
+/// names.
 Names say_one_of(Tried& first, std::vector<Tried> causes, Names others, int most = 2, const char* word = "; or, which gives the same, ",
-                std::string own = "") {
+                 std::string own = "") {
   std::stable_sort(causes.begin(), causes.end(), [](const Tried& a, const Tried& b) { return far_fetched(a) < far_fetched(b); });
   Names said;
   if (own.empty()) own = first.sentence;
