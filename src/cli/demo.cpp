@@ -35,13 +35,14 @@ void require_own(const fs::path& output) {
   std::error_code error;
   const fs::file_status status = fs::status(output, error);
   if (!fs::exists(status)) return;
-  if (!fs::is_directory(status)) throw Error(ExitCode::usage, fmt::format("--output {}: expected a folder, found a file", output.string()));
+  if (!fs::is_directory(status))
+    throw Error(ExitCode::usage, fmt::format("--output {}: expected a folder, found a file", path_text(output)));
   const std::set<std::string> own{scene_file, wrong_port, right_port, pack_folder, page};
   for (const auto& entry : fs::directory_iterator(output, error))
-    if (const std::string name = entry.path().filename().string(); !own.contains(name))
+    if (const std::string name = path_text(entry.path().filename()); !own.contains(name))
       throw Error(ExitCode::usage,
-                  fmt::format("--output {}: expected a new folder, or that of an earlier demo, found '{}' in it", output.string(), name));
-  if (error) throw Error(ExitCode::io, fmt::format("--output {}: {}", output.string(), error.message()));
+                  fmt::format("--output {}: expected a new folder, or that of an earlier demo, found '{}' in it", path_text(output), name));
+  if (error) throw Error(ExitCode::io, fmt::format("--output {}: {}", path_text(output), error.message()));
 }
 
 /// The shipped folder.
@@ -59,7 +60,7 @@ fs::path shipped() {
 void write(const fs::path& file, std::span<const std::byte> bytes) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  if (error) throw Error(ExitCode::io, fmt::format("cannot make '{}': {}", file.parent_path().string(), error.message()));
+  if (error) throw Error(ExitCode::io, fmt::format("cannot make '{}': {}", path_text(file.parent_path()), error.message()));
   write_file(file, bytes);
 }
 void copy_files(const fs::path& from, const fs::path& to) {
@@ -81,7 +82,7 @@ void make_pack(const fs::path& output) {
   options.output = output / pack_folder;
   options.frames = {24};
   options.passes = {"shade"};
-  show_command({"pack", options.scene.scene.string(), "--at", "24", "--passes", "shade", "-o", options.output.string()});
+  show_command({"pack", path_text(options.scene.scene), "--at", "24", "--passes", "shade", "-o", path_text(options.output)});
   pack(options);
 }
 
@@ -106,9 +107,10 @@ int judge(const fs::path& output, const char* port, bool writes_page) {
   request.pack = output / pack_folder;
   request.port = output / port / "out";
   request.spirv = output / port / "shaders";
-  std::vector<std::string> words{"validate", request.pack.string(), "--port", request.port.string(), "--spirv", request.spirv.string()};
+  std::vector<std::string> words{"validate", path_text(request.pack), "--port", path_text(request.port),
+                                 "--spirv",  path_text(request.spirv)};
   if (writes_page) {
-    request.reports.html = (output / page).string();
+    request.reports.html = path_text(output / page);
     words.insert(words.end(), {"--html", *request.reports.html});
   }
   request.command = show_command(words);
@@ -132,8 +134,8 @@ int demo(const fs::path& output) {
   const int wrong = judge(output, wrong_port, true);
   say("\n3. The port without it:\n\n");
   const int right = judge(output, right_port, false);
-  say("\nThe first verdict with pictures: {}\nThe line that was wrong:         {}\n\n", (output / page).string(),
-      (output / wrong_port / "shaders/shade_corrected.comp").string());
+  say("\nThe first verdict with pictures: {}\nThe line that was wrong:         {}\n\n", path_text(output / page),
+      path_text(output / wrong_port / "shaders/shade_corrected.comp"));
   say("Next: rainref pack puddle/default.toml --size 320x180 -o out/pack   makes a pack for a port of your own;\n"
       "      docs/porting.md says how to write it and judge it, docs/any_effect.md how to judge an effect of your own.\n");
   if (wrong == static_cast<int>(ExitCode::fail) && right == static_cast<int>(ExitCode::pass)) return static_cast<int>(ExitCode::pass);
