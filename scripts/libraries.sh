@@ -1,11 +1,12 @@
 # Debian 12's sources of the libraries that rainref stands on, and these libraries built from them for any system: static and position
-# independent, so that an archive with rainref needs nothing of the machine that runs it. Sourced behind lib.sh, not run.
+# independent, so that an archive with rainref needs nothing of the machine that runs it. Not run, but sourced behind lib.sh,
+# from the folder in which that leaves a script: . scripts/libraries.sh
 
 # The newest sources in Debian 12. Their folders begin with these names.
 library_sources=(highway fmtlib xxhash zlib libpng1.6 imath openexr libjpeg-turbo sqlite3 googletest)
-# What builds them: dpkg-dev unpacks sources, SQLite makes its one file with Tcl. The last ones are headers alone, taken from this machine.
-library_packages=(dpkg-dev debian-archive-keyring cmake ninja-build gcc make tcl pkg-config
-  libglm-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev)
+# Headers alone, taken from this machine. And what builds the others: dpkg-dev unpacks sources, SQLite makes its one file with Tcl.
+library_headers=(libglm-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev)
+library_packages=(dpkg-dev debian-archive-keyring cmake ninja-build gcc make tcl pkg-config "${library_headers[@]}")
 
 # fetch_sources FOLDER: unpacks the sources into FOLDER, each in a folder of its own. Needs no root, and leaves the machine's apt as it is.
 # Does nothing if they are there.
@@ -29,7 +30,7 @@ build_libraries() {
   need "${library_packages[@]}"
   mkdir -p "$2"
   sources=$(realpath "$1") prefix=$(realpath "$2") toolchain=$(realpath "$3")
-  stamp=$(cat "${BASH_SOURCE[0]}" "$toolchain" "$sources"/*.dsc | sha256sum)
+  stamp=$({ cat "${BASH_SOURCE[0]}" "$toolchain" "$sources"/*.dsc && dpkg-query -W "${library_headers[@]}"; } | sha256sum)
   [ "$(cat "$prefix/complete" 2>/dev/null)" != "$stamp" ] || return 0
   say "Building ${#library_sources[@]} libraries with $(basename "$toolchain")"
   rm -rf "${prefix:?}"/* "$prefix.build"

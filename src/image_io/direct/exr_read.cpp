@@ -63,20 +63,11 @@ class ExrReader : public PictureReader {
     const Imf::Header& header = file_->header(0);
     picture_.channels = exr_channels(header.channels());
     describe(header);
-    // Deep pixels are refused by who asked for the picture.
-    if (picture_.deep) return;
-    worded("OpenEXR exception: ", [&] {
-      if (is_tiled_)
-        tiles_ = std::make_unique<Imf::TiledInputPart>(*file_, 0);
-      else
-        rows_ = std::make_unique<Imf::InputPart>(*file_, 0);
-    });
   }
 
   const StoredPicture& picture() const override { return picture_; }
 
   void read(std::size_t first, std::size_t end, std::byte* texels) override {
-    if (picture_.deep) throw std::runtime_error("deep pixels");
     const Imath::Box2i window = file_->header(0).dataWindow();
     const std::size_t texel_bytes = picture_.texel_bytes(first, end);
     Imf::FrameBuffer target;
@@ -84,15 +75,20 @@ class ExrReader : public PictureReader {
       target.insert(picture_.channels[c].name,
                     Imf::Slice::Make(pixel_type(picture_.channels[c]), texels + picture_.texel_bytes(first, c), window, texel_bytes,
                                      texel_bytes * static_cast<std::size_t>(picture_.width)));
-    worded("Failed OpenEXR read: ", [&] {
-      if (tiles_) {
-        tiles_->setFrameBuffer(target);
-        tiles_->readTiles(0, tiles_->numXTiles() - 1, 0, tiles_->numYTiles() - 1);
-      } else {
-        rows_->setFrameBuffer(target);
-        rows_->readPixels(window.min.y, window.max.y);
-      }
-    });
+    // OpenEXR takes memory for rows or tiles here; who asked for the picture has checked its size, and that it is not deep.
+    if (is_tiled_) {
+      auto tiles = worded("OpenEXR exception: ", [&] { return Imf::TiledInputPart(*file_, 0); });
+      worded("Failed OpenEXR read: ", [&] {
+        tiles.setFrameBuffer(target);
+        tiles.readTiles(0, tiles.numXTiles() - 1, 0, tiles.numYTiles() - 1);
+      });
+    } else {
+      auto rows = worded("OpenEXR exception: ", [&] { return Imf::InputPart(*file_, 0); });
+      worded("Failed OpenEXR read: ", [&] {
+        rows.setFrameBuffer(target);
+        rows.readPixels(window.min.y, window.max.y);
+      });
+    }
   }
 
  private:
@@ -120,10 +116,8 @@ class ExrReader : public PictureReader {
     }
   }
 
-  Bytes stream_;  // outlives its readers
+  Bytes stream_;  // outlives its reader
   std::unique_ptr<Imf::MultiPartInputFile> file_;
-  std::unique_ptr<Imf::InputPart> rows_;
-  std::unique_ptr<Imf::TiledInputPart> tiles_;
   bool is_tiled_ = false;
   StoredPicture picture_;
 };
