@@ -87,7 +87,7 @@ toolchain() {
   case $platform in
     linux-x86_64) need g++ curl; compiler=x86_64-linux-gnu-g++ ;;
     linux-aarch64) need g++-aarch64-linux-gnu qemu-user-static curl; compiler=aarch64-linux-gnu-g++ ;;
-    windows-x86_64) need g++-mingw-w64-x86-64-posix; compiler=x86_64-w64-mingw32-g++-posix ;;
+    windows-x86_64) need g++-mingw-w64-x86-64-posix llvm; compiler=x86_64-w64-mingw32-g++-posix ;;
     *) die "unknown platform '$platform'; known are ${platforms[*]}" ;;
   esac
   local state

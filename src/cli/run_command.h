@@ -30,5 +30,7 @@ std::filesystem::path temporary_folder();
 std::string link_to(const std::filesystem::path& folder, const std::filesystem::path& link);
 /// The path as it is written into a command whose beginning is `before`: in quotes on Windows if it has characters that split it there.
 std::string in_command(std::string_view before, const std::string& path);
+/// A word as a user types it in that shell: in quotes if it needs them.
+std::string shell_word(std::string_view word);
 
 }  // namespace rainref::cli

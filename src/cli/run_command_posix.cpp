@@ -142,6 +142,14 @@ std::string link_to(const fs::path& folder, const fs::path& link) {
 
 std::string in_command(std::string_view, const std::string& path) { return path; }
 
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) return std::string(word);
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment) {
   // Everything that the child needs is made before the fork: with other threads, the child may not allocate.
   std::vector<std::string> variables = environment;

@@ -72,6 +72,14 @@ std::string in_command(std::string_view before, const std::string& path) {
   return is_plain(path) || is_quoted ? path : '"' + path + '"';
 }
 
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./\\:~+@#";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) return std::string(word);
+  std::string out = "\"";
+  for (const char c : word) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment) {
   Pipe pipe = make_pipe();
   if (!pipe.writing) throw Error(ExitCode::io, fmt::format("--exec: no pipe: {}", last_reason()));

@@ -13,6 +13,7 @@
 #include "base/hidden.h"
 #include "base/path_text.h"
 #include "cli/commands.h"
+#include "cli/run_command.h"
 #include "cli/terminal.h"
 #include "rainref/error.h"
 #include "reports/figures.h"
@@ -21,18 +22,6 @@
 #include "reports/junit.h"
 
 namespace rainref::cli {
-namespace {
-
-std::string shell_word(std::string_view word) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) return std::string(word);
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-}  // namespace
-
 void add_report_options(CLI::App& verb, ReportOptions& options) {
   verb.add_option("--json", options.json, "Write the whole judgement as JSON; - is standard output");
   verb.add_option("--junit", options.junit, "Write it as JUnit XML, for continuous integration; or -");

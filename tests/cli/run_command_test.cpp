@@ -44,5 +44,15 @@ TEST(RunCommand, APlainPathStaysAsItIs) {
   EXPECT_NE(temporary_folder(), std::filesystem::path());
 }
 
+TEST(RunCommand, AWordIsQuotedWhereTheShellWouldSplitIt) {
+  EXPECT_EQ(shell_word("a/b-c_1.d"), "a/b-c_1.d");
+  for (const std::string_view word : {"a b", "", "a&b", "a;b|c", "$x"}) {
+    const CommandEnd end = run_command("echo " + shell_word(word) + "x", long_enough);
+    EXPECT_EQ(end.failure, "") << word;
+    ASSERT_EQ(end.last_lines.size(), 1u) << word;
+    EXPECT_THAT(end.last_lines[0], HasSubstr(std::string(word))) << word;  // cmd.exe's echo prints the quotes, too
+  }
+}
+
 }  // namespace
 }  // namespace rainref::cli
