@@ -91,12 +91,13 @@ extern "C" {
 // Windows calls what lies in these sections in the order of their names. Destructors of thread_local objects are called from XLB to XLD.
 __attribute__((section(".CRT$XLY"), used)) const PIMAGE_TLS_CALLBACK rainref_thread_ends = thread_ends;
 
-void* __emutls_get_address(Object* object) {
-  const std::uintptr_t number = number_of(*object);
+void* __emutls_get_address(void* of) {
+  Object& object = *static_cast<Object*>(of);
+  const std::uintptr_t number = number_of(object);
   Table*& table = table_of_thread();
   if (!table || table->count < number) grow(table, number);
   void*& address = table->objects[number - 1];
-  if (!address) address = made(*object);
+  if (!address) address = made(object);
   return address;
 }
 }

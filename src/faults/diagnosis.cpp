@@ -169,24 +169,20 @@ Compared compared(Replay& run, const Tried& best, const Names& others, const Nam
   return out;
 }
 
-/// Adds causes with equal values everywhere to the first one's text, in order of plausibility: the port has one of them. Returns their
-/// names.
-Names say_one_of(Tried& first, std::vector<Tried> causes, Names others, int most = 2, const char* word = "; or, which gives the same, ",
-                 std::string own = "") {
+/// Adds causes with equal values everywhere to the first one's text, in order of plausibility: the port has one of them.
+void say_one_of(Tried& first, std::vector<Tried> causes, Names others, int most = 2, const char* word = "; or, which gives the same, ",
+                std::string own = "") {
   std::stable_sort(causes.begin(), causes.end(), [](const Tried& a, const Tried& b) { return far_fetched(a) < far_fetched(b); });
-  Names said;
+  int said = 0;
   if (own.empty()) own = first.sentence;
   Names heads{head_of(first.what)};
   for (const bool is_new_sort : {true, false})
     for (const Tried& c : causes) {
-      if (std::ssize(said) >= most || c.sentence == own || !others.contains(c.name) ||
-          (is_new_sort && !heads.insert(head_of(c.what)).second))
-        continue;
+      if (said >= most || c.sentence == own || !others.contains(c.name) || (is_new_sort && !heads.insert(head_of(c.what)).second)) continue;
       others.erase(c.name);
-      first.sentence += (said.empty() ? word : "; or ") + c.sentence;
-      said.insert(c.name);
+      first.sentence += (said == 0 ? word : "; or ") + c.sentence;
+      ++said;
     }
-  return said;
 }
 
 }  // namespace
@@ -243,15 +239,11 @@ std::vector<Cause> Diagnosis::causes() {
   std::vector<Tried> best = best_causes(causes_);
   if (best.empty()) return {};
   const Names solved = solved_of(causes_);
-  // Without those that stand in the first one's text.
-  const auto said = [&](const Names& equal) {
-    std::erase_if(best, [&](const Tried& c) { return &c != &best.front() && equal.contains(c.name); });
-    return std::vector<Cause>(best.begin(), best.end());
-  };
+  const auto said = [&] { return std::vector<Cause>(best.begin(), best.end()); };
   if (run_.is_time_over()) {
     // Untried faults may be as good.
     for (Tried& c : best) c.is_likely = false;
-    return said({});
+    return said();
   }
   static constexpr const char* as_much = "; or, which explains as much here, ";
   // Causes that leave clearly more unexplained, or that would break more, are rejected.
@@ -276,9 +268,9 @@ std::vector<Cause> Diagnosis::causes() {
       if (alike.contains(c.name) || far_fetched(c) > far_fetched(best.front())) same.erase(c.name);
     const std::string own = best.front().sentence;
     add_lines(run_, other_, best, causes_, alike);
-    const Names equal = say_one_of(best.front(), causes_, alike);
+    say_one_of(best.front(), causes_, alike);
     say_one_of(best.front(), causes_, same, 2, as_much, own);
-    return said(equal);
+    return said();
   }
   Names others;
   const double least = score(best.front()) - (best.front().of_records ? 0 : 0.02);
@@ -294,9 +286,11 @@ std::vector<Cause> Diagnosis::causes() {
     best.front().is_likely = false;
   // Causes that could not be tested elsewhere are not reported as giving the same values.
   add_lines(run_, other_, best, causes_, there.alike);
-  if (best.front().is_likely) return said(say_one_of(best.front(), causes_, there.alike));
-  say_one_of(best.front(), causes_, others, 2, as_much);
-  return said({});
+  if (best.front().is_likely)
+    say_one_of(best.front(), causes_, there.alike);
+  else
+    say_one_of(best.front(), causes_, others, 2, as_much);
+  return said();
 }
 
 std::vector<Cause> diagnosed(Replay& run, Replay* other) {

@@ -64,6 +64,7 @@ TEST(ReportJson, HoldsTheWholeJudgement) {
                                       {"of", 2},
                                       {"inside", 1},
                                       {"is_likely", true},
+                                      {"repeats_first", false},
                                       {"lines", Json::array({Json{{"file", "a.comp"}, {"line", 7}, {"until", 0}, {"text", "x = y;"}}})},
                                       {"line_texts", Json::array({"a.comp:7: x = y;"})}}));
   EXPECT_EQ(shade["figures"]["failing"], 2);

@@ -49,7 +49,7 @@ const passOf = (pass, status, more = {}) => ({pass, formula: `rain.${pass}/1`, s
   coverage: {alternatives: 0, text: ""}, quantities: [], worst: null, cause_is_unknown: false, causes: [], cases: [caseOf(`rain.${pass}/0`, [outputOf("out")], {status})], ...more, figures: {...figures, ...more.figures}});
 const failure = (x, y, channel, more = {}) => ({x, y, channel, distance: 3, not_a_number: false, text: {place: `(${x}, ${y}).${"xyzw"[channel]}`, got: "2 (0x40)", accepted: "1 (0x3c)", expected: "1 (0x3c)", off: "1 m"}, ...more});
 const failing = outputOf("colour", {failing: 6, differing: 6, worst_quantity: "w", worst: [failure(2, 0, 1, {not_a_number: true, distance: null}), failure(0, 1, 3)]});
-const cause = {name: "upside down", sentence: "it is stored from the bottom up", counted: "texels", explained: 2, of: 2, inside: 1, is_likely: true, line_texts: ["a.comp:7: x = y;"]};
+const cause = {name: "upside down", sentence: "it is stored from the bottom up", counted: "texels", explained: 2, of: 2, inside: 1, is_likely: true, repeats_first: false, line_texts: ["a.comp:7: x = y;"]};
 const shade = (more = {}) => passOf("shade", "FAIL", {where: "only channel y", causes: [cause], worst: {case: "rain.shade/0", output: "colour", quantity: "w", off: "0.5 m"},
   cases: [caseOf("rain.shade/0", [failing, outputOf("other")], {status: "FAIL", failing: 2})], ...more, figures: {failing: 2, outside: 6, differing: 6, ...more.figures}});
 const reportOf = (status, passes, more = {}) => strict({status, counts: "1 FAIL, 1 PASS", reason: "", first_bad_pass: null, pack: "pack", port: "port", profile: "vulkan", effect: "rain", variant: "corrected", scene: "s.toml",
@@ -116,6 +116,8 @@ test("the first bad pass stands first", () => {
   assert.match(own.textContent, /Takes hit of wave, old of shade \(the run before\), x of gone, bed of the host\./);
   assert.deepEqual(own.all("a").map(a => a.attributes.href), ["#pass-wave", "#pass-shade"], "a pass that is not judged is no link");
   assert.deepEqual(own.all(".causes")[0].all("meter")[0].attributes, {min: "0", max: "2", value: "2"});
+  const later = {...cause, is_likely: false}, several = made(bad({causes: [cause, {...later, repeats_first: true}, later]}));
+  assert.equal(several.all(".causes")[0].all("li").length, 2, "what the first cause says is not said again");
   assert.equal(own.all(".causes")[0].all("pre")[0].textContent, "a.comp:7: x = y;");
   assert.deepEqual(own.all(".figures")[0].all(".pill").map(pill => pill.textContent), ["FAIL", "PASS"], "an output of a bad case may be good");
   assert.match(main.children[0].textContent, /deviceTest & <Device>.*judged byrainref 1, golden generation 2$/);

@@ -27,6 +27,21 @@ TEST(ReportFigures, AShareNeverRoundsToAllOrNothing) {
   EXPECT_EQ(share_text(0, 0), "-");
 }
 
+TEST(ReportText, WhatTheFirstCauseSaysIsNotSaidAgain) {
+  PortJudgement j = example_judgement();
+  std::vector<Cause>& causes = j.passes[3].causes;
+  ASSERT_FALSE(causes.empty());
+  Cause same = causes[0], other = causes[0];
+  same.name = "the same values";
+  same.sentence = "rows go upwards";
+  other.name = "another";
+  other.sentence = "columns are mirrored";
+  causes[0].sentence += "; or, which gives the same, " + same.sentence;
+  causes.insert(causes.begin() + 1, {same, other});
+  EXPECT_THAT(report_text(j),
+              AllOf(HasSubstr("rows go upwards"), Not(HasSubstr("the same values")), HasSubstr("another: columns are mirrored")));
+}
+
 TEST(ReportFigures, APassSumsItsCasesAndTakesTheWidestOutput) {
   const PortJudgement j = example_judgement();
   const Figures shade = figures_of(j.passes[3]);

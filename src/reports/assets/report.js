@@ -85,7 +85,7 @@ function causes(p) {
   if (p.causes.length === 0 || p.cause_is_unknown)
     return [where, p.cause_is_unknown && element("p", {class: "cause"}, element("b", {}, "Cause unknown:"), " no single mistake that was tried gives these bits.",
       ...p.causes.flatMap(c => c.line_texts.map(line => element("pre", {class: "line"}, line))))];
-  return [where, element("h3", {}, p.causes[0].is_likely ? "Likely cause" : "What the cause may be"), element("ol", {class: "causes"}, p.causes.map(c =>
+  return [where, element("h3", {}, p.causes[0].is_likely ? "Likely cause" : "What the cause may be"), element("ol", {class: "causes"}, p.causes.filter(c => !c.repeats_first).map(c =>
     element("li", {}, c.is_likely ? "likely cause " : "may be ", element("b", {}, c.name), `: ${c.sentence} `,
       element("span", {class: "dim"}, `gives ${c.explained} of ${c.of} ${p.status === "WARN" ? "warned" : "failing"} ${c.counted} bit for bit, comes near ${c.inside}`),
       ...c.line_texts.map(line => element("pre", {class: "line"}, line)),
