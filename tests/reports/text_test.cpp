@@ -40,6 +40,9 @@ TEST(ReportText, WhatTheFirstCauseSaysIsNotSaidAgain) {
   causes.insert(causes.begin() + 1, {same, other});
   EXPECT_THAT(report_text(j),
               AllOf(HasSubstr("rows go upwards"), Not(HasSubstr("the same values")), HasSubstr("another: columns are mirrored")));
+  // If nothing is likely, each name may help.
+  causes[0].is_likely = false;
+  EXPECT_THAT(report_text(j), HasSubstr("the same values: rows go upwards"));
 }
 
 TEST(ReportFigures, APassSumsItsCasesAndTakesTheWidestOutput) {
