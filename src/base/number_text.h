@@ -1,5 +1,5 @@
-// Conversion of texts to numbers, done only here. For floating-point numbers not std::from_chars, which LLVM's library lacks before version
-// 20, and not std::strtod alone, which depends on the locale.
+// Conversion of texts to numbers, done only here. For floating-point numbers not std::strtod, which depends on the locale, and
+// std::from_chars only where the C++ library is known to have it (LLVM's lacks it before version 20).
 #pragma once
 
 #include <charconv>

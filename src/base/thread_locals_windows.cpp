@@ -1,5 +1,5 @@
-// GCC's code for Windows asks this function for the address of each `thread_local` object. That of its own runtime takes a lock at each
-// call, which was a third of the time of a verdict. The name and the layout are those of GCC's libgcc/emutls.c.
+// GCC's code for Windows asks this function for the address of each `thread_local` object, and each operation of an enclosure does. That of
+// its own runtime takes a lock at each call. The name and the layout are those of GCC's libgcc/emutls.c.
 #include <windows.h>
 
 #include <malloc.h>

@@ -2,26 +2,17 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
 #include "base/zeroed.h"
+#include "base/zeroed_shift.h"
 
 namespace rainref::zeroed {
 namespace {
 
 constexpr std::size_t mapped_from = std::size_t{1} << 20, large_page = std::size_t{2} << 20;
-constexpr std::size_t shift_by = 512, shifts = 8;  // within a page
-
-/// Offset of a block in its first page, different from the previous block's. If two blocks begin at the same offset, as rows of the newest
-/// and of the previous wave would, Intel's cores mistake a load from one for a read of data just stored to the other, by the last twelve
-/// bits of the address, and wait for the store ("4K aliasing").
-std::size_t next_shift() {
-  static std::atomic<std::size_t> turn{0};
-  return turn.fetch_add(1, std::memory_order_relaxed) % shifts * shift_by;
-}
 
 std::size_t page_bytes() {
   static const auto bytes = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));

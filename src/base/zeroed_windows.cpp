@@ -4,24 +4,17 @@
 
 #include <malloc.h>
 
-#include <atomic>
 #include <cstdint>
 #include <cstring>
 
 #include "base/zeroed.h"
+#include "base/zeroed_shift.h"
 
 namespace rainref::zeroed {
 namespace {
 
 constexpr std::size_t paged_from = std::size_t{1} << 20;
-constexpr std::size_t shift_by = 512, shifts = 8;             // within a page
 constexpr std::uintptr_t reserved = std::uintptr_t{1} << 16;  // the system's blocks begin at its multiples
-
-/// As in zeroed_linux.cpp: blocks that begin alike are mistaken for each other by Intel's cores.
-std::size_t next_shift() {
-  static std::atomic<std::size_t> turn{0};
-  return turn.fetch_add(1, std::memory_order_relaxed) % shifts * shift_by;
-}
 
 }  // namespace
 

@@ -1,4 +1,3 @@
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +15,7 @@
 #include "base/signals.h"
 #include "base/system_failure.h"
 #include "cli/command_end.h"
+#include "cli/own_words.h"
 #include "cli/piped_program.h"
 #include "cli/process_control.h"
 
@@ -61,8 +61,7 @@ class PipedProgram::Process {
     for (std::string& word : arguments) argv.push_back(word.data());
     argv.push_back(nullptr);
     int ends[2];
-    if (::pipe(ends) != 0) fail("no pipe", errno);
-    for (const int end : ends) ::fcntl(end, F_SETFD, FD_CLOEXEC);
+    if (make_pipe(ends) != 0) fail("no pipe", errno);
     const int messages = ::fileno(messages_.get());
     const pid_t parent = ::getpid();
     const Uninterrupted scope;

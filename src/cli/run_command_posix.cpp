@@ -25,6 +25,7 @@
 #include "cli/own_words.h"
 #include "cli/process_control.h"
 #include "cli/run_command.h"
+#include "cli/shell_word.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
@@ -123,8 +124,7 @@ class ProcessTree {
 
 std::string plain_path(const fs::path& path) {
   std::string text = path_text(path);
-  const bool is_plain = text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-") == std::string::npos;
-  return is_plain ? text : "";
+  return is_plain(text, "/._-") ? text : "";
 }
 
 fs::path temporary_folder() {
@@ -142,13 +142,7 @@ std::string link_to(const fs::path& folder, const fs::path& link) {
 
 std::string in_command(std::string_view, const std::string& path) { return path; }
 
-std::string shell_word(std::string_view word) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) return std::string(word);
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
+std::string shell_word(std::string_view word) { return quoted_word(word, "_-./,:=+@%", '\'', "'\\''"); }
 
 CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment) {
   // Everything that the child needs is made before the fork: with other threads, the child may not allocate.

@@ -11,6 +11,7 @@
 #include "base/path_text.h"
 #include "cli/child_process_windows.h"
 #include "cli/command_end.h"
+#include "cli/shell_word.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
@@ -22,9 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kept_bytes = 65536;
-constexpr std::string_view plain_characters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-\\:~";
-
-bool is_plain(std::string_view text) { return text.find_first_not_of(plain_characters) == std::string_view::npos; }
+constexpr std::string_view plain_marks = "/._-\\:~";
 
 // By its whole path: another program of that name may lie in the current folder.
 fs::path command_interpreter() {
@@ -49,11 +48,11 @@ void read_all(HANDLE pipe, std::string& text) {
 // A volume may give short names: "C:\Users\JODOE~1".
 std::string plain_path(const fs::path& path) {
   std::string text = system_path_text(fs::path(path).make_preferred());
-  if (is_plain(text)) return text;
+  if (is_plain(text, plain_marks)) return text;
   std::wstring name(32768, L'\0');
   name.resize(::GetShortPathNameW(path.c_str(), name.data(), static_cast<DWORD>(name.size())));
   text = system_path_text(name);
-  return !text.empty() && is_plain(text) ? text : "";
+  return !text.empty() && is_plain(text, plain_marks) ? text : "";
 }
 
 fs::path temporary_folder() {
@@ -69,16 +68,10 @@ std::string link_to(const fs::path& folder, const fs::path&) { return system_pat
 
 std::string in_command(std::string_view before, const std::string& path) {
   const bool is_quoted = std::count(before.begin(), before.end(), '"') % 2 != 0;
-  return is_plain(path) || is_quoted ? path : '"' + path + '"';
+  return is_plain(path, plain_marks) || is_quoted ? path : '"' + path + '"';
 }
 
-std::string shell_word(std::string_view word) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./\\:~+@#";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) return std::string(word);
-  std::string out = "\"";
-  for (const char c : word) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
+std::string shell_word(std::string_view word) { return quoted_word(word, "_-./\\:~+@#", '"', "\"\""); }
 
 CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment) {
   Pipe pipe = make_pipe();

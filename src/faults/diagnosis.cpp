@@ -169,20 +169,24 @@ Compared compared(Replay& run, const Tried& best, const Names& others, const Nam
   return out;
 }
 
-/// Adds causes with equal values everywhere to the first one's text, in order of plausibility: the port has one of them.
-void say_one_of(Tried& first, std::vector<Tried> causes, Names others, int most = 2, const char* word = "; or, which gives the same, ",
-                std::string own = "") {
+/// Adds causes with equal values everywhere to the first one's text, in order of plausibility: the port has one of them. Returns their
+/// names.
+Names say_one_of(Tried& first, std::vector<Tried> causes, Names others, int most = 2, const char* word = "; or, which gives the same, ",
+                 std::string own = "") {
   std::stable_sort(causes.begin(), causes.end(), [](const Tried& a, const Tried& b) { return far_fetched(a) < far_fetched(b); });
-  int said = 0;
+  Names said;
   if (own.empty()) own = first.sentence;
   Names heads{head_of(first.what)};
   for (const bool is_new_sort : {true, false})
     for (const Tried& c : causes) {
-      if (said >= most || c.sentence == own || !others.contains(c.name) || (is_new_sort && !heads.insert(head_of(c.what)).second)) continue;
+      if (std::ssize(said) >= most || c.sentence == own || !others.contains(c.name) ||
+          (is_new_sort && !heads.insert(head_of(c.what)).second))
+        continue;
       others.erase(c.name);
-      first.sentence += (said == 0 ? word : "; or ") + c.sentence;
-      ++said;
+      first.sentence += (said.empty() ? word : "; or ") + c.sentence;
+      said.insert(c.name);
     }
+  return said;
 }
 
 }  // namespace
@@ -286,10 +290,12 @@ std::vector<Cause> Diagnosis::causes() {
     best.front().is_likely = false;
   // Causes that could not be tested elsewhere are not reported as giving the same values.
   add_lines(run_, other_, best, causes_, there.alike);
-  if (best.front().is_likely)
-    say_one_of(best.front(), causes_, there.alike);
-  else
+  if (best.front().is_likely) {
+    const Names named = say_one_of(best.front(), causes_, there.alike);
+    for (Tried& c : best) c.repeats_first = named.contains(c.name);
+  } else {
     say_one_of(best.front(), causes_, others, 2, as_much);
+  }
   return said();
 }
 

@@ -6,13 +6,18 @@
 // that touch the same memory are reported.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <thread>
 
 #include "rainref/executor.h"
 
 namespace rainref::parallel {
+
+/// Processors by the standard library, which may not know them; at least 1.
+inline int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 struct Executor::Pool {
   /// 0 threads: one for each processor that this process may use. The serial pool always has one.

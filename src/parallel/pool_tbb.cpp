@@ -15,9 +15,6 @@
 namespace rainref::parallel {
 namespace {
 
-// Longer than the time between the loops of a frame.
-constexpr std::chrono::microseconds patience{200};
-
 struct Helpers {
   explicit Helpers(int threads) : team(threads) {}
   Team team;
@@ -39,8 +36,7 @@ Executor::Pool::Pool(int threads)
   static const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, max_threads);
   threads_->arena.initialize();
   threads_->helpers = std::make_shared<Helpers>(this->threads());
-  // A waiting thread keeps others from its processor, so threads only wait if each has its own.
-  if (this->threads() <= oneapi::tbb::info::default_concurrency()) threads_->patience = patience;
+  threads_->patience = parallel::patience(this->threads(), oneapi::tbb::info::default_concurrency());
 }
 Executor::Pool::~Pool() { threads_->helpers->team.stop(); }
 

@@ -13,12 +13,6 @@
 namespace rainref::parallel {
 namespace {
 
-// Longer than the time between the loops of a frame.
-constexpr std::chrono::microseconds patience{200};
-
-// The library may not know the number of processors.
-int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
-
 /// What the pool and its threads share. It lives as long as the last of them.
 struct Shared {
   explicit Shared(int count) : threads(count), team(count) {}
@@ -32,8 +26,7 @@ struct Shared {
 };
 
 void help(const std::shared_ptr<Shared>& shared, int place) {
-  // A thread that waits keeps others from its processor, so threads only wait if each has its own.
-  const std::chrono::nanoseconds wait = shared->threads <= processors() ? patience : std::chrono::nanoseconds{0};
+  const std::chrono::nanoseconds wait = patience(shared->threads, processors());
   std::uint64_t seen = 0;
   for (;;) {
     {

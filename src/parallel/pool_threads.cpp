@@ -14,9 +14,7 @@ struct Executor::Pool::Threads {
   int count;
 };
 
-// The library may not know the number of processors.
-Executor::Pool::Pool(int threads)
-    : threads_(new Threads{threads == 0 ? std::max(1, static_cast<int>(std::thread::hardware_concurrency())) : threads}) {}
+Executor::Pool::Pool(int threads) : threads_(new Threads{threads == 0 ? processors() : threads}) {}
 Executor::Pool::~Pool() = default;
 
 int Executor::Pool::threads() const { return threads_->count; }

@@ -12,6 +12,10 @@
 
 namespace rainref::parallel {
 
+/// How long a helper waits for the next loop: longer than the time between the loops of a frame. Not at all if threads share processors,
+/// because one that waits keeps others from its processor.
+inline std::chrono::nanoseconds patience(int threads, int processors) { return std::chrono::microseconds(threads <= processors ? 200 : 0); }
+
 /// Any thread may run loops; one at a time gets the team. Any other thread may help. The caller owns the threads.
 class Team {
  public:

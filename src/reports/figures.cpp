@@ -230,10 +230,6 @@ std::string coverage_text(const judge::PassCoverage& c, std::size_t shown) {
   return out + (c.never.size() > shown ? fmt::format(" and {} more", c.never.size() - shown) : "");
 }
 
-bool repeats_first(const PassJudgement& p, const Cause& c) {
-  const Cause& first = p.causes.front();
-  return &c != &first && first.is_likely && first.sentence.find(c.sentence) != std::string::npos;
-}
 std::string cause_words(const Cause& c) {
   return c.is_found() ? fmt::format("{}: {}: {}", c.is_likely ? "likely cause" : "may be", c.name, c.sentence)
                       : fmt::format("{}: {}", c.name, c.sentence);

@@ -94,9 +94,6 @@ std::vector<QuantitiesOfOutput> quantities_of(const judge::PassJudgement& pass);
 /// "exercises 41 of 44 alternatives, 2 with a reason not; never: shade.pass.h, refract total reflection: const Vec3<N> bent = ...", with at
 /// most `shown` of them; if 0, only their number. "" if nothing is counted.
 std::string coverage_text(const judge::PassCoverage& coverage, std::size_t shown);
-/// True for a later cause whose sentence stands in that of a likely first one, because both give the same values: pages do not say it
-/// twice.
-bool repeats_first(const judge::PassJudgement& p, const judge::Cause& c);
 /// "likely cause: NAME: SENTENCE", or "may be: ..."; without these words if no cause was found, and only lines are said.
 std::string cause_words(const judge::Cause& cause);
 /// "likely cause: upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".

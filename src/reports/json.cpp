@@ -232,7 +232,7 @@ Json pass_json(const PassJudgement& p, const PageSource& source) {
                              {"of", c.of},
                              {"inside", c.inside},
                              {"is_likely", c.is_likely},
-                             {"repeats_first", repeats_first(p, c)},
+                             {"repeats_first", c.repeats_first},
                              {"lines", std::move(lines)},
                              {"line_texts", line_texts(c)}});
   }

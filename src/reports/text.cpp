@@ -175,7 +175,7 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
   if (has_unknown_cause(p) && p.causes.empty()) out += "  cause unknown\n";
   if (!p.where.empty()) out += wrapped(fmt::format("  where: {}", p.where), 4);
   for (const Cause& c : p.causes) {
-    if (repeats_first(p, c)) continue;
+    if (c.repeats_first) continue;
     out += wrapped("  " + cause_text(c), 4);
     for (const std::string& line : line_texts(c)) out += line + "\n";
   }

@@ -1,5 +1,5 @@
 // Pictures through the libraries of their formats, for builds in which OpenImageIO has no place. Texels, metadata and reasons are those of
-// OpenImageIO 2.4; tests/image_io/direct_test.cpp compares them. Each reader throws std::exception with the reason of a refusal.
+// OpenImageIO 2.4; tests/image_io/both/direct_test.cpp compares them. Each reader throws std::exception with the reason of a refusal.
 #pragma once
 
 #include <cstddef>
