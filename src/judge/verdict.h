@@ -150,9 +150,9 @@ struct Cause {
   std::int64_t inside = 0;     ///< failing texels that it comes near: within the usual width of the envelope
   bool of_records = false;     ///< counts ids of a list that are missing, extra or wrong, not texels
   bool is_likely = false;      ///< it explains nearly all of them; otherwise it is only possible
-  bool repeats_first = false;  ///< its sentence stands in that of the likely first cause too, because both give the same values
   /// Location in the port's shader, if that is available; the best line first.
   std::vector<ShaderLine> lines = {};
+  bool repeats_first = false;  ///< its sentence stands in that of the likely first cause too, because both give the same values
   /// False for an entry that only has lines, because no cause was found. It stands alone.
   bool is_found() const { return of > 0; }
 };
