@@ -112,6 +112,11 @@ int fail() {
 int rename(const fs::path& from, const fs::path& to) {
   const DWORD attributes = ::GetFileAttributesW(to.c_str());
   const bool is_there = attributes != INVALID_FILE_ATTRIBUTES, is_folder = is_there && (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
+  // As everywhere, a folder takes no file's place.
+  if (is_there && !is_folder && found(from, false).kind == Kind::folder) {
+    errno = ENOTDIR;
+    return -1;
+  }
   // No call of the system lets a folder take the place of an empty one. One that is not empty stays, with its own error.
   if (is_folder && !::RemoveDirectoryW(to.c_str())) return fail();
   if (is_there && !is_folder && rename_as_posix(from, to)) return 0;

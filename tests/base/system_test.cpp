@@ -87,6 +87,10 @@ TEST(System, AFolderTakesThePlaceOfAnEmptyOneAlone) {
   EXPECT_THAT(at.names(), ElementsAre("empty", "full"));
   EXPECT_EQ(contents(at / "empty/inside"), "new");
   EXPECT_EQ(contents(at / "full/inside"), "old");
+  put(at / "file", "file");
+  EXPECT_EQ(system::rename(at / "empty", at / "file"), -1);
+  EXPECT_EQ(errno, ENOTDIR);
+  EXPECT_EQ(contents(at / "file"), "file");
 }
 
 TEST(System, ALockEndsWithItsFile) {
