@@ -47,7 +47,7 @@ TEST(NewFolder, ReplacesWhatItMay) {
     empty.write("old", bytes("old"));
     empty.commit();
   }
-  EXPECT_EQ(error_of([&] { NewFolder(at / "pack", never); }), "4 cannot write '" + (at / "pack").string() + "': no");
+  EXPECT_EQ(error_of([&] { NewFolder(at / "pack", never); }), "4 cannot write '" + (at / "pack").generic_string() + "': no");
   {
     NewFolder abandoned(at / "pack", always);
     abandoned.write("new", bytes("new"));
@@ -87,7 +87,7 @@ TEST(NewFolder, WhatCameToLieThereMeanwhileIsNotReplaced) {
   folder.write("new", bytes("new"));
   std::filesystem::create_directory(at / "pack");
   put(at / "pack/mine", "mine");
-  EXPECT_EQ(error_of([&] { folder.commit(); }), "4 cannot write '" + (at / "pack").string() + "': no");
+  EXPECT_EQ(error_of([&] { folder.commit(); }), "4 cannot write '" + (at / "pack").generic_string() + "': no");
   EXPECT_EQ(contents(at / "pack/mine"), "mine");
 }
 
@@ -108,16 +108,16 @@ TEST(NewFolder, WhoIsFirstGetsTheName) {
   put(at / "file", "text");
   NewFolder third(at / "other", never);
   put(at / "other", "a file came");
-  EXPECT_THAT(error_of([&] { third.commit_if_first(); }), testing::StartsWith("4 cannot write '" + (at / "other").string()));
+  EXPECT_THAT(error_of([&] { third.commit_if_first(); }), testing::StartsWith("4 cannot write '" + (at / "other").generic_string()));
 }
 
 TEST(NewFolder, RefusesAFile) {
   TemporaryFolder at;
   put(at / "file", "text");
   EXPECT_EQ(error_of([&] { NewFolder(at / "file", always); }),
-            "4 cannot write '" + (at / "file").string() + "': a file of that name exists");
+            "4 cannot write '" + (at / "file").generic_string() + "': a file of that name exists");
   EXPECT_THAT(error_of([&] { NewFolder(at / "file/pack", always); }),
-              testing::StartsWith("4 cannot write '" + (at / "file/pack").string()));
+              testing::StartsWith("4 cannot write '" + (at / "file/pack").generic_string()));
   EXPECT_THAT(at.names(), ElementsAre("file"));
 }
 

@@ -39,7 +39,7 @@ TEST_F(Demo, JudgesAWrongPortAndTheRightOne) {
   // What it typed, a user may type again.
   for (const std::string& line : lines_of(o.out)) {
     if (!line.starts_with("$ rainref ")) continue;
-    const std::string command = fmt::format("'{}' {}", RAINREF_PROGRAM, line.substr(10));
+    const std::string command = fmt::format("'{}' {}", program_under_test(), line.substr(10));
     const int status = output_of(fmt::format("cd '{}' && {} > again", folder.path().string(), command)).second;
     EXPECT_EQ(status != 0, line.find("/wrong/") != line.npos) << line;
     EXPECT_THAT(o.out, HasSubstr(contents(folder / "again")));

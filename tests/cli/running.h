@@ -12,7 +12,7 @@ namespace rainref::cli {
 /// Starts the program in a folder. Its standard output goes to `output`, a descriptor; by default nowhere.
 inline std::unique_ptr<ChildProcess> start_rainref(const std::filesystem::path& folder, std::vector<std::string> arguments,
                                                    int output = -1) {
-  arguments.insert(arguments.begin(), RAINREF_PROGRAM);
+  arguments.insert(arguments.begin(), program_under_test());
   return std::make_unique<ChildProcess>([&] {
     std::vector<char*> argv;
     for (std::string& a : arguments) argv.push_back(a.data());

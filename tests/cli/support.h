@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <source_location>
 #include <string>
 #include <vector>
@@ -51,9 +52,13 @@ constexpr bool forks_hang = true;
 constexpr bool forks_hang = false;
 #endif
 
+/// The program that is asked: the one that was built with this test, or another build of it, as scripts/windows names it.
+inline const char* other_program() { return std::getenv("RAINREF_OTHER_PROGRAM"); }
+inline std::string program_under_test() { return other_program() ? other_program() : RAINREF_PROGRAM; }
+
 /// What is unusual about the process.
 struct Circumstances {
-  std::string program = RAINREF_PROGRAM;
+  std::string program = program_under_test();
   std::string standard_output;          ///< a file instead of the test's pipe
   bool closed_error = false;            ///< standard error takes no byte
   bool terminal_error = false;          ///< standard error is a terminal
@@ -88,7 +93,7 @@ inline Outcome run_rainref(const std::filesystem::path& folder, std::vector<std:
     ::dup2(c.closed_error ? ::open("/dev/full", O_WRONLY) : err[1], STDERR_FILENO);
     for (const int descriptor : {out[0], out[1], err[0], err[1]}) ::close(descriptor);
     if (::chdir(folder.c_str()) != 0) ::_exit(127);
-    if (c.is_copy && !forks_hang) ::_exit(cli::main(static_cast<int>(arguments.size()), argv.data()));
+    if (c.is_copy && !forks_hang && !other_program()) ::_exit(cli::main(static_cast<int>(arguments.size()), argv.data()));
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }

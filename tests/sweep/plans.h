@@ -46,7 +46,7 @@ class Plans : public testing::Test {
   std::string refusal(const std::string& text) const {
     const std::filesystem::path file = plan(text);
     std::string said = error_of([&] { OpenedPlan{file}; });
-    const std::string path = folder.path().string() + "/";
+    const std::string path = folder.path().generic_string() + "/";
     for (std::size_t at = 0; (at = said.find(path, at)) != std::string::npos;) said.erase(at, path.size());
     return said;
   }
