@@ -6,6 +6,7 @@ import ctypes as c
 import inspect
 import json
 import os
+import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,7 +39,11 @@ class Port:
         try:
             case.give(self.function(case.inputs, case.uniforms, *((case,) if takes_case else ())))
         except Exception as error:
-            error.add_note(f"while the port ran on the case {case.id}")
+            note = f"while the port ran on the case {case.id}"
+            if sys.version_info >= (3, 11):
+                error.add_note(note)
+            else:
+                print(note, file=sys.stderr)
             raise
 
 
