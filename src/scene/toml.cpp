@@ -14,6 +14,8 @@
 #include "base/path_text.h"
 #include "base/system.h"
 #include "scene/check.h"
+#include "scene/key_groups.h"
+#include "scene/key_guess.h"
 #include "scene/unexercised.h"
 
 namespace rainref::scene {
@@ -21,11 +23,9 @@ namespace {
 
 // More than any scene has. The rest is not read, so that a device or a film given by mistake ends at once.
 constexpr std::size_t read_limit = (std::size_t{1} << 20) + 1;
-// Longer names are not compared with the valid ones, because the edit distance takes time proportional to its length times each valid
-// length.
-constexpr std::size_t longest_guess = 128;
+constexpr std::size_t longest_shown = 128;
 
-std::string shortened(const std::string& key) { return key.size() <= longest_guess ? key : key.substr(0, longest_guess) + "…"; }
+std::string shortened(const std::string& key) { return key.size() <= longest_shown ? key : key.substr(0, longest_shown) + "…"; }
 
 std::vector<Override> split(const std::vector<std::string>& overrides) {
   std::vector<Override> out;
@@ -53,31 +53,12 @@ Value checked(const Override& o, const Parameter& p) {
   return checked(*raw, p, origin_of(o));
 }
 
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
-
-// First a typo, then the right name in the wrong table. A shared table must not make two names near, so only keys with a near last part are
-// considered.
-std::string guess(const std::string& wrong, const std::vector<std::string>& valid) {
-  if (wrong.size() > longest_guess) return "";
-  std::vector<std::string> candidates;
-  for (const std::string& key : valid) {
-    const std::string last = last_part(key);
-    if (!nearest_name(last_part(wrong), {&last, 1}).empty()) candidates.push_back(key);
-  }
-  const std::string near = did_you_mean(wrong, candidates);
-  if (!near.empty() || candidates.empty()) return near;
-  const auto same = [&](const std::string& key) { return last_part(key) == last_part(wrong); };
-  const auto found = std::find_if(candidates.begin(), candidates.end(), same);
-  return fmt::format("; did you mean '{}'?", found == candidates.end() ? candidates.front() : *found);
-}
-
 class Assembly {
  public:
   Assembly(const Effect& effect, const EffectTable& effects, std::string variant)
       : effect_(effect), effects_(effects), variant_(std::move(variant)) {
     for (Parameter& p : scene_parameters(effect, effects)) {
       const Value value = p.default_in(variant_);
-      if (p.used_by(variant_)) valid_.push_back(p.key);
       entries_.push_back({std::move(p), value, {}});
     }
   }
@@ -88,10 +69,12 @@ class Assembly {
     const auto inside = [&](const Config::Entry& e) { return e.parameter.key.starts_with(raw.key + "."); };
     if (std::any_of(entries_.begin(), entries_.end(), inside)) {
       if (std::holds_alternative<RawValue::Table>(raw.value.data)) return;  // an empty table says nothing
-      refuse({Origin::file, raw.value.at}, raw.key, fmt::format("expected a table, found {}", raw.value.text()));
+      const std::string on = raw.key + ".on";
+      refuse({Origin::file, raw.value.at}, raw.key,
+             fmt::format("expected a table, found {}{}", raw.value.text(), declared(on) ? "; did you mean '" + on + "'?" : ""));
     }
     if (std::holds_alternative<RawValue::Table>(raw.value.data) && !declared(raw.key)) {
-      refuse(origin, shortened(raw.key), "unknown table" + foreign(raw.key + ".", tables()));
+      refuse(origin, shortened(raw.key), "unknown table" + foreign(raw.key + "."));
     }
     Config::Entry& entry = find(raw.key, origin);
     entry.value = scene::checked(raw.value, entry.parameter, origin);
@@ -123,11 +106,11 @@ class Assembly {
       if (e.parameter.used_by(variant_)) return e;
       refuse(origin, key, fmt::format("not used by variant '{}', only by '{}'", variant_, fmt::join(e.parameter.variants, "', '")));
     }
-    refuse(origin, shortened(key), "unknown key" + foreign(key, valid_));
+    refuse(origin, shortened(key), "unknown key" + foreign(key));
   }
 
   /// For a key (or a table, ending in a dot) that this effect lacks: the other effects that have it, else the nearest valid one.
-  std::string foreign(const std::string& key, const std::vector<std::string>& valid) const {
+  std::string foreign(const std::string& key) const {
     const bool is_table = key.ends_with('.');
     std::vector<std::string> owners;
     for (const Effect& other : effects_.effects) {
@@ -135,7 +118,8 @@ class Assembly {
       if (&other != &effect_ && std::any_of(other.parameters.begin(), other.parameters.end(), is_it))
         owners.push_back("'" + other.name + "'");
     }
-    if (owners.empty()) return guess(is_table ? key.substr(0, key.size() - 1) : key, valid);
+    if (owners.empty() && is_table) return key.size() > longest_shown ? "" : did_you_mean(key.substr(0, key.size() - 1), tables());
+    if (owners.empty()) return did_you_mean_key(key, effect_.name, valid());
     return fmt::format(" of '{}'; it is one of {}", effect_.name, fmt::join(owners, " and "));
   }
 
@@ -143,12 +127,18 @@ class Assembly {
     return std::any_of(entries_.begin(), entries_.end(), [&](const Config::Entry& e) { return e.parameter.key == key; });
   }
 
+  // The parameters that this variant uses.
+  std::vector<Parameter> valid() const {
+    std::vector<Parameter> out;
+    for (const Config::Entry& e : entries_)
+      if (e.parameter.used_by(variant_)) out.push_back(e.parameter);
+    return out;
+  }
   // "run", "puddle", …
   std::vector<std::string> tables() const {
     std::vector<std::string> out;
-    for (const std::string& key : valid_) {
-      if (key.find('.') != std::string::npos) out.push_back(key.substr(0, key.rfind('.')));
-    }
+    for (const Parameter& p : valid())
+      if (std::string table = table_of(p.key); !table.empty()) out.push_back(std::move(table));
     return out;
   }
 
@@ -156,8 +146,7 @@ class Assembly {
   const EffectTable& effects_;
   std::string variant_;
   std::vector<Config::Entry> entries_;
-  std::vector<std::string> valid_;  // the keys that this variant uses
-  Unexercised unexercised_;         // checked, and not used by a run
+  Unexercised unexercised_;  // checked, and not used by a run
 };
 
 // The text of `effect` or `variant`; they are read before the rest, because they determine which keys are valid.

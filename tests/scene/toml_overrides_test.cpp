@@ -63,7 +63,7 @@ TEST(Overrides, ErrorsNameTheOption) {
   EXPECT_EQ(error("variant=corected"),
             "2 --set variant: expected one of 'as-published', 'corrected', found \"corected\"; did you mean "
             "'corrected'?");
-  EXPECT_EQ(error("puddle=1"), "2 --set puddle: unknown key");
+  EXPECT_EQ(error("puddle=1"), "2 --set puddle: unknown key; `rainref describe puddle puddle` lists that group");
   EXPECT_EQ(error("puddle.ground=\xff"), "2 --set puddle.ground: expected text, found bytes that are not UTF-8");
   EXPECT_EQ(error("seed"), "2 --set seed: expected key=value");
   EXPECT_EQ(error("=3"), "2 --set =3: expected key=value");
