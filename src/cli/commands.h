@@ -93,8 +93,10 @@ struct LayoutRequest {
   std::optional<std::string> language, pass, variant;
 };
 
-int list(bool json);
-int describe(const std::string& effect, bool json, const LayoutRequest& layout);
+/// `effect`: what is listed is of this one; "": of all.
+int list(const std::string& effect, bool json);
+/// `name`: an effect or a scene. `group`: only the keys of an effect that begin so; "": all of it.
+int describe(const std::string& name, const std::string& group, bool json, const LayoutRequest& layout);
 int describe_shaders(const std::vector<std::filesystem::path>& shaders);
 int run(const RunOptions& options);
 int hash(const SceneOptions& options);

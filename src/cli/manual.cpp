@@ -109,8 +109,9 @@ std::string shell_words(const std::vector<std::string>& words) { return fmt::for
 /// Puts text in single quotes for a shell.
 std::string quoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
-/// Prints the scenes: the second part of `rainref list`.
-constexpr const char* scenes_command = "rainref list 2>/dev/null | sed -n '/^Scenes$/,/^$/s/^  //p'";
+/// Prints the names of scenes: the second part of `rainref list`, without its sentences.
+constexpr const char* scenes_command =
+    "rainref list 2>/dev/null | sed -n -e '/^Scenes$/,/^$/!d' -e 's/^  //' -e 's/[.]toml  .*/.toml/' -e '/[.]toml$/p'";
 
 }  // namespace
 

@@ -36,23 +36,29 @@ void require_either(const std::string& subject, const char* name, const std::str
 }  // namespace
 
 Verb list_verb(CLI::App& app) {
+  struct Flags {
+    std::string effect;
+    bool json = false;
+  };
   CLI::App& verb = *app.add_subcommand("list", "Effects, variants, passes, scenes and SIMD targets");
-  const auto json = std::make_shared<bool>(false);
-  verb.add_flag("--json", *json, "As JSON");
-  verb.footer("Example: rainref list --json");
-  return {&verb, [json] { return list(*json); }};
+  const auto f = std::make_shared<Flags>();
+  verb.add_option("EFFECT", f->effect, "Only what is of this effect")->type_name(effect_words());
+  verb.add_flag("--json", f->json, "As JSON");
+  verb.footer("Example: rainref list puddle");
+  return {&verb, [f] { return list(f->effect, f->json); }};
 }
 
 Verb describe_verb(CLI::App& app) {
   struct Flags {
-    std::string effect;
+    std::string effect, group;
     bool json = false;
     LayoutRequest layout;
     std::vector<std::string> spirv;
   };
-  CLI::App& verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
+  CLI::App& verb = *app.add_subcommand("describe", "Keys, passes and buffers of an effect, or what a scene sets; GPU layouts");
   const auto f = std::make_shared<Flags>();
-  verb.add_option("EFFECT", f->effect, "Effect")->type_name(effect_words());
+  verb.add_option("EFFECT", f->effect, "Effect, or a scene: a file, or a name of `rainref list`")->type_name(effect_words());
+  verb.add_option("GROUP", f->group, "Only the keys of the effect that begin so, such as rain or rain.rate")->type_name("NAME");
   verb.add_flag("--json", f->json, "As JSON");
   verb.add_option("--layout", f->layout.language, "Uniform blocks, records, images and lists ready to paste")
       ->type_name("c|glsl|hlsl|wgsl|cuda|glsl330|gdshader");
@@ -61,12 +67,14 @@ Verb describe_verb(CLI::App& app) {
   verb.add_option("--spirv", f->spirv, "Instead of an effect: the first draft of a description of these shaders, for `pack --spirv`")
       ->type_name("FILE...");
   verb.footer(
-      "Example: rainref describe puddle --layout glsl --pass wave_step --variant corrected\n"
+      "Example: rainref describe windshield condensation\n"
+      "What a scene sets: rainref describe puddle/default\n"
+      "For a shader: rainref describe puddle --layout glsl --pass wave_step --variant corrected\n"
       "An effect of your own: rainref describe --spirv fog.spv shade.spv > effect.json");
   return {&verb, [f] {
             require_either(f->effect, "EFFECT", f->spirv.empty() ? "" : f->spirv.front());
-            if (f->spirv.empty()) return describe(f->effect, f->json, f->layout);
-            if (f->json || f->layout.language || f->layout.pass || f->layout.variant)
+            if (f->spirv.empty()) return describe(f->effect, f->group, f->json, f->layout);
+            if (!f->group.empty() || f->json || f->layout.language || f->layout.pass || f->layout.variant)
               throw Error(ExitCode::usage, "--spirv: expected no other option beside it");
             std::vector<std::filesystem::path> shaders;
             for (const std::string& shader : f->spirv) shaders.push_back(utf8_path(shader));

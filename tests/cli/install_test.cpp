@@ -226,7 +226,8 @@ TEST_F(Installation, MayBeStagedForAPrefixOfItsOwn) {
   c.program = folder / "moved/bin/rainref";
   const Outcome o = rainref({"list"}, c);
   EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_THAT(o.out, HasSubstr("\n  puddle/default.toml\n"));
+  EXPECT_THAT(o.out, HasSubstr("\n  puddle/default.toml  "));
+  EXPECT_THAT(rainref({"describe", "puddle/default"}, c).out, testing::StartsWith("puddle/default: A puddle on a street at night"));
   EXPECT_THAT(o.out, Not(HasSubstr(RAINREF_SOURCE_DIR)));
   // Names that it takes, its own scenes' and no others': also without ".toml", and as the documents write them.
   put(folder / "moved/share/rainref/scenes/puddle/default.toml",
