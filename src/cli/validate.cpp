@@ -13,6 +13,7 @@
 #include "capture/capture_recorder.h"
 #include "capture/manifest_write.h"
 #include "cli/commands.h"
+#include "cli/judging_times.h"
 #include "cli/port_command.h"
 #include "cli/progress.h"
 #include "registry/registry.h"
@@ -63,10 +64,17 @@ judging::FolderOptions folder_options(const ValidateRequest& request, const para
   options.spirv = request.spirv;
   return options;
 }
-/// Shows on the terminal that a diagnosis, which may take minutes, is running.
-void show(Progress& progress, judging::FolderOptions& options) {
-  options.progress = [&progress](int, int) { progress.advance(); };
-  options.at_cause = [&progress](const std::string& pass) { progress.meanwhile("seeking the cause in " + pass); };
+/// Shows on the terminal that a diagnosis, which may take minutes, is running, and measures how long all takes.
+void show(Progress& progress, JudgingTimes& times, judging::FolderOptions& options) {
+  times = JudgingTimes();
+  options.progress = [&](int, int) {
+    progress.advance();
+    times.end_case();
+  };
+  options.at_cause = [&](const std::string& pass) {
+    progress.meanwhile("seeking the cause in " + pass);
+    times.begin_causes(pass);
+  };
 }
 
 /// Results of the port's command.
@@ -96,7 +104,7 @@ PortRuns run_port(const ValidateRequest& request, const fs::path& folder) {
 
 /// `temporary`: the output folder if the request names none; it must exist until the page is written.
 judging::Judged judge_pack(const ValidateRequest& request, const Reports& reports, std::optional<TemporaryRun>& temporary,
-                           const parallel::Executor& executor) {
+                           const parallel::Executor& executor, JudgingTimes& times) {
   const auto pack = std::make_shared<const capture::Pack>(request.pack);
   judging::FolderOptions options = folder_options(request, executor);
   // Errors in the request are reported before the port is run.
@@ -121,7 +129,7 @@ judging::Judged judge_pack(const ValidateRequest& request, const Reports& report
     try {
       Progress progress("judging", static_cast<int>(std::count_if(pack->cases.begin(), pack->cases.end(),
                                                                   [&](const capture::PackCase& c) { return options.wants(c.pass); })));
-      show(progress, options);
+      show(progress, times, options);
       judged = judging::judge_folder(pack, runs.folders, options);
     } catch (const Error& e) {
       // A port that exits with 0 and writes nothing may have printed the reason.
@@ -179,7 +187,8 @@ judge::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Ex
   return plan;
 }
 
-judging::Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
+judging::Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor,
+                             JudgingTimes& times) {
   static_cast<void>(judge::judging_profile(request.profile));
   if (!fs::is_directory(request.shadow))
     throw Error(ExitCode::port_files,
@@ -203,7 +212,7 @@ judging::Judged judge_shadow(const ValidateRequest& request, const Reports& repo
   reports.check(plan.passes, ids);
   judging::FolderOptions options = folder_options(request, executor);
   Progress progress("judging", static_cast<int>(dumped.size()));
-  show(progress, options);
+  show(progress, times, options);
   return judging::judge_dumps(planned, request.shadow, dumped, options);
 }
 
@@ -211,8 +220,10 @@ judging::Judged judge_shadow(const ValidateRequest& request, const Reports& repo
 judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) {
   const parallel::Executor executor(request.threads);
   std::optional<TemporaryRun> temporary;
+  JudgingTimes times;
   judging::Judged judged =
-      request.shadow.empty() ? judge_pack(request, reports, temporary, executor) : judge_shadow(request, reports, executor);
+      request.shadow.empty() ? judge_pack(request, reports, temporary, executor, times) : judge_shadow(request, reports, executor, times);
+  times.end();
   judge::PortJudgement& judgement = judged.judged;
   judgement.command = request.command;
   if (request.no_causes) judgement.notes.push_back("causes of failures were not looked for (--no-causes)");
@@ -222,7 +233,7 @@ judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) 
     print_aside(text);
   else
     print_text(text);
-  reports.write(judgement, judged.source);
+  reports.write(judgement, judged.source, times.of(judgement));
   return std::move(judgement);
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <string_view>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
@@ -16,16 +15,20 @@
 #include "cli/run_command.h"
 #include "cli/terminal.h"
 #include "rainref/error.h"
+#include "reports/annotations.h"
 #include "reports/figures.h"
 #include "reports/html.h"
 #include "reports/json.h"
-#include "reports/junit.h"
+#include "reports/markdown.h"
 
 namespace rainref::cli {
 void add_report_options(CLI::App& verb, ReportOptions& options) {
   verb.add_option("--json", options.json, "Write the whole judgement as JSON; - is standard output");
   verb.add_option("--junit", options.junit, "Write it as JUnit XML, for continuous integration; or -");
   verb.add_option("--html", options.html, "Write it as one page with pictures of what fails; or -");
+  verb.add_option("--markdown", options.markdown, "Write it as Markdown, for a job's summary such as $GITHUB_STEP_SUMMARY; or -");
+  verb.add_flag("--github", options.annotates,
+                "Print what fails as annotations of GitHub's actions too: with --spirv at the line of the shader");
   verb.add_option("--baseline", options.baseline, "Known failures (TOML): they pass, and what no longer fails is an error");
 }
 
@@ -35,31 +38,20 @@ std::string command_text(int argc, const char* const* argv) {
   return out;
 }
 
-/// Opens a report's file now; does nothing if it is not requested.
-Reports::File Reports::opened(const char* option, const std::optional<std::string>& path) {
-  if (!path) return {};
-  if (path->empty()) throw Error(ExitCode::usage, fmt::format("{}: expected a file, found ''", option));
-  if (*path == "-") return {nullptr, true};
-  return {std::make_unique<AtomicFile>(utf8_path(*path)), false};
-}
-void Reports::finish(File& f, std::string_view text) {
-  if (f.is_standard_output) {
-    print_report(text);
-  } else {
-    f.file->write(text);
-    f.file->commit();
-  }
-  f = {};
-}
-
-Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(allow_untested) {
+Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(allow_untested), annotates_(o.annotates) {
   if (o.baseline) {
     if (o.baseline->empty()) throw Error(ExitCode::usage, "--baseline: expected a file, found ''");
     baseline_ = reports::Baseline::read(utf8_path(*o.baseline));
   }
-  json_ = opened("--json", o.json);
-  junit_ = opened("--junit", o.junit);
-  html_ = opened("--html", o.html);
+  const auto add = [&](const char* option, const std::optional<std::string>& path, auto text) {
+    if (!path) return;
+    if (path->empty()) throw Error(ExitCode::usage, fmt::format("{}: expected a file, found ''", option));
+    reports_.push_back({*path, *path == "-" ? nullptr : std::make_unique<AtomicFile>(utf8_path(*path)), text});
+  };
+  add("--json", o.json, [](const Content& c) { return reports::report_json(c.judgement, c.exit_code, c.source); });
+  add("--junit", o.junit, [allow_untested](const Content& c) { return reports::report_junit(c.judgement, allow_untested, c.times); });
+  add("--html", o.html, [](const Content& c) { return reports::report_html(c.judgement, c.exit_code, c.source); });
+  add("--markdown", o.markdown, [](const Content& c) { return reports::report_markdown(c.judgement); });
   // Compares resolved paths: "r" and "./r" are one file, and so are a link and its target.
   std::map<std::filesystem::path, std::string> named;
   const auto claim = [&](const std::string& name, const std::filesystem::path& target) {
@@ -73,14 +65,16 @@ Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(
                                                        : fmt::format("two reports cannot be one file: '{}' and '{}'", other->second, name));
   };
   if (o.baseline) claim(*o.baseline, followed(utf8_path(*o.baseline)));
-  if (json_.file) claim(*o.json, json_.file->target());
-  if (junit_.file) claim(*o.junit, junit_.file->target());
-  if (html_.file) claim(*o.html, html_.file->target());
-  if (json_.is_standard_output + junit_.is_standard_output + html_.is_standard_output > 1)
+  for (const Report& r : reports_)
+    if (r.file) claim(r.name, r.file->target());
+  if (std::count_if(reports_.begin(), reports_.end(), [](const Report& r) { return !r.file; }) > 1)
     throw Error(ExitCode::usage, "two reports cannot have one name: '-', standard output");
-  for (const File* file : {&json_, &junit_, &html_}) {
-    if (file->file) remove_leftovers(file->file->target().parent_path());
-  }
+  for (const Report& r : reports_)
+    if (r.file) remove_leftovers(r.file->target().parent_path());
+}
+
+bool Reports::has_standard_output() const {
+  return std::any_of(reports_.begin(), reports_.end(), [](const Report& r) { return !r.file; });
 }
 
 void Reports::check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const {
@@ -90,11 +84,8 @@ void Reports::apply_baseline(judge::PortJudgement& judgement) const {
   if (baseline_) baseline_->apply(judgement);
 }
 
-void Reports::write(const judge::PortJudgement& j, const reports::PageSource& source) {
-  const int code = reports::exit_code(j, allow_untested_);
-  if (is_asked(html_)) finish(html_, reports::report_html(j, code, source));
-  if (is_asked(junit_)) finish(junit_, reports::report_junit(j, allow_untested_));
-  if (is_asked(json_)) finish(json_, reports::report_json(j, code, source));
+void Reports::write(const judge::PortJudgement& j, const reports::PageSource& source, const reports::Times& times) {
+  write({j, reports::exit_code(j, allow_untested_), source, times});
 }
 
 void Reports::write_error(const Error& error, const ValidateRequest& request) {
@@ -104,10 +95,23 @@ void Reports::write_error(const Error& error, const ValidateRequest& request) {
   j.profile = request.profile;
   j.command = request.command;
   j.reason = error.what();
-  const int code = static_cast<int>(error.code());
-  if (is_asked(html_)) finish(html_, reports::report_html(j, code, {}));
-  if (is_asked(junit_)) finish(junit_, reports::report_junit(j, false));
-  if (is_asked(json_)) finish(json_, reports::report_json(j, code, {}));
+  const reports::PageSource no_source;
+  const reports::Times not_measured;
+  write({j, static_cast<int>(error.code()), no_source, not_measured});
+}
+
+void Reports::write(const Content& content) {
+  if (annotates_) (has_standard_output() ? print_aside : print_text)(reports::report_annotations(content.judgement, allow_untested_));
+  for (const Report& r : reports_) {
+    const std::string text = r.text(content);
+    if (!r.file) {
+      print_report(text);
+      continue;
+    }
+    r.file->write(text);
+    r.file->commit();
+  }
+  reports_.clear();
 }
 
 }  // namespace rainref::cli

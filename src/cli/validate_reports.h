@@ -1,10 +1,10 @@
 // The options of `validate` that write reports and read a baseline.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/atomic_file.h"
@@ -12,6 +12,7 @@
 #include "judge/verdict.h"
 #include "rainref/error.h"
 #include "reports/baseline.h"
+#include "reports/junit.h"
 #include "reports/source.h"
 
 namespace CLI {
@@ -24,9 +25,10 @@ struct ValidateRequest;
 
 /// Values of the options.
 struct ReportOptions {
-  std::optional<std::string> json, junit, html, baseline;
+  std::optional<std::string> json, junit, html, markdown, baseline;
+  bool annotates = false;  ///< prints annotations of GitHub's actions after the text
 };
-/// Adds --json, --junit, --html and --baseline to a verb.
+/// Adds --json, --junit, --html, --markdown, --github and --baseline to a verb.
 void add_report_options(CLI::App& verb, ReportOptions& options);
 
 /// Quotes a command line for a shell, for reports: "rainref validate 'my pack' --port out".
@@ -44,24 +46,30 @@ class Reports {
   /// Permits the failures in the baseline. Call before write, and before computing the exit code.
   void apply_baseline(judge::PortJudgement& judgement) const;
   /// True if a report goes to standard output, so that nothing else may.
-  bool has_standard_output() const { return json_.is_standard_output || junit_.is_standard_output || html_.is_standard_output; }
-  /// Writes the files; each gets its name only when complete.
-  void write(const judge::PortJudgement& judgement, const reports::PageSource& source);
+  bool has_standard_output() const;
+  /// Prints the annotations and writes the files; each gets its name only when complete.
+  void write(const judge::PortJudgement& judgement, const reports::PageSource& source, const reports::Times& times);
   /// Call if nothing could be judged: the reports contain the error, so that none of an earlier run remains.
   void write_error(const Error& error, const ValidateRequest& request);
 
  private:
-  /// Neither name nor standard output: not requested.
-  struct File {
-    std::unique_ptr<AtomicFile> file;
-    bool is_standard_output = false;
+  struct Content {
+    const judge::PortJudgement& judgement;
+    int exit_code;
+    const reports::PageSource& source;
+    const reports::Times& times;
   };
-  static File opened(const char* option, const std::optional<std::string>& path);
-  static void finish(File& file, std::string_view text);
-  static bool is_asked(const File& file) { return file.file || file.is_standard_output; }
-  File json_, junit_, html_;
+  /// A report that was asked for.
+  struct Report {
+    std::string name;                  ///< as given
+    std::unique_ptr<AtomicFile> file;  ///< null: standard output
+    std::function<std::string(const Content&)> text;
+  };
+  void write(const Content& content);
+
+  std::vector<Report> reports_;
   std::optional<reports::Baseline> baseline_;
-  bool allow_untested_;
+  bool allow_untested_, annotates_;
 };
 
 }  // namespace rainref::cli

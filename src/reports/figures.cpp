@@ -246,6 +246,11 @@ std::vector<std::string> line_texts(const Cause& c) {
                               l.until > 0 ? fmt::format("a step is missing between this line and line {}", l.until) : l.text));
   return out;
 }
+std::string first_cause_text(const PassJudgement& p) {
+  if (p.causes.empty()) return has_unknown_cause(p) ? "cause unknown" : "";
+  const std::vector<std::string> lines = line_texts(p.causes.front());
+  return cause_words(p.causes.front()) + (lines.empty() ? "" : "; " + lines.front());
+}
 std::string outside_text(const PassJudgement& p) {
   std::int64_t outside = 0, beyond = 0;
   for (const CaseJudgement& c : p.cases)

@@ -101,6 +101,9 @@ std::string cause_words(const judge::Cause& cause);
 std::string cause_text(const judge::Cause& cause, std::string_view which = "failing");
 /// Position of a cause in the port's shader, in the form that editors read: "FILE:LINE: the line itself".
 std::vector<std::string> line_texts(const judge::Cause& cause);
+/// The first cause and its line, in a line: "likely cause: NAME: SENTENCE; FILE:LINE: TEXT"; "cause unknown"; "" if there is no failure, or
+/// causes were not sought.
+std::string first_cause_text(const judge::PassJudgement& pass);
 /// "is outside the as-written envelope of puddle.shade.corrected/2", or the text for values that no known device gives, if only that fails.
 std::string outside_text(const judge::PassJudgement& pass);
 

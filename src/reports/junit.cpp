@@ -26,11 +26,13 @@ struct Test {
   enum Outcome : std::uint8_t { passed, failed, skipped, error } outcome = passed;
   std::string name, message, text;
   const char* type = "outside";  ///< for a failure
+  double seconds = -1;           ///< below 0: not measured
 };
 struct Suite {
   std::string name;
   std::vector<Test> tests;
   std::string remark;
+  double seconds = -1;
 
   std::int64_t count(Test::Outcome o) const {
     return std::count_if(tests.begin(), tests.end(), [&](const Test& t) { return t.outcome == o; });
@@ -59,15 +61,8 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
 
 /// The message in a list of failures: the extent of the failure, and the first cause in words.
 std::string failing_message(const PassJudgement& p, const OutputJudgement& o) {
-  std::string out = fmt::format("{} of {} {} outside", o.failing, o.elements, element_word(o));
-  if (!p.causes.empty()) {
-    const Cause& c = p.causes.front();
-    out += "; " + cause_words(c);
-    if (const std::vector<std::string> lines = line_texts(c); !lines.empty()) out += "; " + lines.front();
-  } else if (has_unknown_cause(p)) {
-    out += "; cause unknown";
-  }
-  return out;
+  const std::string cause = first_cause_text(p);
+  return fmt::format("{} of {} {} outside{}{}", o.failing, o.elements, element_word(o), cause.empty() ? "" : "; ", cause);
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -98,22 +93,39 @@ Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgeme
   return t;
 }
 
-Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome untested) {
+std::vector<Test> tests_of(const PortJudgement& j, const PassJudgement& p, const CaseJudgement& c, Test::Outcome untested,
+                           const Times& times) {
+  std::vector<Test> tests;
+  if (c.broken) tests.push_back({Test::failed, c.id, c.reason, c.reason, "broken"});
+  for (const OutputJudgement& o : c.outputs) tests.push_back(test_of(p, c, o, untested));
+  const std::string files = files_text(j, c.id);
+  // If the run was judged, they belong to another run of the port.
+  if (!files.empty()) tests.push_back({Test::error, c.id, first_line(files), files, "not judged"});
+  if (tests.empty()) {
+    const bool is_open = c.status == Status::untested || c.status == Status::not_judged;
+    const Test::Outcome outcome = is_open ? untested : c.status == Status::data ? Test::skipped : Test::passed;
+    tests.push_back({outcome, c.id, outcome == Test::passed ? "" : fmt::format("{}: {}", name(c.status), c.reason),
+                     outcome == Test::passed ? c.reason : "", "not judged"});
+  }
+  // The outputs of a case are judged together: each has an equal share of its time.
+  if (const auto time = times.cases.find(c.id); time != times.cases.end())
+    for (Test& t : tests) t.seconds = time->second / static_cast<double>(tests.size());
+  return tests;
+}
+
+Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome untested, const Times& times) {
   Suite suite;
   suite.name = fmt::format("{}.{}", j.effect, p.pass);
+  if (!times.cases.empty()) {
+    const auto causes = times.causes.find(p.pass);
+    suite.seconds = causes == times.causes.end() ? 0 : causes->second;
+  }
   if ((p.status == Status::untested || p.status == Status::not_judged) && p.cases.empty())
     suite.tests.push_back({untested, p.pass, fmt::format("{}: {}", name(p.status), p.reason), "", "not judged"});
   for (const CaseJudgement& c : p.cases) {
-    if (c.broken) suite.tests.push_back({Test::failed, c.id, c.reason, c.reason, "broken"});
-    for (const OutputJudgement& o : c.outputs) suite.tests.push_back(test_of(p, c, o, untested));
-    const std::string files = files_text(j, c.id);
-    // If the run was judged, they belong to another run of the port.
-    if (!files.empty()) suite.tests.push_back({Test::error, c.id, first_line(files), files, "not judged"});
-    if (!c.outputs.empty() || c.broken || !files.empty()) continue;
-    const bool is_open = c.status == Status::untested || c.status == Status::not_judged;
-    const Test::Outcome outcome = is_open ? untested : c.status == Status::data ? Test::skipped : Test::passed;
-    suite.tests.push_back({outcome, c.id, outcome == Test::passed ? "" : fmt::format("{}: {}", name(c.status), c.reason),
-                           outcome == Test::passed ? c.reason : "", "not judged"});
+    const std::vector<Test> tests = tests_of(j, p, c, untested, times);
+    for (const Test& t : tests) suite.seconds += std::max(t.seconds, 0.0);
+    suite.tests.insert(suite.tests.end(), tests.begin(), tests.end());
   }
   // A pass may fail for a reason that belongs to no run: how its stores round, if warnings are failures.
   if (p.status == Status::fail && suite.count(Test::failed) + suite.count(Test::error) == 0)
@@ -130,8 +142,10 @@ Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome unt
   return suite;
 }
 
+std::string time_xml(double seconds) { return seconds < 0 ? "" : fmt::format(" time=\"{:.3f}\"", seconds); }
 std::string test_xml(const Suite& suite, const Test& t) {
-  std::string out = fmt::format("    <testcase classname=\"{}\" name=\"{}\"", marked_up(suite.name), marked_up(t.name));
+  std::string out =
+      fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", marked_up(suite.name), marked_up(t.name), time_xml(t.seconds));
   const std::string message = marked_up(t.message), text = marked_up(t.text);
   switch (t.outcome) {
     case Test::passed:
@@ -150,13 +164,15 @@ std::string test_xml(const Suite& suite, const Test& t) {
 }
 
 std::string counts_xml(const std::vector<Suite>& suites, bool skipped) {
+  double seconds = -1;
   std::int64_t tests = 0, of[4] = {};
   for (const Suite& s : suites) {
     tests += static_cast<std::int64_t>(s.tests.size());
+    if (s.seconds >= 0) seconds = std::max(seconds, 0.0) + s.seconds;
     for (const Test::Outcome o : {Test::failed, Test::error, Test::skipped}) of[o] += s.count(o);
   }
-  return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"{}", tests, of[Test::failed], of[Test::error],
-                     skipped ? fmt::format(" skipped=\"{}\"", of[Test::skipped]) : "");
+  return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"{}{}", tests, of[Test::failed], of[Test::error],
+                     skipped ? fmt::format(" skipped=\"{}\"", of[Test::skipped]) : "", time_xml(seconds));
 }
 
 std::string suite_xml(const PortJudgement& j, const Suite& s) {
@@ -177,12 +193,12 @@ std::string suite_xml(const PortJudgement& j, const Suite& s) {
 
 }  // namespace
 
-std::string report_junit(const PortJudgement& j, bool allow_untested) {
+std::string report_junit(const PortJudgement& j, bool allow_untested, const Times& times) {
   const Test::Outcome untested = forgives_untested(j, allow_untested) ? Test::skipped : Test::failed;
   std::vector<Suite> suites;
-  for (const PassJudgement& p : j.passes) suites.push_back(suite_of(j, p, untested));
+  for (const PassJudgement& p : j.passes) suites.push_back(suite_of(j, p, untested, times));
   if (!j.stale.empty()) {
-    Suite baseline{"baseline", {}, ""};
+    Suite baseline{"baseline", {}, "", -1};
     for (const std::string& s : j.stale)
       baseline.tests.push_back({Test::failed, s, "no longer fails: remove it from the baseline", s, "baseline"});
     suites.push_back(std::move(baseline));
@@ -191,7 +207,7 @@ std::string report_junit(const PortJudgement& j, bool allow_untested) {
   const bool shown =
       std::any_of(suites.begin(), suites.end(), [](const Suite& s) { return s.count(Test::failed) + s.count(Test::error) > 0; });
   if (exit_code(j, allow_untested) != 0 && !shown)
-    suites.push_back({"validate", {{Test::error, "validate", j.reason, fmt::format("{}", fmt::join(j.notes, "\n"))}}, ""});
+    suites.push_back({"validate", {{Test::error, "validate", j.reason, fmt::format("{}", fmt::join(j.notes, "\n"))}}, "", -1});
 
   std::string out =
       fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"rainref validate\" {}>\n", counts_xml(suites, false));

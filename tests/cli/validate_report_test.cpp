@@ -1,5 +1,6 @@
-// `rainref validate` with --json, --junit, --html and --baseline.
+// `rainref validate` with --json, --junit, --html, --markdown, --github and --baseline.
 #include <map>
+#include <regex>
 
 #include <nlohmann/json.hpp>
 
@@ -42,7 +43,12 @@ TEST_F(ValidateReports, AllReportsOfAFailingPort) {
   EXPECT_EQ(json["status"], "FAIL");
   EXPECT_EQ(json["first_bad_pass"], "shade");
   EXPECT_EQ(json["command"], "rainref validate pack --port bad --json r.json --junit r.xml --html r.html");
-  EXPECT_THAT(contents(folder / "r.xml"), HasSubstr("<failure type=\"outside\""));
+  const std::string junit = contents(folder / "r.xml");
+  EXPECT_THAT(junit, HasSubstr("<failure type=\"outside\""));
+  // Judging took time, and the search for causes more.
+  std::smatch time;
+  ASSERT_TRUE(std::regex_search(junit, time, std::regex("<testsuites [^>]* time=\"([0-9.]+)\"")));
+  EXPECT_GT(std::stod(time[1]), 0);
   EXPECT_THAT(contents(folder / "r.html"), AllOf(StartsWith("<!DOCTYPE html>"), HasSubstr("</html>\n")));
   EXPECT_EQ(folder.names().size(), before.size() + 3);  // no temporary stays
 }
@@ -91,20 +97,44 @@ TEST_F(ValidateReports, AHyphenIsStandardOutput) {
   EXPECT_FALSE(std::filesystem::exists(folder / "-"));
 }
 
+// For GitHub's actions: the summary's file is there before, and annotations stand between lines of text.
+TEST_F(ValidateReports, ASummaryAndAnnotationsForAJob) {
+  put(folder / "summary.md", "");
+  Outcome o = validate("bad", {"--markdown", "summary.md", "--github"});
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_THAT(contents(folder / "summary.md"), AllOf(StartsWith("## FAIL: bad against pack, profile vulkan\n"),
+                                                     HasSubstr("| FAIL | shade | "), HasSubstr("likely cause: upside down")));
+  EXPECT_THAT(o.out, HasSubstr("\n::error title=rainref%3A shade::FAIL: "));
+  o = validate("bad", {"--markdown", "-", "--github"});
+  EXPECT_EQ(o.out, contents(folder / "summary.md"));
+  EXPECT_THAT(o.err, HasSubstr("\n::error title=rainref%3A shade::FAIL: "));
+  EXPECT_THAT(validate("good", {"--github"}).out, Not(HasSubstr("::error")));
+  std::filesystem::remove(folder / "good/puddle.shade/0012.0/out.colour.npy");
+  o = validate("good", {"--github"});
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.out, AllOf(HasSubstr("\n::error title=rainref%3A shade::"), HasSubstr("out.colour")));
+  o = validate("none", {"--github"});
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.out, StartsWith("::error title=rainref::"));
+}
+
 TEST_F(ValidateReports, AllReportsOfAGoodPort) {
   expect(validate("good", {"--json", "r.json", "--junit", "r.xml", "--html", "r.html"}), 0);
   EXPECT_EQ(nlohmann::json::parse(contents(folder / "r.json"))["exit_code"], 0);
   EXPECT_THAT(contents(folder / "r.xml"), AllOf(Not(HasSubstr("<failure")), Not(HasSubstr("<error"))));
 }
 
+/// JUnit without its times, which differ from run to run.
+std::string without_times(const std::string& text) { return std::regex_replace(text, std::regex(" time=\"[0-9.]+\""), ""); }
+
 TEST_F(ValidateReports, ThreadsChangeNoByte) {
   validate("bad", {"--json", "a.json", "--junit", "a.xml", "--html", "a.html", "--threads", "1"});
   std::map<std::string, std::string> first;
-  for (const std::string name : {"a.json", "a.xml", "a.html"}) first[name] = contents(folder / name);
+  for (const std::string name : {"a.json", "a.xml", "a.html"}) first[name] = without_times(contents(folder / name));
   validate("bad", {"--json", "a.json", "--junit", "a.xml", "--html", "a.html", "--threads", "3"});
   for (auto& [name, bytes] : first) {
     while (bytes.find("--threads 1") != std::string::npos) bytes.replace(bytes.find("--threads 1"), 11, "--threads 3");
-    EXPECT_EQ(contents(folder / name), bytes) << name;
+    EXPECT_EQ(without_times(contents(folder / name)), bytes) << name;
   }
 }
 

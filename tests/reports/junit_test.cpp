@@ -36,8 +36,8 @@ class ReportJunit : public testing::Test {
     if (std::system("command -v xmllint >/dev/null 2>&1") != 0) GTEST_SKIP() << "xmllint (libxml2-utils) is not installed";
   }
   /// The value of an XPath expression, after the file was found valid.
-  std::string asked(const PortJudgement& j, bool allow_untested, const std::string& xpath) {
-    put(folder / "junit.xml", report_junit(j, allow_untested));
+  std::string asked(const PortJudgement& j, bool allow_untested, const std::string& xpath, const Times& times = {}) {
+    put(folder / "junit.xml", report_junit(j, allow_untested, times));
     const std::string file = (folder / "junit.xml").string();
     const std::string complaint =
         output_of(fmt::format("xmllint --noout --schema {}/tests/reports/junit.xsd {} 2>&1", rainref::test::source_folder(), file));
@@ -78,6 +78,19 @@ TEST_F(ReportJunit, ASuiteForEachPassACaseForEachOutput) {
   EXPECT_THAT(asked(j, false, "string(//testsuite[2]/testcase[1]/system-out)"), HasSubstr("WARN: 2 elements"));
   EXPECT_THAT(asked(j, false, "string(//testsuite[4]/system-out)"), HasSubstr("median width 2 codes, 99 % below "));
   EXPECT_EQ(asked(j, false, "string(//testsuite[1]/properties/property[@name=\"device\"]/@value)"), "Test & <Device>");
+}
+
+// The outputs of a case are judged together; the suite's time holds the search for causes too.
+TEST_F(ReportJunit, TimesAddUp) {
+  PortJudgement j = example_judgement();
+  PassJudgement& shade = j.passes[3];
+  shade.cases[0].outputs.push_back(example_output("mask", Format::r8, 4, 2));
+  const Times times{{{"rain.wave/0000.0", 0.5}, {"rain.shade/0000.0", 3}, {"rain.shade/0001.0", 0.0625}}, {{"shade", 4}}};
+  for (int k = 1; k <= 2; ++k) EXPECT_EQ(asked(j, false, fmt::format("string(//testsuite[4]/testcase[{}]/@time)", k), times), "1.500");
+  EXPECT_EQ(asked(j, false, "string(//testsuite[4]/testcase[3]/@time)", times), "0.062");
+  EXPECT_EQ(asked(j, false, "string(//testsuite[4]/@time)", times), "7.062");
+  EXPECT_EQ(asked(j, false, "string(/testsuites/@time)", times), "7.562");
+  EXPECT_EQ(asked(j, false, "count(//@time)"), "0");
 }
 
 TEST_F(ReportJunit, FailsExactlyWhenTheExitCodeDoes) {
