@@ -9,6 +9,8 @@ namespace rainref {
 
 namespace fs = std::filesystem;
 
+bool starts_programs() { return true; }
+
 fs::path program_in_path(const std::string& name) {
   const std::string all = machine::variable("PATH").value_or("");
   for (std::size_t begin = 0; begin <= all.size();) {

@@ -13,9 +13,9 @@
 #include "base/folders.h"
 #include "base/hidden.h"
 #include "base/path_text.h"
+#include "base/piped_program.h"
 #include "base/program_path.h"
 #include "cli/film_command.h"
-#include "cli/piped_program.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {

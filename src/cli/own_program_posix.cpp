@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "base/path_text.h"
+#include "base/process_control.h"
 #include "base/signals.h"
 #include "base/system_failure.h"
 #include "cli/own_program.h"
 #include "cli/own_words.h"
-#include "cli/process_control.h"
 #include "rainref/error.h"
 
 extern char** environ;

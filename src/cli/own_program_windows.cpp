@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "base/child_process_windows.h"
 #include "base/code_file.h"
 #include "base/path_text.h"
-#include "cli/child_process_windows.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {

@@ -9,7 +9,5 @@ namespace rainref::cli {
 
 /// A name of this program's file that starts the same program again; it lives as long as the process.
 const char* own_program_name();
-/// Makes a pipe whose ends no child inherits. Returns 0 or -1, with errno.
-int make_pipe(int (&ends)[2]);
 
 }  // namespace rainref::cli

@@ -1,7 +1,4 @@
 // From files of the kernel. The link leads to the program even if its file was replaced.
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <system_error>
 
@@ -29,7 +26,5 @@ std::vector<std::string> own_arguments() {
   if (!all.empty()) all.erase(all.begin());
   return all;
 }
-
-int make_pipe(int (&ends)[2]) { return ::pipe2(ends, O_CLOEXEC); }
 
 }  // namespace rainref::cli

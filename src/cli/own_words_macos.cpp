@@ -1,8 +1,6 @@
 // Written from Apple's documents and never compiled.
 #include <crt_externs.h>
-#include <fcntl.h>
 #include <mach-o/dyld.h>
-#include <unistd.h>
 
 #include <cstdint>
 
@@ -33,12 +31,6 @@ std::filesystem::path own_program() {
 std::vector<std::string> own_arguments() {
   char** const all = *::_NSGetArgv();
   return {all + 1, all + *::_NSGetArgc()};
-}
-
-int make_pipe(int (&ends)[2]) {
-  if (::pipe(ends) != 0) return -1;
-  for (const int end : ends) ::fcntl(end, F_SETFD, FD_CLOEXEC);
-  return 0;
 }
 
 }  // namespace rainref::cli

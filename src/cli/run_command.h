@@ -7,13 +7,9 @@
 #include <string_view>
 #include <vector>
 
-namespace rainref::cli {
+#include "base/command_end.h"
 
-/// How a command ended.
-struct CommandEnd {
-  std::string failure;                  ///< one sentence; "" if the exit code was 0
-  std::vector<std::string> last_lines;  ///< of its standard output and standard error, at most 20
-};
+namespace rainref::cli {
 
 /// Runs a command with /bin/sh or cmd.exe, without input, with these environment variables added, and waits. All its descendants are
 /// killed, also those that started a session or changed their parent: when the shell ends, when the time is over, and when rainref is

@@ -16,14 +16,14 @@
 
 #include <fmt/format.h>
 
+#include "base/command_end.h"
 #include "base/interruption.h"
 #include "base/number_text.h"
 #include "base/path_text.h"
+#include "base/pipes.h"
+#include "base/process_control.h"
 #include "base/signals.h"
 #include "base/system_failure.h"
-#include "cli/command_end.h"
-#include "cli/own_words.h"
-#include "cli/process_control.h"
 #include "cli/run_command.h"
 #include "cli/shell_word.h"
 #include "rainref/error.h"

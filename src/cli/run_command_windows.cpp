@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "base/child_process_windows.h"
+#include "base/command_end.h"
 #include "base/interruption.h"
 #include "base/path_text.h"
-#include "cli/child_process_windows.h"
-#include "cli/command_end.h"
 #include "cli/shell_word.h"
 #include "rainref/error.h"
 

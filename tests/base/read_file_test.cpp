@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "base/error_of.h"
+#include "base/hash_of_file.h"
 #include "base/temporary_folder.h"
 #include "rainref/error.h"
 
@@ -20,6 +21,17 @@ std::string refusal(const std::filesystem::path& path) {
   return error;
 }
 
+TEST(ReadFile, TheHashOfAFileIsThatOfItsBytes) {
+  const TemporaryFolder folder;
+  for (const std::size_t size : {std::size_t{0}, std::size_t{5}, (std::size_t{1} << 20) + 3, std::size_t{3} << 20}) {
+    std::string all(size, 'a');
+    for (std::size_t i = 0; i < size; i += 7) all[i] = static_cast<char>(i * 11);
+    put(folder / "a", all);
+    EXPECT_EQ(hash_of_file(folder / "a", {UINT64_MAX, ExitCode::io}), file_hash(read_file(folder / "a"))) << size;
+  }
+  EXPECT_THAT(error_of([&] { hash_of_file(folder / "a", {100, ExitCode::usage}); }), ::testing::StartsWith("2 "));
+  EXPECT_THAT(error_of([&] { hash_of_file(folder.path(), {UINT64_MAX, ExitCode::io}); }), ::testing::StartsWith("4 "));
+}
 TEST(ReadFile, WholeFiles) {
   const TemporaryFolder folder;
   std::string all;

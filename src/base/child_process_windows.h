@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace rainref::cli {
+namespace rainref {
 
 /// Owns a handle; nullptr is none.
 class Handle {
@@ -62,4 +62,4 @@ struct Pipe {
 /// Both ends are nullptr after a failure.
 Pipe make_pipe();
 
-}  // namespace rainref::cli
+}  // namespace rainref

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "cli/command_end.h"
+#include "base/command_end.h"
 
-namespace rainref::cli {
+namespace rainref {
 
 std::string failure_of(const std::string& what, int status) {
   const auto code = static_cast<unsigned>(status);
@@ -12,4 +12,4 @@ std::string failure_of(const std::string& what, int status) {
   return fmt::format("{} ended with exit code {}{}", what, code, code == 9009 ? ": there is no such program" : "");  // cmd.exe's number
 }
 
-}  // namespace rainref::cli
+}  // namespace rainref

@@ -1,11 +1,11 @@
-#include "cli/child_process_windows.h"
+#include "base/child_process_windows.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cwchar>
 #include <system_error>
 
-namespace rainref::cli {
+namespace rainref {
 namespace {
 
 // As the C library of the child reads it: backslashes count only before a quotation mark.
@@ -129,4 +129,4 @@ Pipe make_pipe() {
   return {reading, writing};
 }
 
-}  // namespace rainref::cli
+}  // namespace rainref

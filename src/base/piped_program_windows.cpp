@@ -1,5 +1,6 @@
-#include "cli/piped_program.h"
+#include "base/piped_program.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -7,27 +8,28 @@
 
 #include <fmt/format.h>
 
+#include "base/child_process_windows.h"
+#include "base/command_end.h"
 #include "base/interruption.h"
 #include "base/path_text.h"
 #include "base/system.h"
-#include "cli/child_process_windows.h"
-#include "cli/command_end.h"
 
-namespace rainref::cli {
+namespace rainref {
 
 class PipedProgram::Process {
  public:
-  Process(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+  Process(const std::filesystem::path& program, const std::vector<std::string>& arguments, PipedProgram::Pipe pipe) {
+    const bool reads = pipe == PipedProgram::Pipe::to_input;
     std::vector<std::string> words{system_path_text(program)};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    Pipe input = make_pipe(), messages = make_pipe();
-    if (!input.writing || !messages.writing) throw std::runtime_error(fmt::format("no pipe: {}", last_reason()));
+    rainref::Pipe data = make_pipe(), messages = make_pipe();
+    if (!data.writing || !messages.writing) throw std::runtime_error(fmt::format("no pipe: {}", last_reason()));
     const Uninterrupted scope;
     child_ = start_process(program, command_line(words), environment_with({}),
-                           {input.reading.get(), messages.writing.get(), messages.writing.get()});
+                           {reads ? data.reading.get() : nullptr, (reads ? messages : data).writing.get(), messages.writing.get()});
     if (!child_.process) throw std::runtime_error(fmt::format("no process can be made: {}", last_reason()));
     undo_.emplace([this] { child_.kill(); });
-    input_ = std::move(input.writing);
+    data_ = std::move(reads ? data.writing : data.reading);
     messages_ = std::move(messages.reading);
     reader_ = std::thread([this] { read_messages(); });
   }
@@ -41,7 +43,7 @@ class PipedProgram::Process {
   bool write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       DWORD count = 0;
-      if (!::WriteFile(input_.get(), bytes.data(), static_cast<DWORD>(bytes.size()), &count, nullptr)) {
+      if (!::WriteFile(data_.get(), bytes.data(), static_cast<DWORD>(bytes.size()), &count, nullptr)) {
         const DWORD why = ::GetLastError();
         if (why == ERROR_BROKEN_PIPE || why == ERROR_NO_DATA) return false;
         throw_system_error(EIO);
@@ -50,9 +52,23 @@ class PipedProgram::Process {
     }
     return true;
   }
+  std::size_t read(std::span<std::byte> bytes) {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      DWORD count = 0;
+      const auto wanted = static_cast<DWORD>(std::min<std::size_t>(bytes.size() - done, 1 << 30));
+      if (!::ReadFile(data_.get(), bytes.data() + done, wanted, &count, nullptr)) {
+        if (::GetLastError() == ERROR_BROKEN_PIPE) break;
+        throw_system_error(EIO);
+      }
+      if (count == 0) break;
+      done += count;
+    }
+    return done;
+  }
   /// Returns the exit code, once.
   int end() {
-    input_.close();
+    data_.close();
     const DWORD code = child_.wait();
     child_.kill();  // what it started may hold the other pipe
     if (reader_.joinable()) reader_.join();
@@ -70,19 +86,20 @@ class PipedProgram::Process {
   }
 
   ChildProcess child_;
-  Handle input_, messages_;
+  Handle data_, messages_;
   std::string text_;
   std::thread reader_;
   std::optional<Undo> undo_;
 };
 
-PipedProgram::PipedProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments)
-    : process_(std::make_unique<Process>(program, arguments)) {}
+PipedProgram::PipedProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments, Pipe pipe)
+    : process_(std::make_unique<Process>(program, arguments, pipe)) {}
 PipedProgram::~PipedProgram() = default;
 bool PipedProgram::write(std::span<const std::byte> bytes) { return process_->write(bytes); }
+std::size_t PipedProgram::read(std::span<std::byte> bytes) { return process_->read(bytes); }
 CommandEnd PipedProgram::end(const std::string& name) {
   std::string failure = failure_of(name, process_->end());
   return {std::move(failure), last_lines_of(process_->printed())};
 }
 
-}  // namespace rainref::cli
+}  // namespace rainref

@@ -1,8 +1,8 @@
-#include "cli/command_end.h"
+#include "base/command_end.h"
 
 #include <cstddef>
 
-namespace rainref::cli {
+namespace rainref {
 namespace {
 
 constexpr std::size_t kept_lines = 20;
@@ -22,4 +22,4 @@ std::vector<std::string> last_lines_of(const std::string& text) {
   return lines;
 }
 
-}  // namespace rainref::cli
+}  // namespace rainref

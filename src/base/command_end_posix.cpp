@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/command_end.h"
+#include "base/command_end.h"
 
-namespace rainref::cli {
+namespace rainref {
 namespace {
 
 std::string signal_text(int signal) { return fmt::format("signal {} ({})", signal, ::strsignal(signal)); }
@@ -24,4 +24,4 @@ std::string failure_of(const std::string& what, int status) {
                                    : "");
 }
 
-}  // namespace rainref::cli
+}  // namespace rainref

@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,16 +11,16 @@
 
 #include <fmt/format.h>
 
+#include "base/command_end.h"
 #include "base/interruption.h"
 #include "base/path_text.h"
+#include "base/piped_program.h"
+#include "base/pipes.h"
+#include "base/process_control.h"
 #include "base/signals.h"
 #include "base/system_failure.h"
-#include "cli/command_end.h"
-#include "cli/own_words.h"
-#include "cli/piped_program.h"
-#include "cli/process_control.h"
 
-namespace rainref::cli {
+namespace rainref {
 namespace {
 
 [[noreturn]] void fail(const char* what, int error) { throw std::runtime_error(fmt::format("{}: {}", what, reason_of(error))); }
@@ -55,14 +56,15 @@ class PipedProgram::Process {
   Process& operator=(const Process&) = delete;
 
   // Everything that the child needs is made before the fork: with other threads, the child may not allocate.
-  void start(std::string program, std::vector<std::string> arguments) {
+  void start(std::string program, std::vector<std::string> arguments, Pipe pipe) {
+    const bool reads = pipe == Pipe::to_input;
     arguments.insert(arguments.begin(), program);
     std::vector<char*> argv;
     for (std::string& word : arguments) argv.push_back(word.data());
     argv.push_back(nullptr);
     int ends[2];
     if (make_pipe(ends) != 0) fail("no pipe", errno);
-    const int messages = ::fileno(messages_.get());
+    const int messages = ::fileno(messages_.get()), nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
     const pid_t parent = ::getpid();
     const Uninterrupted scope;
     id_ = ::fork();
@@ -71,16 +73,18 @@ class PipedProgram::Process {
       ::setpgid(0, 0);  // signals are for this program, which then ends the child and its children
       ::signal(SIGPIPE, SIG_DFL);
       take_signals_again();
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
+      // A program that writes ends by itself when nobody reads. It must not end with the thread that started it.
+      if (reads) ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
       if (::getppid() != parent) ::_exit(127);  // the parent ended before
-      ::dup2(ends[0], STDIN_FILENO);
-      ::dup2(messages, STDOUT_FILENO);
+      ::dup2(reads ? ends[0] : nothing, STDIN_FILENO);
+      ::dup2(reads ? messages : ends[1], STDOUT_FILENO);
       ::dup2(messages, STDERR_FILENO);
       ::execv(program.c_str(), argv.data());
       ::_exit(127);
     }
-    ::close(ends[0]);
-    pipe_ = ends[1];
+    if (nothing >= 0) ::close(nothing);
+    ::close(ends[reads ? 0 : 1]);
+    pipe_ = ends[reads ? 1 : 0];
     if (id_ < 0) fail("no process can be made", why);
     ::setpgid(id_, id_);  // both processes set it, because either may run first
     undo_.emplace([id = id_] {
@@ -101,6 +105,18 @@ class PipedProgram::Process {
         throw_system_error(errno);
     }
     return true;
+  }
+  std::size_t read(std::span<std::byte> bytes) {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const ssize_t count = ::read(pipe_, bytes.data() + done, bytes.size() - done);
+      if (count == 0) break;
+      if (count > 0)
+        done += static_cast<std::size_t>(count);
+      else if (errno != EINTR)
+        throw_system_error(errno);
+    }
+    return done;
   }
   /// Returns the status of waitpid.
   int end() {
@@ -138,15 +154,16 @@ class PipedProgram::Process {
   std::optional<Undo> undo_;
 };
 
-PipedProgram::PipedProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments)
+PipedProgram::PipedProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments, Pipe pipe)
     : process_(std::make_unique<Process>()) {
-  process_->start(path_text(program), arguments);
+  process_->start(path_text(program), arguments, pipe);
 }
 PipedProgram::~PipedProgram() = default;
 bool PipedProgram::write(std::span<const std::byte> bytes) { return process_->write(bytes); }
+std::size_t PipedProgram::read(std::span<std::byte> bytes) { return process_->read(bytes); }
 CommandEnd PipedProgram::end(const std::string& name) {
   std::string failure = failure_of(name, process_->end());
   return {std::move(failure), last_lines_of(process_->printed())};
 }
 
-}  // namespace rainref::cli
+}  // namespace rainref
