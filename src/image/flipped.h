@@ -8,6 +8,8 @@ namespace rainref {
 
 /// The same image with its rows in reverse order.
 Image flipped(const Image& image);
+/// The upright picture, top row first, of one that is stored with this orientation: a number of EXIF, 1 to 8.
+Image turned(const Image& stored, int orientation);
 /// A copy of the image.
 Image copy_of(const Image& image);
 /// Copies into the memory of `to` if that has the same size and format. `rows` runs the work.
