@@ -56,7 +56,9 @@ void check_shape(std::string_view file, FileKind kind, const StoredPicture& spec
     refuse(file, fmt::format("data window {}x{}{:+}{:+} differs from display window {}x{}{:+}{:+}; save it uncropped", spec.width,
                              spec.height, spec.x, spec.y, spec.full_width, spec.full_height, spec.full_x, spec.full_y));
   }
-  if (spec.orientation != 1) refuse(file, fmt::format("stored rotated or mirrored (orientation {}); save it upright", spec.orientation));
+  const int most = kind == FileKind::jpeg || kind == FileKind::png ? 8 : 1;
+  if (spec.orientation < 1 || spec.orientation > most)
+    refuse(file, fmt::format("stored rotated or mirrored (orientation {}); save it upright", spec.orientation));
 }
 
 Sample sample_of(std::string_view file, const StoredChannel& channel) {
@@ -105,6 +107,7 @@ Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> 
   Decoded out;
   out.width = spec.width;
   out.height = spec.height;
+  out.orientation = spec.orientation;
   for (const StoredChannel& channel : spec.channels) out.channel_names.push_back(channel.name);
   out.compression = compression_of(kind, spec);
   out.declared_linear = is_linear(spec.colour_space);

@@ -29,6 +29,7 @@ struct Channel {
 
 struct Decoded {
   int width = 0, height = 0;
+  int orientation = 1;                     ///< as in EXIF; a JPEG or PNG may be stored turned
   std::vector<std::string> channel_names;  ///< of every channel in the file
   std::array<Channel, 4> channels;         ///< red, green, blue, alpha
   std::string compression;
@@ -47,8 +48,8 @@ enum class Texels : std::uint8_t { read, left };
 
 /// Decodes the first picture of a file at its full resolution. `file` is its quoted name and starts every message; `content` and `layer`
 /// choose its channels as in pick_quantity and pick_channels. Throws Error(usage) if the bytes are damaged or incomplete, or hold something
-/// that rainref does not read: deep or volume data, integer EXR channels, a picture stored rotated or cropped, a side over max_side, more
-/// memory than the machine has.
+/// that rainref does not read: deep or volume data, integer EXR channels, a cropped picture, an EXR or HDR stored rotated, a side over
+/// max_side, more memory than the machine has.
 Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer, Content content,
                Texels texels = Texels::read);
 

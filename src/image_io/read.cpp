@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/path_text.h"
 #include "base/read_file.h"
+#include "image/flipped.h"
 #include "image_io/decode.h"
 #include "image_io/hdr_header.h"
 #include "image_io/quantity.h"
@@ -166,6 +168,7 @@ Picture described(FileKind kind, const Decoded& decoded, Content content, const 
   picture.compression = decoded.compression;
   picture.file_width = decoded.width;
   picture.file_height = decoded.height;
+  if (decoded.orientation >= 5) std::swap(picture.file_width, picture.file_height);
   if (content != Content::colour) {
     picture.taken = decoded.channels[0].name;
     // If others were read too, they are equal.
@@ -196,6 +199,7 @@ Picture read(const std::filesystem::path& path, std::string_view layer, Content 
 
   Picture picture = described(kind, decoded, content, factors);
   picture.image = to_image(decoded);
+  if (decoded.orientation != 1) picture.image = turned(picture.image, decoded.orientation);
   if (factors != no_factors) divide(factors, picture.image);
   const bool is_depth = content == Content::depth;
   if (picture.image.format() == Format::rgba16f) require_finite<Half>(file, decoded, picture.image, is_depth);

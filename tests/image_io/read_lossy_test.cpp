@@ -91,5 +91,30 @@ TEST(ReadJpeg, DecodesAndIsMarkedLossy) {
   EXPECT_EQ(p.compression, "jpeg");
 }
 
+// A telephone stores what its sensor sees, and says in EXIF which way up that is. Stored: blocks 129 130 131 over 132 133 134.
+TEST(ReadJpeg, IsTurnedUprightAsItsExifSays) {
+  const std::string stored = jpeg(3);
+  const std::vector<std::vector<int>> upright[8]{{{129, 130, 131}, {132, 133, 134}},   {{131, 130, 129}, {134, 133, 132}},
+                                                 {{134, 133, 132}, {131, 130, 129}},   {{132, 133, 134}, {129, 130, 131}},
+                                                 {{129, 132}, {130, 133}, {131, 134}}, {{132, 129}, {133, 130}, {134, 131}},
+                                                 {{134, 131}, {133, 130}, {132, 129}}, {{131, 134}, {130, 133}, {129, 132}}};
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    const std::string exif =
+        std::string("Exif\0\0MM\0\x2a\0\0\0\x08\0\1\x01\x12\0\3\0\0\0\1\0", 25) + static_cast<char>(orientation) + std::string(6, '\0');
+    const std::string bytes =
+        stored.substr(0, 2) + "\xff\xe1" + big(static_cast<std::uint32_t>(exif.size() + 2), 2) + exif + stored.substr(2);
+    const Picture p = read_bytes(bytes);
+    const auto& rows = upright[orientation - 1];
+    ASSERT_EQ(p.image.width(), 8 * static_cast<int>(rows[0].size())) << orientation;
+    ASSERT_EQ(p.image.height(), 8 * static_cast<int>(rows.size()));
+    EXPECT_EQ(p.file_width, p.image.width());
+    EXPECT_EQ(p.file_height, p.image.height());
+    for (int y = 0; y < p.image.height(); ++y)
+      for (int x = 0; x < p.image.width(); ++x)
+        ASSERT_EQ(texel<std::uint8_t>(p.image, x, y)[1], rows[static_cast<std::size_t>(y / 8)][static_cast<std::size_t>(x / 8)])
+            << orientation;
+  }
+}
+
 }  // namespace
 }  // namespace rainref::image_io
