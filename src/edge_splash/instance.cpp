@@ -32,7 +32,7 @@ Image clipped(const int&, const Image& depth, const double& near_plane, const do
 Inputs pictures(const scene::Config& config, const Settings& s, const ScenePictures& named, const parallel::Executor& executor,
                 effect::Inputs& files) {
   Inputs in;
-  const std::string source = config.text("scene.source");
+  const std::string source = source_of(config);
   named.fill(0, in, files);
   if (source != "files") {
     in.depth_is_distance = true;
@@ -58,7 +58,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   const std::uint64_t texel = (has_codes ? 16 : 8) + 4;  // radiance and depth
   effect::RunMemory m{fmt::format("run.size {}x{}", s.width, s.height), {}, s.width, s.height, texel, texel};
   const std::size_t inputs = image_bytes(m, Format::rgba32f) + image_bytes(m, Format::r32f);
-  if (config.text("scene.source") == "street") {
+  if (source_of(config) == "street") {
     m.peak.then(scene::view_memory(s.width, s.height));
   } else {
     m.peak.hold(inputs);
@@ -66,7 +66,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
   m.peak.then(memory(s));
   if (has_codes) m.peak.hold(image_bytes(m, Format::rgba32f));  // radiance
   m.peak.release(inputs);
-  if (effect::is_sequence(config.text("scene.image")) || effect::is_sequence(config.text("scene.depth_image")))
+  if (effect::is_moving(config.text("scene.image")) || effect::is_moving(config.text("scene.depth_image")))
     m.peak.pass(2 * inputs + image_bytes(m, Format::rgba32f));  // a picture as decoded, flipped, and as input of the pass
   return m;
 }
@@ -74,7 +74,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
 std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   const Settings settings = settings_from(config);
   check(settings);
-  ScenePictures named(config, inputs);
+  ScenePictures named(config, {settings.width, settings.height}, inputs);
   const Inputs first = pictures(config, settings, named, executor, inputs);
   auto instance = std::make_unique<Instance>(settings, first, std::move(named), executor);
   for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
@@ -125,6 +125,8 @@ effect::Effect entry() {
   const std::vector<std::string> seen = effect::joined(camera, {"seed", "scene.source", "scene.image"});
   const std::vector<std::string> depth =
       effect::joined(seen, {"scene.depth_image", "scene.depth_encoding", "scene.depth_scale", "scene.near", "scene.far"});
+  const std::vector<std::string> in_metres{"run.size",          "run.supersample", "scene.depth_image", "scene.depth_encoding",
+                                           "scene.depth_scale", "scene.far"};
   return {"edge_splash",
           {"as-published", "corrected"},
           parameters(),
@@ -135,7 +137,7 @@ effect::Effect entry() {
            {"night_street view", effect::joined(camera, {"seed", "scene.source", "scene.far"})},
            {"edge_splash shapes", effect::joined(camera, {"scene.source", "scene.far"})},
            {"picture", {"scene.image", "scene.depth_image", "scene.layer_image", "scene.noise_image"}},
-           {"depth picture", {"scene.image", "scene.depth_image", "scene.depth_encoding", "scene.depth_scale", "scene.far"}},
+           {"depth picture", in_metres},
            {"edge_splash clipped depth", effect::joined(camera, {"seed", "scene.source", "scene.near", "scene.far"})},
            {"edge_splash scene", seen},
            {"edge_splash depth", effect::joined(depth, {"scene.reversed_depth"})},

@@ -53,8 +53,8 @@ const std::vector<MemberParameter<Settings>>& members() {
       // The picture.
       choice("scene.source", {"shapes", "street", "files"}, "shapes",
              "A mine track in fog, the street at night, both made here, or the files below."),
-      text("scene.image", "", "Picture that rain falls on; needs scene.depth_image."),
-      text("scene.depth_image", "", "Its depth, EXR, 16-bit PNG or NPY."),
+      text("scene.image", "", "Picture or film that rain falls on, of any size, whatever scene.source says."),
+      text("scene.depth_image", "", "Its depth, of the same shape, EXR, 16-bit PNG or NPY; empty: all is far, and nothing splashes."),
       choice("scene.depth_encoding", {"device", "metres"}, "device",
              "What the depth image holds: device depth in [0, 1], or metres along the view axis."),
       real("scene.depth_scale", "m", 1e-9, 1e9, 1,

@@ -8,30 +8,32 @@
 
 namespace rainref::edge_splash {
 
-ScenePictures::ScenePictures(const scene::Config& config, effect::Inputs& files) {
-  const bool corrected = config.variant() == name(Variant::corrected);
-  const std::string source = config.text("scene.source");
-  for (const char* key : {"scene.image", "scene.depth_image"}) {
-    const bool is_named = !config.text(key).empty();
-    if (source == "files" && !is_named)
-      throw Error(ExitCode::usage, fmt::format("{}: expected a file, because scene.source is \"files\"", key));
-    if (source != "files" && is_named)
-      throw Error(ExitCode::usage, fmt::format("{}: needs scene.source = \"files\", found \"{}\"", key, source));
-  }
+std::string source_of(const scene::Config& config) { return config.text("scene.image").empty() ? config.text("scene.source") : "files"; }
+
+ScenePictures::ScenePictures(const scene::Config& config, Size size, effect::Inputs& files) : place_{size, size} {
+  const bool corrected = config.variant() == name(Variant::corrected), is_named = !config.text("scene.image").empty(),
+             has_depth = !config.text("scene.depth_image").empty();
+  const std::string source = source_of(config);
+  if (source == "files" && !is_named) throw Error(ExitCode::usage, "scene.image: expected a file, because scene.source is \"files\"");
+  if (has_depth && !is_named)
+    throw Error(ExitCode::usage, config.entry("scene.depth_image").origin.at,
+                "scene.depth_image: expected scene.image beside it, found none");
   if (corrected)
     effect::refuse_unused_sequence(config, {"scene.image", "scene.depth_image", "scene.layer_image"});
   else
     effect::refuse_unused_sequence(config, {"scene.image", "scene.depth_image"});
-  if (source == "files") {
-    colour_.emplace(config, "scene.image", files);
+  if (is_named) colour_.emplace(config, "scene.image", files);
+  if (is_named && !has_depth)
+    files.warnings.push_back("scene.image: without scene.depth_image nothing in it has an edge, so nothing splashes");
+  if (has_depth) {
     depth_.emplace(config, "scene.depth_image", files, &*colour_);
     is_metres_ = config.text("scene.depth_encoding") == "metres";
     scale_ = config.real("scene.depth_scale");
-    far_ = config.real("scene.far");
   }
+  far_ = config.real("scene.far");
   if (corrected && !config.text("scene.layer_image").empty())
     layer_.emplace(config, "scene.layer_image", files, colour_ ? &*colour_ : nullptr);
-  if (layer_ && layer_->is_sequence() && !colour_)
+  if (layer_ && layer_->is_moving() && !colour_)
     throw Error(ExitCode::usage, fmt::format("scene.layer_image: a sequence needs scene.source = \"files\", found \"{}\"", source));
 }
 
@@ -42,16 +44,27 @@ ScenePictures::Shown ScenePictures::shown_in(int frame) const {
 
 void ScenePictures::fill(int frame, Inputs& in, effect::Inputs& files) const {
   const auto [colour, depth, layer] = shown_in(frame);
+  Size of = place_.size;
   if (colour_) {
     const image_io::Picture picture = colour_->read(colour, files);
-    in.colour = flipped(picture.image);
-    in.colour_is_encoded = picture.srgb_encoded;
+    of = size_of(picture.image);
+    const bool fits = of == place_.size;
+    in.colour = fits ? flipped(picture.image) : effect::linear_of(picture, place_);
+    in.colour_is_encoded = fits && picture.srgb_encoded;
   }
+  const auto numbers = [&](const effect::PictureSource& source, std::int64_t shown, const char* key) {
+    const Image image = flipped(source.read(shown, files).image);
+    return effect::beside(image, colour_ ? of : size_of(image), place_, key);
+  };
   if (depth_) {
     in.depth_is_distance = is_metres_;
-    in.depth = is_metres_ ? effect::depth_in(*depth_, frame, scale_, far_, in.colour, files) : flipped(depth_->read(depth, files).image);
+    in.depth =
+        is_metres_ ? effect::depth_in(*depth_, frame, scale_, far_, of, place_, files) : numbers(*depth_, depth, "scene.depth_image");
+  } else if (colour_) {
+    in.depth_is_distance = true;
+    in.depth = effect::constant_depth(place_.size, far_);
   }
-  if (layer_) in.layer = flipped(layer_->read(layer, files).image);
+  if (layer_) in.layer = numbers(*layer_, layer, "scene.layer_image");
 }
 
 Error ScenePictures::about_depth(const Error& error, int frame) const {

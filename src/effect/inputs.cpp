@@ -9,6 +9,7 @@
 #include "base/path_text.h"
 #include "base/read_file.h"
 #include "cache/prepared.h"
+#include "effect/film_reader.h"
 #include "effect/npy_picture.h"
 #include "scene/check.h"
 
@@ -62,6 +63,8 @@ Decoded decode(const int&, const std::string& path, const Hash128& /*of its byte
 image_io::Picture read_picture(const NamedFile& named, const std::string& file) {
   const std::filesystem::path path = named.path_of(file);
   const image_io::Content content = content_of(named.key);
+  if (is_film(file))
+    throw named.placed(ExitCode::usage, fmt::format("expected a picture, found the film '{}'; scene.image takes films", file));
   try {
     std::error_code error;
     if (!cache::remembers() || !std::filesystem::is_regular_file(path, error)) return decode(0, path_text(path), {}, content).picture;

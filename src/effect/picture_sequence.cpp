@@ -74,7 +74,8 @@ std::vector<scene::Parameter> sequence_parameters() {
   };
 }
 
-bool is_sequence(const std::string& name) { return parsed(name).numbers > 0; }
+bool is_sequence(const std::string& name) { return !is_film(name) && parsed(name).numbers > 0; }
+bool is_moving(const std::string& name) { return is_film(name) || is_sequence(name); }
 
 std::string numbered(const std::string& name, std::int64_t number) {
   const Parsed p = parsed(name);
@@ -85,22 +86,34 @@ std::string numbered(const std::string& name, std::int64_t number) {
 }
 
 void refuse_unused_sequence(const scene::Config& config, std::initializer_list<const char*> keys) {
-  for (const char* key : keys)
+  bool has_film = false;
+  for (const char* key : keys) {
     if (is_sequence(config.text(key))) return;
-  for (const char* key : keys_of_sequences) {
-    if (config.given(key))
-      scene::refuse(config.entry(key).origin, key,
-                    fmt::format("expected none where no picture's name holds a number, as \"%04d.png\" in {}", fmt::join(keys, " or ")));
+    has_film = has_film || is_film(config.text(key));
+  }
+  for (const std::string key : keys_of_sequences) {
+    if (!config.given(key) || (has_film && key == "sequence.end")) continue;
+    scene::refuse(
+        config.entry(key).origin, key,
+        has_film ? "expected none for a film, which has its own times"
+                 : fmt::format("expected none where no picture's name holds a number, as \"%04d.png\" in {}", fmt::join(keys, " or ")));
   }
 }
 
 PictureSource::PictureSource(const scene::Config& config, const std::string& key, Inputs& inputs, const PictureSource* beside)
     : named_(config, key), fps_(config.real("run.fps")) {
-  if (!effect::is_sequence(named_.name)) return;
+  if (!effect::is_moving(named_.name) || (is_film(named_.name) && key != "scene.image")) return;
   first_ = config.integer("sequence.first");
   rate_ = config.real("sequence.rate");
   const std::string& end = config.text("sequence.end");
   end_ = end == "hold" ? End::hold : end == "loop" ? End::loop : End::error;
+  if (is_film(named_.name)) {
+    const std::int64_t frames = config.integer("run.frames");
+    film_ = std::make_shared<FilmReader>(named_, fps_, frames);
+    inputs.files.push_back({named_.key, named_.name, film_->hash(), true, 0, 1});
+    require_frames(static_cast<int>(frames));
+    return;
+  }
   try {
     numbered(named_.name, first_);
   } catch (const Error& e) {
@@ -165,6 +178,15 @@ void PictureSource::require_frames(int frames) const {
 
 // A quotient of integers that is an integer is exact, so pictures change at the right frame for rates like 24 and 60.
 std::int64_t PictureSource::shown_in(int frame) const {
+  if (film_) {
+    const std::int64_t frames = film_->frames(std::int64_t{frame} + 1);
+    if (frame < frames) return film_->picture_of(frame);
+    if (end_ != End::error) return film_->picture_of(end_ == End::hold ? frames - 1 : frame % frames);
+    throw Error(ExitCode::usage,
+                fmt::format("frame {} comes after '{}', which ends after {} frames (sequence.end \"hold\" or \"loop\" says "
+                            "what comes after it)",
+                            frame, named_.name, frames));
+  }
   if (!is_sequence()) return 0;
   const std::int64_t picture = rate_ > 0 ? static_cast<std::int64_t>(std::floor(frame * rate_ / fps_)) : frame;
   if (picture < count_) return picture;
@@ -176,6 +198,7 @@ std::int64_t PictureSource::shown_in(int frame) const {
 }
 
 image_io::Picture PictureSource::read(std::int64_t picture, Inputs& inputs) const {
+  if (film_) return film_->read(picture);
   image_io::Picture read = read_picture(named_, is_sequence() ? file_of(picture) : named_.name);
   if (!is_sequence()) add_input(named_, read, {named_.key, named_.name, read.decoded_hash.text(), read.lossy}, inputs);
   return read;

@@ -16,16 +16,14 @@ namespace {
 
 Surroundings surroundings_of(const scene::Config& config, const Settings& settings, const effect::ScenePictures& named,
                              const parallel::Executor& executor, effect::Inputs& inputs) {
-  const bool corrected = settings.variant == Variant::corrected;
-  if (named.are_named() && corrected && !named.have_depth())
-    throw Error(ExitCode::usage, "scene.depth_image: expected a depth beside scene.image, found none");
   if (settings.shape != Shape::image) effect::refuse_unused(config, "glass.normal_image", "glass.shape");
   if (!settings.use_probe) effect::refuse_unused(config, "glass.probe_image", "glass.background");
   const Image panorama = effect::read_panorama(config, inputs);
   Surroundings s;
   if (named.are_named()) {
-    s.colour = named.colour(0, inputs);
-    if (corrected) s.depth = named.depth(0, backdrop_far, s.colour, inputs);
+    effect::ScenePictures::Seen seen = named.in(0, backdrop_far, inputs);
+    s.colour = std::move(seen.colour);
+    s.depth = std::move(seen.depth);
   } else {
     Settings seen = settings;
     seen.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
@@ -63,13 +61,14 @@ effect::RunMemory memory_of(const scene::Config& config) {
   m.peak.pass(colour);                                    // out of focus
   m.peak.pass(colour + image_bytes(m, Format::rgba16f));  // the glass, for its bars
   m.peak.then(memory(s));
-  if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(3 * colour + 3 * depth);  // decoded, flipped, and as input of the pass
+  if (effect::is_moving(config.text("scene.image"))) m.peak.pass(3 * colour + 3 * depth);  // decoded, flipped, and as input of the pass
   return m;
 }
 
 std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   const Settings settings = settings_from(config);
-  effect::ScenePictures named(config, settings.variant == Variant::corrected, inputs);
+  const Size size{settings.width, settings.height};
+  effect::ScenePictures named(config, settings.variant == Variant::corrected, {size, size}, inputs);
   Surroundings around = surroundings_of(config, settings, named, executor, inputs);
   return std::make_unique<Instance>(settings, std::move(around), std::move(named), executor);
 }
@@ -87,8 +86,9 @@ void Instance::show_pictures_of(int frame) {
   const effect::ScenePictures::Shown wanted = named_.shown_in(frame);
   if (wanted == shown_) return;
   effect::Inputs none;
-  surroundings_.colour = named_.colour(frame, none);
-  if (named_.have_depth()) surroundings_.depth = named_.depth(frame, backdrop_far, surroundings_.colour, none);
+  effect::ScenePictures::Seen seen = named_.in(frame, backdrop_far, none);
+  surroundings_.colour = std::move(seen.colour);
+  surroundings_.depth = std::move(seen.depth);
   changed().show(surroundings_.colour, surroundings_.depth);
   shown_ = wanted;
 }
@@ -140,14 +140,14 @@ effect::Effect entry() {
            {"picture",
             {"scene.image", "scene.depth_image", "scene.panorama", "glass.normal_image", "glass.probe_image", "maps.raindrops_image",
              "maps.rivulets_image"}},
-           {"linear picture", {"scene.image", "scene.panorama", "glass.probe_image"}},
-           {"depth picture", {"scene.image", "scene.depth_image", "scene.depth_scale"}},
+           {"linear picture", {"run.size", "run.supersample", "scene.image", "scene.panorama", "glass.probe_image"}},
+           {"depth picture", {"run.size", "run.supersample", "scene.depth_image", "scene.depth_scale"}},
            {"panorama view", effect::joined(camera, {"scene.panorama"})},
            {"rainy_glass street", effect::joined(camera, {"seed", "scene.defocus"})},
            {"rainy_glass panorama", effect::joined(camera, {"scene.panorama", "scene.defocus"})},
            {"rainy_glass bars", effect::joined(effect::joined(pane, behind), {"scene.defocus"})},
            {"rainy_glass scene", effect::joined(barred, {"scene.image", "scene.defocus"})},
-           {"rainy_glass near depth", effect::joined(barred, {"scene.depth_image", "scene.depth_scale"})},
+           {"rainy_glass near depth", effect::joined(barred, {"scene.depth", "scene.depth_image", "scene.depth_scale"})},
            {"rainy_glass probe", {"seed", "glass.background", "glass.probe_image", "camera.position", "scene.panorama"}},
            {"rainy_glass surface", effect::joined(pane, {"glass.normal_image"})},
            {"rainy_glass droplets", droplets},

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "effect/picture_sequence.h"
+#include "effect/scene_pictures.h"
 #include "scene/member_parameter.h"
 
 namespace rainref::rainy_glass {
@@ -82,11 +82,11 @@ const std::vector<MemberParameter<Settings>>& members() {
       text("maps.raindrops_image", "", "Raindrop map of your own: normal in R and G, time offset in B, height in A; empty: baked."),
       text("maps.rivulets_image", "", "Rivulet map of your own: normal in R and G, flow in B (across) and A (along); empty: baked."),
       text("scene.image", "",
-           "Picture behind the glass, of the run's size; empty: the street at night, through a camera that focuses "
-           "on the glass."),
+           "Picture or film behind the glass, of any size; empty: the street at night, through a camera that focuses on the glass."),
       text("scene.panorama", "", "Latitude/longitude panorama behind the glass instead, seen through the camera; as far as the sky."),
-      text("scene.depth_image", "", "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY, needed beside scene.image.")
+      text("scene.depth_image", "", "Its depth along the view axis, of the same shape, EXR, 16-bit PNG or NPY; empty: scene.depth.")
           .only(correct),
+      effect::depth_parameter().only(correct),
       real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres).").only(correct),
       real("scene.defocus", "1", 0, 0.2, 0.012, "Of street and panorama: radius of a far point's disc, in picture heights."),
       real("scene.bar_spacing", "m", 0, 100, 0.5,

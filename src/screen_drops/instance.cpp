@@ -19,22 +19,17 @@ namespace {
 
 constexpr double street_far = 1000;  // depth of its sky [m]; unused
 
-Inputs pictures(const scene::Config& config, const Settings& settings, std::optional<effect::PictureSource>& sequence,
+Inputs pictures(const scene::Config& config, const Settings& settings, const effect::ScenePictures& named,
                 const parallel::Executor& executor, effect::Inputs& files) {
-  check(settings);
-  effect::refuse_unused_sequence(config, {"scene.image"});
   Inputs in;
   const Image panorama = effect::read_panorama(config, files);
   if (!panorama.empty()) {
     in.colour = scene::panorama_view(panorama, scene_camera(settings), settings.width, settings.height, executor);
-  } else if (config.text("scene.image").empty()) {
+  } else if (named.are_named()) {
+    in.colour = named.in(0, street_far, files).colour;
+  } else {
     const auto street = effect::street_of(files, {settings.seed});
     in.colour = street->view(scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
-  } else {
-    const effect::PictureSource source(config, "scene.image", files);
-    const image_io::Picture read = source.read(source.shown_in(0), files);
-    in.colour = source.is_sequence() ? effect::linear_of(read) : effect::linear_once(read);
-    if (source.is_sequence()) sequence = source;
   }
   if (settings.variant == Variant::as_published && !config.text("noise.image").empty())
     in.noise = effect::read_tile(config, "noise.image", false, files);
@@ -52,29 +47,31 @@ effect::RunMemory memory_of(const scene::Config& config) {
   }
   const std::optional<FlowSettings> flow = flow_from(config, s);
   m.peak.then(memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));
-  if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(4 * image_bytes(m, Format::rgba32f));  // decoded, flipped, and its mips
+  if (effect::is_moving(config.text("scene.image"))) m.peak.pass(4 * image_bytes(m, Format::rgba32f));  // decoded, flipped, and its mips
   return m;
 }
 
 std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   const Settings settings = settings_from(config);
-  std::optional<effect::PictureSource> sequence;
-  Inputs seen = pictures(config, settings, sequence, executor, inputs);
+  check(settings);
+  const Size size{settings.width, settings.height};
+  effect::ScenePictures named(config, false, {size, size}, inputs);
+  Inputs seen = pictures(config, settings, named, executor, inputs);
   const std::optional<FlowSettings> flow = flow_from(config, settings);
-  return std::make_unique<Instance>(settings, std::move(seen), std::move(sequence), flow ? &*flow : nullptr, executor);
+  return std::make_unique<Instance>(settings, std::move(seen), std::move(named), flow ? &*flow : nullptr, executor);
 }
 
 }  // namespace
 
-Instance::Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> sequence, const FlowSettings* flow,
+Instance::Instance(const Settings& settings, Inputs pictures, effect::ScenePictures named, const FlowSettings* flow,
                    const parallel::Executor& executor)
-    : InstanceOf(settings, pictures, executor, flow), sequence_(std::move(sequence)), settings_(settings), pictures_(std::move(pictures)) {}
+    : InstanceOf(settings, pictures, executor, flow), named_(std::move(named)), settings_(settings), pictures_(std::move(pictures)) {}
 
 // Each frame's background is a run of its own, so that the record of a frame does not depend on earlier frames.
 void Instance::show_pictures_of(int frame) {
-  if (!sequence_ || (frame == shown_ && frame == held_)) return;
+  if (!named_.change() || (frame == shown_ && frame == held_)) return;
   effect::Inputs none;
-  pictures_.colour = effect::linear_of(sequence_->read(sequence_->shown_in(frame), none));
+  pictures_.colour = named_.in(frame, street_far, none).colour;
   if (frame == shown_)
     changed().show_again(pictures_.colour);
   else
@@ -84,7 +81,7 @@ void Instance::show_pictures_of(int frame) {
 
 void Instance::list_state(state::Items& items) {
   InstanceOf::list_state(items);
-  if (sequence_) items.number("shown", shown_, state::frames);
+  if (named_.change()) items.number("shown", shown_, state::frames);
 }
 
 std::vector<PassOutput> Instance::buffers() {
@@ -127,7 +124,7 @@ effect::Effect entry() {
           {{"street", {"seed"}},
            {"night_street view", effect::joined(camera, {"seed"})},
            {"picture", {"scene.image", "scene.panorama", "noise.image"}},
-           {"linear picture", {"scene.image", "scene.panorama"}},
+           {"linear picture", {"run.size", "run.supersample", "scene.image", "scene.panorama"}},
            {"panorama view", effect::joined(camera, {"scene.panorama"})},
            {"screen_drops levels", seen},
            {"screen_drops background", effect::joined(seen, {"background.level", "background.defocus", "drops.rounding", "scene.wrap"})},

@@ -1,10 +1,8 @@
 // The window drops of a scene, with the common interface of all effects.
 #pragma once
 
-#include <optional>
-
 #include "effect/effect.h"
-#include "effect/picture_sequence.h"
+#include "effect/scene_pictures.h"
 #include "rainref/screen_drops.h"
 
 namespace rainref::screen_drops {
@@ -14,8 +12,8 @@ effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<ScreenDrops> {
  public:
-  /// `sequence`: source of later pictures, or nothing; that of frame 0 is in `pictures`.
-  Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> sequence, const FlowSettings* flow,
+  /// `named`: source of later pictures; that of frame 0 is in `pictures`.
+  Instance(const Settings& settings, Inputs pictures, effect::ScenePictures named, const FlowSettings* flow,
            const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
   /// The scene's picture; for a sequence, that of the last rendered frame.
@@ -26,12 +24,12 @@ class Instance final : public effect::InstanceOf<ScreenDrops> {
   bool has_drops_layer() const override { return settings_.variant == Variant::corrected; }
   effect::DropsLayer drops_layer(const parallel::Executor& executor) const override;
   std::optional<effect::Display> display() const override;
-  bool has_sequence() const { return sequence_.has_value(); }
+  bool has_sequence() const { return named_.change(); }
 
  private:
   void show_pictures_of(int frame) override;
 
-  std::optional<effect::PictureSource> sequence_;
+  effect::ScenePictures named_;
   int shown_ = 0;  ///< frame whose picture is behind the glass
   int held_ = 0;   ///< frame whose picture is in memory; differs after a load
   Settings settings_;

@@ -69,7 +69,7 @@ const std::vector<MemberParameter<Settings>>& members() {
                                "Radius of a far point's disc, in a camera that focuses on the glass.")
           .only(correct),
       rounding<&Settings::rounding>("drops.rounding"),
-      text("scene.image", "", "Picture behind the glass, of the run's size; empty: the street at night."),
+      text("scene.image", "", "Picture or film behind the glass, of any size; empty: the street at night."),
       text("scene.panorama", "", "Latitude/longitude panorama behind the glass instead, seen through the camera; as far as the sky."),
       choice<&Settings::wrap>("scene.wrap", {{"clamp", Address::clamp}, {"repeat", Address::repeat}, {"mirror", Address::mirror}},
                               "How the picture goes on beyond its edge, for drops and background.")

@@ -10,6 +10,7 @@
 
 #include "base/hash.h"
 #include "base/path_text.h"
+#include "base/hash_of_file.h"
 #include "base/read_file.h"
 #include "effect/inputs.h"
 #include "effect/picture_sequence.h"
@@ -59,9 +60,9 @@ std::string Inputs::hash_of(const scene::Config& config, const std::string& key)
     effect::Inputs found;
     const effect::PictureSource source(config, key, found);
     for (const effect::InputFile& f : found.files) hash += fmt::format("{} {} {} ", f.hash, f.first, f.count);
-  } else if (key.ends_with("drive_cycle")) {
+  } else if (key.ends_with("drive_cycle") || effect::is_film(named.name)) {
     try {
-      hash = file_hash(read_file(path)).text();
+      hash = hash_of_file(path, {UINT64_MAX, ExitCode::io}).text();
     } catch (const Error& e) {
       throw named.placed(e.code(), e.what());
     }

@@ -26,32 +26,27 @@ effect::RunMemory memory_of(const scene::Config& config) {
                       8,
                       6};
   const std::size_t texels = static_cast<std::size_t>(scene[0]) * static_cast<std::size_t>(scene[1]);
-  if (effect::is_sequence(config.text("scene.image")) || effect::is_sequence(config.text("scene.depth_image")))
+  if (effect::is_moving(config.text("scene.image")) || effect::is_moving(config.text("scene.depth_image")))
     m.peak.pass(texels * (3 * 16 + 3 * 4 + 8));  // decoded, flipped, and as inputs of the passes
   return m;
 }
 
-/// The pictures of a frame as inputs of the passes; empty if none is named. Without a depth everything is at the distance of the street's
-/// sky.
+/// The pictures of a frame as inputs of the passes; empty if none is named.
 Surroundings pictures_of(const effect::ScenePictures& named, int frame, effect::Inputs& files) {
   Surroundings s;
   if (!named.are_named()) return s;
-  const Image colour = named.colour(frame, files);
-  s = surroundings_of(colour);
-  if (named.have_depth()) s.depth = named.depth(frame, street_far, colour, files);
+  effect::ScenePictures::Seen seen = named.in(frame, street_far, files);
+  s = surroundings_of(seen.colour);
+  s.depth = std::move(seen.depth);
   return s;
 }
 
 std::unique_ptr<effect::Instance> open_scene(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
-  effect::ScenePictures named(config, true, inputs);
+  const Settings settings = settings_from(config);
+  effect::ScenePictures named(config, true, {settings.scene_size, {settings.picture.width, settings.picture.height}}, inputs);
   Surroundings first = pictures_of(named, 0, inputs);
-  if (!named.are_named()) first.street = street_of(settings_from(config), inputs);
-  auto instance = std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
-  const double fog = instance->settings().blur.fog_density;
-  if (effect::is_named(config, "scene.image") && !effect::is_named(config, "scene.depth_image") && fog * street_far > 1)
-    inputs.warnings.push_back(fmt::format(
-        "scene.image: without scene.depth_image it lies {:g} m away, behind the fog of blur.fog_density {:g} (0: none)", street_far, fog));
-  return instance;
+  if (!named.are_named()) first.street = street_of(settings, inputs);
+  return std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
 }
 
 }  // namespace
@@ -133,8 +128,8 @@ effect::Effect entry() {
            {"night_street view", view},
            {"windshield view", effect::joined(view, {"scene.keyframes"})},
            {"picture", {"scene.image", "scene.depth_image", "sequence.first"}},
-           {"linear picture", {"scene.image"}},
-           {"depth picture", {"scene.depth_image", "scene.depth_scale", "scene.image"}}}};
+           {"linear picture", {"scene.image", "scene.size", "run.size", "run.supersample"}},
+           {"depth picture", {"scene.depth_image", "scene.depth_scale", "scene.size", "run.size", "run.supersample"}}}};
 }
 
 }  // namespace rainref::windshield

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "effect/picture_sequence.h"
+#include "effect/scene_pictures.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
 #include "windshield/motion/glass.h"
@@ -61,11 +61,12 @@ const std::vector<MemberParameter<Settings>>& scene_members() {
       real<&S::blur, &B::fog_density>("blur.fog_density", "1/m", 0, 10, "Extinction of light in the air in front of the scene."),
       real<&S::blur, &B::fog_colour>("blur.fog_colour", "1", 0, 1000, "Linear radiance of the fog."),
       // The street before the car.
-      text("scene.image", "", "Picture of what lies before the car; empty: the street at night made here."),
-      text("scene.depth_image", "",
-           "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
+      text("scene.image", "", "Picture or film of what lies before the car, of any size; empty: the street at night made here."),
+      text("scene.depth_image", "", "Its depth along the view axis, of the same shape, EXR, 16-bit PNG or NPY; empty: scene.depth."),
+      effect::depth_parameter(),
       real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres)."),
-      integer<&S::scene_size>("scene.size", "texel", 8, 8192, "Columns and rows of the street's picture."),
+      integer<&S::scene_size>("scene.size", "texel", 8, 8192,
+                              "Columns and rows of the street's picture; a picture from a file is fitted to them."),
       real<&S::picture, &PictureSettings::scene_margin>("scene.margin", "1", 1, 4, "Width of the scene's picture over that of the view."),
       real<&S::street_start>("scene.start", "m", 0, 1e6, "Place on the street at time 0."),
       boolean<&S::scene_moves>("scene.moves", "The street passes as the car drives; false: it stands still."),
@@ -187,6 +188,7 @@ Settings settings_from(const Config& config) {
   apply(picture_members(), config, s.picture);
   apply(scene_members(), config, s);
   apply(detail_members(), config, s);
+  if (effect::is_picture_far(config)) s.blur.fog_density = 0;
   s.picture.width = static_cast<int>(config.integer2("run.size")[0]);
   s.picture.height = static_cast<int>(config.integer2("run.size")[1]);
   constexpr double most = 300000;

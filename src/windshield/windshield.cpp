@@ -12,6 +12,7 @@
 #include "image/flipped.h"
 #include "parallel/rows.h"
 #include "rainref/error.h"
+#include "scene/check.h"
 #include "scene/toml.h"
 #include "windshield/picture/falling_rain.pass.h"
 #include "windshield/windshield_state.h"
@@ -151,6 +152,8 @@ Windshield::Windshield(const SceneText& scene, Surroundings surroundings, const 
   constexpr const char* pictures[] = {"scene.image", "scene.depth_image"};
   const scene::Config config = scene::parse(scene, {"windshield", {"as-published", "corrected"}, parameters()}, pictures);
   effect::refuse_unused_sequence(config, {"scene.image", "scene.depth_image"});
+  if (config.given("scene.depth"))
+    scene::refuse(config.entry("scene.depth").origin, "scene.depth", "expected none beside pictures in memory");
   state_ = std::make_unique<State>(config, std::move(surroundings), executor);
 }
 Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor) {

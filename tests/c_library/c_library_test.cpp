@@ -58,7 +58,7 @@ class CLibrary : public testing::Test {
     write("before.npy", before.colour);
     write("depth.npy", before.depth);
     write_scene("windshield_corrected", golden::named(windshield::golden_scenes(), "windshield/corrected"),
-                "scene.image = 'before.npy'\nscene.depth_image = 'depth.npy'\n");
+                "scene.image = 'before.npy'\nscene.depth_image = 'depth.npy'\nscene.size = [37, 23]\n");
     for (const auto& entry : fs::directory_iterator(test::source_folder() + "/tests/c_library/scenes"))
       fs::copy_file(entry.path(), *folder_ / entry.path().filename().string());
   }

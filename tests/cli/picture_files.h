@@ -92,7 +92,7 @@ class SceneFiles : public CommandLine {
     EXPECT_EQ(hash({scene, "--set", "scene.depth_image=depth16.png", "--set", "scene.depth_scale=65535"}), lines);
     EXPECT_NE(hash({scene, "--set", other, "--set", "scene.depth_scale=0.45"}), hash({scene, "--set", other}));
     expect_refused(scene, {"scene.depth_image=small.npy"},
-                   HasSubstr("scene.depth_image: expected 24x16 texels as scene.image has, found 8x8"));
+                   HasSubstr("scene.depth_image: expected 24x16 texels as scene.image has, or another size of this shape, found 8x8"));
     expect_refused(scene, {"scene.depth_image=below.npy"},
                    HasSubstr("scene.depth_image: expected depths of 0 m or more, found -2 at column 7, row 4 from the bottom"));
     expect_refused(scene, {"scene.depth_image=holed.npy"}, HasSubstr("scene.depth_image: 'holed.npy': NaN at x 3, y 2 (from the top)"));

@@ -24,7 +24,7 @@ class FilesOfScenes : public SceneFiles {
     scene("splash.toml", "edge_splash", "corrected", "depth_image = 'depth.exr'\nsource = 'files'\ndepth_encoding = 'metres'\n");
     scene("glass.toml", "rainy_glass", "corrected", "depth_image = 'depth.exr'\n[maps]\nsize = 16\ndroplets = 20\ntrails = 2\n");
     scene("printed_glass.toml", "rainy_glass", "as-published", "[maps]\nsize = 16\ndroplets = 20\ntrails = 2\n");
-    scene("drive.toml", "windshield", "corrected", "depth_image = 'depth.exr'\n[windshield]\nheight_size = [24, 16]\n");
+    scene("drive.toml", "windshield", "corrected", "depth_image = 'depth.exr'\nsize = [24, 16]\n[windshield]\nheight_size = [24, 16]\n");
     scene("drops.toml", "screen_drops", "corrected", "[drops]\nlargest_radius = 12\n[flow]\nwarm_up = 1\nheight_size = [24, 16]\n");
     scene("printed_drops.toml", "screen_drops", "as-published", "[drops]\ngrid = 0.1\n[noise]\nsize = 16\n");
     before = folder.names();
@@ -66,14 +66,42 @@ TEST_F(FilesOfScenes, ASplashIsSeenOnTheEdge) {
 
 TEST_F(FilesOfScenes, WithoutADepthAllIsFar) {
   put_npy(folder / "far.npy", width, height, 1, [](int, int, int) { return 1000.0f; });
-  const auto lines = [&](const std::string& depth) {
-    return hash({"drive.toml", "--set", "blur.fog_density=0.001", "--set", "scene.depth_image=" + depth});
+  put_npy(folder / "near.npy", width, height, 1, [](int, int, int) { return 7.5f; });
+  for (const std::string scene : {"drive.toml", "glass.toml"}) {
+    SCOPED_TRACE(scene);
+    const auto lines = [&](std::vector<std::string> sets) {
+      std::vector<std::string> all{scene};
+      for (const std::string& s : sets) all.insert(all.end(), {"--set", s});
+      return hash(all);
+    };
+    const auto far = lines({"scene.depth_image="});
+    // Nor does fog lie before it.
+    std::vector<std::string> clear{"scene.depth_image=far.npy"};
+    if (scene == "drive.toml") clear.push_back("blur.fog_density=0");
+    EXPECT_EQ(far, lines(clear));
+    EXPECT_NE(far, lines({}));
+    // A distance for all of it is a depth like any other.
+    EXPECT_EQ(lines({"scene.depth_image=", "scene.depth=7.5"}), lines({"scene.depth_image=near.npy"}));
+    EXPECT_NE(lines({"scene.depth_image=", "scene.depth=7.5"}), far);
+    expect_refused(scene, {"scene.depth=7.5"}, HasSubstr("scene.depth: expected none beside scene.depth_image, found 7.5"));
+    expect_refused(scene, {"scene.image=", "scene.depth_image=", "scene.depth=7.5"},
+                   HasSubstr("scene.depth: expected scene.image beside it, found none"));
+  }
+  expect_refused("printed_glass.toml", {"scene.depth=7"}, HasSubstr("scene.depth"));  // corrected has it
+}
+TEST_F(FilesOfScenes, WithoutADepthNothingSplashes) {
+  const auto shown = [&](const std::string& set, const std::string& warning) {
+    expect(rainref({"run", "splash.toml", "-o", "out", "--set", "edge_splash.rain_drop_scale=0", "--set", set}), 0, testing::_,
+           HasSubstr(warning));
+    return contents(folder / "out/edge_splash.0001.png");
   };
-  EXPECT_EQ(lines(""), lines("far.npy"));
-  EXPECT_NE(lines(""), lines("depth.exr"));
-  // Where fog hides all of it, a warning says so.
-  expect(with("drive.toml", "scene.depth_image="), 0, testing::_,
-         HasSubstr("warning: scene.image: without scene.depth_image it lies 1000 m away, behind the fog of blur.fog_density"));
+  const std::string dry = shown("edge_splash.drop_alpha=0", "");
+  EXPECT_NE(shown("edge_splash.drop_alpha=1", ""), dry);
+  const Image far = image_io::read((shown("scene.depth_image=", "scene.image: without scene.depth_image nothing in it has an edge"),
+                                    folder / "out/edge_splash.0001.png"))
+                        .image;
+  put(folder / "dry.png", dry);
+  EXPECT_TRUE(same(far, image_io::read(folder / "dry.png").image));
 }
 
 // A panorama is seen through the camera; of a pane it is the probe too.
@@ -134,22 +162,24 @@ TEST_F(FilesOfScenes, WhatIsMissingOrDoesNotFitIsNamed) {
     const char* says;
     int code = 2;
   } refused[]{
-      {"splash.toml", {"scene.depth_image="}, "scene.depth_image: expected a file, because scene.source is \"files\""},
-      {"splash.toml", {"scene.source=shapes"}, "scene.image: needs scene.source = \"files\", found \"shapes\""},
-      {"splash.toml", {"scene.depth_image=noise.png"}, "scene.depth_image: expected 24x16 texels as scene.image has, found 8x8"},
+      {"splash.toml", {"scene.image=", "scene.depth_image="}, "scene.image: expected a file, because scene.source is \"files\""},
+      {"splash.toml", {"scene.image="}, "scene.image: expected a file, because scene.source is \"files\""},
+      {"splash.toml", {"scene.image=", "scene.source=street"}, "scene.depth_image: expected scene.image beside it, found none"},
+      {"splash.toml",
+       {"scene.depth_image=noise.png"},
+       "scene.depth_image: expected 24x16 texels as scene.image has, or another size of "
+       "this shape, found 8x8"},
       {"splash.toml", {"scene.layer_image=noise.png"}, "scene.layer_image: expected 24x16"},
       {"splash.toml", {"scene.depth_encoding=device"}, "scene.depth_image: expected device depths from 0 to 1, found 2 at column 0, row 0"},
       {"splash.toml", {"scene.far=30"}, "found 40 at column 0, row 8 from the bottom"},
       {"splash.toml", {"scene.near=9", "scene.far=3"}, "scene.near, scene.far: expected 0 < near < far, found 9 and 3"},
       {"splash.toml", {"scene.depth_image=nowhere.npy"}, "nowhere.npy", 4},
       {"splash.toml", {"edge_splash.bend=1"}, "edge_splash.band"},
-      {"glass.toml", {"scene.depth_image="}, "scene.depth_image: expected a depth beside scene.image, found none"},
       {"glass.toml", {"scene.image="}, "scene.depth_image: expected scene.image beside it, found none"},
       {"drive.toml", {"scene.image="}, "scene.depth_image: expected scene.image beside it, found none"},
       {"glass.toml", {"glass.background=probe"}, "glass.probe_image: expected a panorama beside scene.image, found none"},
       {"glass.toml", {"glass.drop_tile=0"}, "glass.drop_tile"},
       {"glass.toml", {"glass.rivulet_tile=0"}, "glass.rivulet_tile"},
-      {"drops.toml", {"scene.image=small.npy"}, "scene.image: expected 24x16 like the picture, found 8x8"},
       {"drops.toml", {"scene.image=holed.npy"}, "scene.image: 'holed.npy': NaN at x 3, y 2 (from the top)"},
       {"drops.toml", {"glass.height=0"}, "glass.height"},
       {"drops.toml", {"drops.largest_radius=0"}, "drops.largest_radius"},

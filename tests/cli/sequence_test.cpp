@@ -42,9 +42,10 @@ class Sequences : public SceneFiles {
     text("rainy_glass", "as-published", false, "[maps]\nsize = 16\ndroplets = 20\ntrails = 2\n");
     text("rainy_glass", "corrected", true, "[maps]\nsize = 16\ndroplets = 20\ntrails = 2\n");
     const std::string pane = "panes = '1.0 0.75 0.95, 1.9 0.8 1.0, 1.1 0.7 1.4'\nheight_size = [24, 14]\n";
-    text("windshield", "as-published", true, "[windshield]\nspawn_rate = 3000\n" + pane);
+    text("windshield", "as-published", true, "size = [24, 16]\n[windshield]\nspawn_rate = 3000\n" + pane);
     text("windshield", "corrected", true,
-         "[rain]\nrate = 90\nsmallest_drop = 1\n[falling_rain]\non = true\nsmallest_drop = 3\nfar = 4\n[windshield]\n" + pane);
+         "size = [24, 16]\n[rain]\nrate = 90\nsmallest_drop = 1\n[falling_rain]\non = true\nsmallest_drop = 3\nfar = 4\n[windshield]\n" +
+             pane);
     before = folder.names();
   }
   std::filesystem::path file(const std::string& letter, int k) const { return folder / fmt::format("film/{}{:02}.npy", letter, k); }

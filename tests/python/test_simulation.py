@@ -217,7 +217,7 @@ def test_shown_pictures_have_their_top_row_first(puddle):
 def test_a_film_behind_a_windshield_and_a_wiper_on_its_side_window(tmp_path):
     for k in range(3):
         np.save(tmp_path / f"{k}.npy", np.full((9, 16, 3), 40 * k, np.uint8))
-    scene = {"run.size": (16, 9), "run.frames": 3, "windshield.height_size": (24, 14), "scene.image": str(tmp_path / "%d.npy"),
+    scene = {"run.size": (16, 9), "run.frames": 3, "windshield.height_size": (24, 14), "scene.size": (16, 9), "scene.image": str(tmp_path / "%d.npy"),
              "windshield.panes": "1.0 0.75 0.95, 1.9 0.8 1.0, 1.1 0.7 1.4", "pane_1_wipers.count": 1}
     film = rr.open("windshield", scene)
     hashes = [film.step_hashes() for _ in range(3)]

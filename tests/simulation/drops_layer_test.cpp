@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, DropsLayerOf,
                          testing::Values(Given{"windshield",
                                                {"windshield.height_size=[320, 180]", "rain.smallest_drop=3", "rain.rate=200",
                                                 "composite.inner=0", "composite.glint_strength=0", "composite.wetness=0", "scene.margin=1",
-                                                "blur.fog_density=0", "vehicle.speed=0", "wipers.count=0"}},
+                                                "blur.fog_density=0", "vehicle.speed=0", "wipers.count=0", "scene.size=[160, 120]"}},
                                          Given{"screen_drops",
                                                {"drops.inner=0", "scene.margin=1", "drops.largest_radius=6", "flow.on=false",
                                                 "glass.height=0.015"}},
@@ -171,7 +171,7 @@ TEST(DropsLayer, OfAnyWindshieldOverItsBackgroundIsThePicture) {
   for (std::vector<std::string> set : scenes) {
     const std::string variant = set.front() == "variant=as-published" ? "as-published" : "corrected";
     SCOPED_TRACE(set.front());
-    set.insert(set.end(), {"run.size=[160, 120]", "scene.image=" + places()});
+    set.insert(set.end(), {"run.size=[160, 120]", "scene.image=" + places(), "scene.size=[160, 120]"});
     const scene::Config config = scene::parse(small("windshield", variant, set), simulation::effect_table());
     const parallel::Executor executor(2);
     Inputs inputs;

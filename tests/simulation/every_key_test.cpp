@@ -58,6 +58,7 @@ std::vector<StateScene> scenes(bool with_street) {
                                  "glass.background=probe", "glass.probe_image=" + picture_of("glass.probe_image", "base")};
     if (corrected) own.push_back(depth);
     add("rainy_glass", "files", own);
+    if (corrected) add("rainy_glass", "wall", {image, "scene.depth=7"});
     add("windshield", "files", {image, depth});
   }
   return all;

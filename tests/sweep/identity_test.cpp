@@ -60,6 +60,17 @@ TEST_F(Identity, OfAFileCountsWhatItHolds) {
   EXPECT_NE(ids(named + "other.npy'\n"), one);
 }
 
+// No ffmpeg is asked: what a film shows depends on its bytes alone.
+TEST_F(Identity, OfAFilmCountItsBytes) {
+  put(folder / "window.toml", "effect = 'screen_drops'\nvariant = 'corrected'\n");
+  for (const auto& [name, bytes] : {std::pair{"one.mp4", "a film"}, {"same.mp4", "a film"}, {"other.mp4", "a FILM"}})
+    put(folder / name, bytes);
+  const std::string named = "verb='run'\nscene='window.toml'\n[set]\n'scene.image'='";
+  const auto one = ids(named + "one.mp4'\n");
+  EXPECT_EQ(ids(named + "same.mp4'\n"), one);
+  EXPECT_NE(ids(named + "other.mp4'\n"), one);
+}
+
 // A repaired port's verdict is not that of the broken one.
 TEST_F(Identity, OfAPortsCommandCountsWhatTheFilesThatItNamesHold) {
   std::filesystem::create_directories(folder / "pack");

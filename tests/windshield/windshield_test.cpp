@@ -132,6 +132,10 @@ TEST(Show, RefusesWhatItCannotShow) {
                 Windshield(SceneText{"", {"windshield.height_size=[32, 18]"}}, {}, executor);
               }),
               HasSubstr("scene.image: expected pictures of what lies before the car or a street, found neither"));
+  EXPECT_THAT(usage_error([&] {
+                Windshield(SceneText{"", {"scene.depth=5"}}, small_surroundings(), executor);
+              }),
+              HasSubstr("scene.depth: expected none beside pictures in memory"));
   // Who hands in pictures shows others himself.
   EXPECT_THAT(usage_error([&] {
                 Windshield(SceneText{"", {"sequence.end=loop"}}, small_surroundings(), executor);
