@@ -1,7 +1,8 @@
 // The live page: a scene that the reference simulates, its controls, and the lines that the native program prints for the same frame.
-// live.html?scene=puddle/default.toml&size=640x360 opens that scene.
-import {Comparison} from "./live_compare.js";
+// live.html?scene=puddle/default.toml&size=640x360&set=rain.rate=20 opens that scene, with values of keys.
+import {FilmRow} from "./live_film.js";
 import {LiveRun} from "./live_run.js";
+import {SceneList} from "./live_scenes.js";
 import {Parameters} from "./parameters.js";
 import {shownGallery} from "./live_gallery.js";
 import {element} from "./report_words.js";
@@ -11,8 +12,10 @@ const part = id => document.getElementById(id);
 const option = (text, value = text) => element("option", {value}, text);
 const fileSizes = ["1280x720", "960x540", "640x360", "480x270", "320x180", "160x90"];
 
-const run = new LiveRun(), parameters = new Parameters(part("parameters"), changeParameter);
-let shipped = [], playing = false, shownTimes = [], stopped = Promise.resolve();
+const run = new LiveRun(), scenes = new SceneList(), parameters = new Parameters(part("parameters"), changeParameter);
+let playing = false, shownTimes = [], stopped = Promise.resolve();
+let comparison = null;  // where ports run beside the scene
+let begun = 0;          // how often a scene began, or began again
 
 function showError(id, error) {
   part(id).textContent = error?.message ?? "";
@@ -112,6 +115,7 @@ function setPlaying(now) {
 
 /// Opens a scene and shows frame 0, replacing the running one; false if it is refused, after showing the error.
 async function open(scene, options) {
+  ++begun;
   setPlaying(false);
   showError("scene-error", null);
   const effect = run.info?.effect, variant = run.info?.variant, isFirst = run.info === null;
@@ -136,31 +140,23 @@ async function open(scene, options) {
   part("variant").value = run.info.variant;
   part("size").value = run.size;
   part("text").value = scene.text;
-  const known = shipped.find(s => s.path === scene.path);
+  const known = scenes.entry(scene.path);
   part("scene").value = known?.path ?? "";
   part("about").textContent = known?.sentence ?? `${scene.file}: a scene of yours.`;
   part("warnings").replaceChildren(...run.info.warnings.map(text => element("li", {}, text)));
   part("warnings").hidden = run.info.warnings.length === 0;
   for (const id of ["scene", "variant", "save", "play", "step", "reset"]) part(id).disabled = false;
-  comparison.ready();
-  const address = new URL(location);
-  address.search = known ? new URLSearchParams({scene: known.path, ...(run.size === "automatic" ? {} : {size: run.size})}) : "";
+  comparison?.ready();
+  const address = new URL(location), sets = [...run.sets].map(([key, toml]) => ["set", `${key}=${toml}`]);
+  address.search = known ? new URLSearchParams([["scene", known.path], ...(run.size === "automatic" ? [] : [["size", run.size]]), ...sets]) : "";
   history.replaceState(null, "", address);
   await step();
   return true;
 }
-async function fetched(path, kind) {
-  const answer = await fetch(path);
-  if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
-  return answer[kind]();
-}
-/// Opens a bundled scene, by its path in scenes/.
-async function openShipped(path, options) {
-  const entry = shipped.find(s => s.path === path);
+/// Opens a listed scene, by its path.
+async function openListed(path, options) {
   try {
-    if (!entry) throw new Error(`no scene ${path}; there are ${shipped.map(s => s.path).join(", ")}`);
-    const files = await Promise.all(entry.files.map(async name => ({path: `scenes/${name}`, bytes: new Uint8Array(await fetched(`scenes/${name}`, "arrayBuffer"))})));
-    return await open({path, file: `scenes/${path}`, text: await fetched(`scenes/${path}`, "text"), files}, options);
+    return await open(await scenes.read(path), options);
   } catch (error) {
     showError("scene-error", error);
     return false;
@@ -178,29 +174,33 @@ async function changeVariant(variant) {
   if (await open(scene, {sets})) return;
   // Most scenes have keys that only one variant has.
   const path = `${effect}/${variant === "corrected" ? "default" : "as_published"}.toml`;
-  if (await openShipped(path)) part("about").textContent = `${scene.file} says keys that ${variant} does not have, so this is ${path}: ${part("about").textContent}`;
+  if (await openListed(path)) part("about").textContent = `${scene.file} says keys that ${variant} does not have, so this is ${path}: ${part("about").textContent}`;
   else part("variant").value = run.info.variant;
 }
 
 // ---- parameters ----
 
 const waiting = new Map();  // key to the newest value, while an older one is on its way
+/// The next frame shows it, also of a scene that does not play.
 async function changeParameter(key, toml) {
   if (waiting.has(key)) {
     waiting.set(key, toml);
     return;
   }
   waiting.set(key, toml);
+  const scene = begun;
   try {
     for (let value = null; value !== waiting.get(key);) {
       value = waiting.get(key);
       await run.set(key, value);
+      showCommand();
+      if (value === waiting.get(key)) parameters.update(run.values);
+      if (!playing && scene === begun) await step();
     }
-    showCommand();
-    parameters.update(run.values);
   } catch (error) {
     const value = waiting.get(key);
     error.restart = async () => {
+      ++begun;
       setPlaying(false);
       part("state").textContent = "";
       await run.restartWith(key, value);
@@ -215,15 +215,20 @@ async function changeParameter(key, toml) {
 
 // ---- the page ----
 
-const comparison = new Comparison(run, {
-  before: () => setPlaying(false),
-  shown: shown => {
-    shownTimes = [];
-    showFrame(shown);
-  },
-});
+async function startComparison() {
+  const {Comparison} = await import("./live_compare.js");
+  comparison = new Comparison(run, {
+    before: () => setPlaying(false),
+    shown: shown => {
+      shownTimes = [];
+      showFrame(shown);
+    },
+  });
+  if (run.info) comparison.ready();
+}
 
 async function reset() {
+  ++begun;
   setPlaying(false);
   showError("run-error", null);
   part("state").textContent = "";
@@ -245,7 +250,7 @@ document.addEventListener("keydown", event => {
   event.preventDefault();
   if (!part(button).disabled) part(button).click();
 });
-part("scene").onchange = () => openShipped(part("scene").value);
+part("scene").onchange = () => openListed(part("scene").value);
 part("variant").onchange = () => changeVariant(part("variant").value);
 part("size").onchange = () => open(run.scene, {sets: run.sets, size: part("size").value});
 part("choose").onclick = () => part("files").click();
@@ -272,35 +277,34 @@ addEventListener("drop", event => {
   if (event.dataTransfer.files.length > 0) openFiles(event.dataTransfer.files);
 });
 
-/// By effect; scenes that cannot run here are marked.
-function showSceneList() {
-  const groups = new Map();
-  for (const {path, effect, error} of shipped) {
-    if (!groups.has(effect)) groups.set(effect, element("optgroup", {label: effect.replaceAll("_", " ")}));
-    const entry = option(error ? `${path} (not here: ${error})` : path, path);
-    entry.disabled = Boolean(error);
-    groups.get(effect).append(entry);
-  }
-  part("scene").replaceChildren(Object.assign(option("a scene of yours", ""), {hidden: true}), ...groups.values());
+/// What this page's engine offers beside running scenes: ports on this device's GPU, films, and the pages of the site around this one.
+function showOffers() {
+  const offers = what => run.offers.includes(what);
+  if (run.where) part("where").textContent = run.where;
+  if (offers("film")) new FilmRow(run, {before: () => setPlaying(false)});
+  if (offers("ports")) startComparison();
+  part("ports").hidden = !offers("ports");
+  part("pages").hidden = !offers("site");
 }
 async function start() {
   part("size").append(option("automatic"), ...fileSizes.map(size => option(size.replace("x", " x "), size)), option("as the scene says", "scene"));
   const wanted = new URLSearchParams(location.search);
   try {
-    const [index] = await Promise.all([fetched("scenes/index.json", "json"), run.start()]);
-    shipped = index.scenes;
+    await Promise.all([scenes.load(), run.start()]);
+    showOffers();
   } catch (error) {
     setBusy("");
     return showError("run-error", error);
   }
-  showSceneList();
-  const size = wanted.get("size") ?? "automatic";
+  scenes.show(part("scene"));
+  const size = wanted.get("size") ?? "automatic", sets = new Map(wanted.getAll("set").map(text => [text.slice(0, text.indexOf("=")), text.slice(text.indexOf("=") + 1)]));
   if (![...part("size").options].some(o => o.value === size)) part("size").append(option(size));
-  for (const id of ["scene"]) part(id).disabled = false;
-  await openShipped(wanted.get("scene") ?? "puddle/default.toml", {size});
+  part("scene").disabled = false;
+  await openListed(wanted.get("scene") ?? "puddle/default.toml", {size, sets});
   // Its pictures load after the frame that the visitor waits for.
-  shownGallery(part("gallery"), shipped, path => {
-    openShipped(path);
+  part("gallery-section").hidden = !scenes.all.some(({picture}) => picture);
+  shownGallery(part("gallery"), scenes.all, path => {
+    openListed(path);
     part("scene-title").scrollIntoView();
   });
 }

@@ -23,12 +23,12 @@ const opened = library => {
   return simulation;
 };
 
-/// {effects: [the result of rr_describe for each], version, generation}.
+/// {effects: [the result of rr_describe for each], version, generation, offers}; offers: what the page may show beside a scene (live_run.js).
 export function describe(library) {
   const effects = [];
   for (let k = 0, name; (name = library.text(library.value("rr_effect_name", k))) !== null; ++k)
     effects.push(JSON.parse(library.text(library.out("rr_describe", name))));
-  return {effects, version: library.text(library.value("rr_version")), generation: library.value("rr_golden_generation")};
+  return {effects, version: library.text(library.value("rr_version")), generation: library.value("rr_golden_generation"), offers: ["ports", "site"]};
 }
 
 /// Opens the scene `text` in place of the running one, which stays if the new one is refused. `sets`: ["key=value", ...]. `file`: its name

@@ -27,6 +27,9 @@ export class LiveRun {
   effects = [];
   version = "";
   generation = 0;
+  /// What the engine does beside running scenes: "film", "ports", "site"; and where it computes, if not in this page.
+  offers = [];
+  where = null;
   /// The keys set, with their text in TOML.
   sets = new Map();
   /// For the open scene: {effect, variant, frames, sceneJson, warnings}, and every key with its text.
@@ -92,9 +95,14 @@ export class LiveRun {
   }
   judge(profile, given) { return this.#inTurn(() => this.#engine.run("judge", {profile, given})); }
 
+  /// The open scene's film: bytes. Only if it is offered. onProgress(done, of); `signal` aborts it.
+  film(args, options) { return this.#inTurn(async () => (await this.#engine.run("film", args, options)).film); }
+
   /// The command that prints this frame's lines natively.
-  command() {
-    const [width, height] = this.pictureSize, words = ["rainref", "hash", this.#scene.file, "--frames", String(this.frame + 1)];
+  command() { return this.commandOf("hash", this.frame + 1); }
+  /// The native command of a verb for the open scene with its keys, and more words.
+  commandOf(verb, frames, more = []) {
+    const [width, height] = this.pictureSize, words = ["rainref", verb, this.#scene.file, "--frames", String(frames), ...more];
     if (this.#size !== "scene") words.push("--size", `${width}x${height}`);
     if (!antialiases(this.sets, this.#size)) words.push("--set", "run.supersample=1");
     for (const [key, toml] of this.sets) words.push("--set", `${key}=${toml}`);

@@ -1,0 +1,35 @@
+// The scenes that the live page offers: scenes/index.json, and their files below scenes.
+import {element} from "./report_words.js";
+
+async function fetched(path, kind) {
+  const answer = await fetch(path.split("/").map(encodeURIComponent).join("/"));
+  if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
+  return answer[kind]();
+}
+
+export class SceneList {
+  /// [{path, effect, variant, sentence, files, keys, picture?, error?, file?}]. `path`: below scenes; `file`: what commands call it, if not
+  /// "scenes/" and the path; `error`: why it cannot run here.
+  all = [];
+
+  async load() { this.all = (await fetched("scenes/index.json", "json")).scenes; }
+  entry(path) { return this.all.find(scene => scene.path === path); }
+
+  /// A scene in the form of LiveRun.open, with the files that it names.
+  async read(path) {
+    const entry = this.entry(path);
+    if (!entry) throw new Error(`no scene ${path}; there are ${this.all.map(scene => scene.path).join(", ")}`);
+    const files = await Promise.all(entry.files.map(async name => ({path: `scenes/${name}`, bytes: new Uint8Array(await fetched(`scenes/${name}`, "arrayBuffer"))})));
+    return {path, known: path, file: entry.file ?? `scenes/${path}`, text: await fetched(`scenes/${path}`, "text"), files};
+  }
+
+  /// Shows the list by effect; scenes that cannot run here are marked.
+  show(select) {
+    const groups = new Map();
+    for (const {path, effect, error} of this.all) {
+      if (!groups.has(effect)) groups.set(effect, element("optgroup", {label: effect.replaceAll("_", " ")}));
+      groups.get(effect).append(element("option", {value: path, disabled: Boolean(error)}, error ? `${path} (not here: ${error})` : path));
+    }
+    select.replaceChildren(element("option", {value: "", hidden: true}, "a scene of yours"), ...groups.values());
+  }
+}
