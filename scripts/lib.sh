@@ -4,7 +4,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(cmake ninja-build g++ ccache pkg-config git
   libhwy-dev libtbb-dev libglm-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libxxhash-dev zlib1g-dev
-  libembree-dev libopenimageio-dev libpng-dev libopenexr-dev libjpeg62-turbo-dev libsqlite3-dev
+  libembree-dev libopenimageio-dev libpng-dev libopenexr-dev libjpeg62-turbo-dev libsqlite3-dev libcpp-httplib-dev
   libgtest-dev libgmock-dev libbenchmark-dev libmpfr-dev libvulkan-dev mesa-vulkan-drivers glslang-tools)
 # Without these some tests would be skipped: the page in a browser and its script without one, JUnit against its schema, the format of the sources, the Python package and its types, the reference,
 # films, what other programs read in pictures, C#, and Godot.

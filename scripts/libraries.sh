@@ -3,7 +3,7 @@
 # from the folder in which that leaves a script: . scripts/libraries.sh
 
 # The newest sources in Debian 12. Their folders begin with these names.
-library_sources=(highway fmtlib xxhash zlib libpng1.6 imath openexr libjpeg-turbo sqlite3 googletest)
+library_sources=(highway fmtlib xxhash zlib libpng1.6 imath openexr libjpeg-turbo sqlite3 cpp-httplib googletest)
 # Headers alone, taken from this machine. And what builds the others: dpkg-dev unpacks sources, SQLite makes its one file with Tcl.
 library_headers=(libglm-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev)
 library_packages=(dpkg-dev debian-archive-keyring cmake ninja-build gcc make tcl pkg-config "${library_headers[@]}")
@@ -131,6 +131,17 @@ install_libraries() {  # SOURCES PREFIX TOOLCHAIN_FILE
   mkdir -p "$prefix.build/sqlite3-file"
   (cd "$prefix.build/sqlite3-file" && "$sources"/sqlite3-*/configure && make sqlite3.c)
   own_library sqlite3 "$(cat "$sources"/sqlite3-*/VERSION)" sqlite3 "$prefix.build/sqlite3-file" sqlite3.c sqlite3.h SQLITE_OMIT_LOAD_EXTENSION
+
+  # The server of `rainref view`, a header alone, without TLS and compression: it serves this machine.
+  cp "$sources"/cpp-httplib-*/httplib.h "$prefix/include/"
+  cat >"$prefix/lib/pkgconfig/cpp-httplib.pc" <<PC
+prefix=$prefix
+Name: cpp-httplib
+Description: HTTP server
+Version: $(sed -n 's/^#define CPPHTTPLIB_VERSION "\(.*\)"$/\1/p' "$sources"/cpp-httplib-*/httplib.h)
+Libs: -pthread
+Cflags: -I\${prefix}/include
+PC
 
   # xxHash's and Imath's write where they lie as Debian has it.
   sed -i "s,^prefix=.*,prefix=$prefix," "$prefix"/lib/pkgconfig/*.pc

@@ -10,7 +10,7 @@ from pathlib import Path
 
 # The licences that Debian's copyright files state for what is linked.
 LICENCES = {"highway": "Apache-2.0", "fmtlib": "MIT", "xxhash": "BSD-2-Clause", "zlib": "Zlib", "libpng1.6": "libpng-2.0", "imath": "BSD-3-Clause",
-            "openexr": "BSD-3-Clause", "libjpeg-turbo": "BSD-3-Clause AND IJG", "sqlite3": "blessing"}
+            "openexr": "BSD-3-Clause", "libjpeg-turbo": "BSD-3-Clause AND IJG", "sqlite3": "blessing", "cpp-httplib": "MIT"}
 # Headers alone, from the machine's own packages.
 HEADERS = {"libglm-dev": "MIT", "nlohmann-json3-dev": "MIT", "libcli11-dev": "BSD-3-Clause", "libtomlplusplus-dev": "MIT"}
 
