@@ -98,6 +98,7 @@ std::vector<Verb> add_verbs(CLI::App& app, const std::string& command) {
   return {list_verb(app),
           describe_verb(app),
           run_verb(app),
+          view_verb(app),
           hash_verb(app),
           pack_verb(app),
           diff_verb(app),

@@ -20,6 +20,7 @@ struct Verb {
 Verb list_verb(CLI::App& app);
 Verb describe_verb(CLI::App& app);
 Verb run_verb(CLI::App& app);
+Verb view_verb(CLI::App& app);
 Verb hash_verb(CLI::App& app);
 Verb pack_verb(CLI::App& app);
 Verb diff_verb(CLI::App& app);

@@ -11,7 +11,8 @@ namespace {
 using testing::HasSubstr;
 using testing::UnorderedElementsAreArray;
 
-constexpr std::array verbs{"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "import", "sweep", "selftest", "demo"};
+constexpr std::array verbs{"list",     "describe", "run",    "view",  "hash",     "pack", "diff",
+                           "validate", "mutate",   "import", "sweep", "selftest", "demo"};
 constexpr std::array sweep_actions{"plan", "run", "status", "collect", "gc", "script"};
 
 class Manual : public CommandLine {

@@ -18,13 +18,13 @@ using testing::StartsWith;
 using Usage = CommandLine;
 
 TEST_F(Usage, HelpShowsAnExample) {
-  for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest", "demo"}) {
+  for (const std::string verb : {"list", "describe", "run", "view", "hash", "pack", "diff", "selftest", "demo"}) {
     expect(rainref({verb, "--help"}), 0, HasSubstr("\nExample: rainref " + verb), "");
   }
   const Outcome all = rainref({"--help"});
   EXPECT_EQ(all.code, 0);
   EXPECT_THAT(all.out, HasSubstr("\nExample: rainref run "));
-  for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest", "demo"})
+  for (const std::string verb : {"list", "describe", "run", "view", "hash", "pack", "diff", "selftest", "demo"})
     EXPECT_THAT(all.out, HasSubstr("\n  " + verb + " "));
   EXPECT_EQ(rainref({"-h"}).out, all.out);
 }
@@ -40,7 +40,7 @@ TEST_F(Usage, HelpIsAVerbToo) {
 
 TEST_F(Usage, HelpSaysWhatAValueIs) {
   const auto help = [&](const char* verb) { return rainref({verb, "--help"}).out; };
-  for (const char* verb : {"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "import", "selftest", "demo"})
+  for (const char* verb : {"list", "describe", "run", "view", "hash", "pack", "diff", "validate", "mutate", "import", "selftest", "demo"})
     EXPECT_THAT(help(verb), Not(HasSubstr("TEXT"))) << verb;
   EXPECT_THAT(help("run"), AllOf(HasSubstr("SCENE FILE"), HasSubstr("--frames N"), HasSubstr("--size WxH"), HasSubstr("--threads N"),
                                  HasSubstr("--set KEY=VALUE"), HasSubstr("--output DIR")));
@@ -72,7 +72,7 @@ TEST_F(Usage, AVerbIsNeeded) {
   expect_refusal({}, 2, HasSubstr("required"));
   expect_refusal(
       {"lst"}, 2,
-      "expected one of list, describe, run, hash, pack, diff, validate, mutate, import, sweep, selftest, demo, found 'lst'; did you "
+      "expected one of list, describe, run, view, hash, pack, diff, validate, mutate, import, sweep, selftest, demo, found 'lst'; did you "
       "mean 'list'?");
   expect_refusal({"Run", "corrected.toml"}, 2, EndsWith("found 'Run'; did you mean 'run'?"));
   expect_refusal({"zebra"}, 2, EndsWith("found 'zebra'"));
