@@ -49,7 +49,7 @@ const slide = (page, key, place) => page.evaluate((k, at) => {
   return document.getElementById(`parameter-${k}`).value;
 }, key, place);
 
-const viewed = spawn(rainref, ["view", "puddle/default.toml", "--no-browser", "--set", "rain.rate=20"], {cwd: path.resolve(sources), stdio: ["ignore", "pipe", "inherit"]});
+const viewed = spawn(rainref, ["view", "scenes/puddle/default.toml", "--no-browser", "--set", "rain.rate=20"], {cwd: path.resolve(sources), stdio: ["ignore", "pipe", "inherit"]});
 const printed = await new Promise((done, failed) => {
   let text = "";
   viewed.stdout.on("data", more => { if ((text += more).includes("\n")) done(text.split("\n")[0]); });
@@ -132,13 +132,13 @@ try {
   }), button));
 
   await step("the saved scene is the one that runs", async () => {
-    await slide(page, "rain.rate", 700);
-    await click(page, "#reset");
-    await page.waitForFunction(() => document.getElementById("changed").hidden, {timeout});
+    const rate = await slide(page, "rain.rate", 700);
+    await click(page, "#reset");  // at once: the value is on its way
     await atFrame(page, 0);
+    assert.match(await textOf(page, "#command"), new RegExp(`rain\\.rate=${rate}$`));
     const file = path.join(work, "saved.toml");
     fs.writeFileSync(file, await saved("save"));
-    assert.match(fs.readFileSync(file, "utf8"), /^rate = /m);
+    assert.match(fs.readFileSync(file, "utf8"), new RegExp(`^rate = ${rate}`, "m"));
     assert.deepEqual(await linesOf(page), nativeLines(0, file, "--frames", "1"));
   });
 

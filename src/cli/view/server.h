@@ -12,10 +12,10 @@
 
 namespace rainref::cli {
 
-/// A whole answer.
+/// A whole answer. With a `location` the browser asks there instead.
 struct Reply {
   int status = 404;
-  std::string type, body;
+  std::string type, body, location{};
 };
 /// A file that a page sends.
 struct Upload {

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t server_threads = 16, most_bytes = std::size_t{512} << 20;
 
 Sender sender_of(const httplib::Request& request) {
-  return {request.get_header_value("Host"), request.get_header_value("Origin"), request.get_header_value("Sec-Fetch-Site")};
+  return {request.get_header_value("Host"), request.get_header_value("Origin"), request.get_header_value("Sec-Fetch-Site"),
+          request.get_header_value("Sec-Fetch-Dest") == "document"};
 }
 
 /// By value, because the answer is written after the request is gone.
@@ -88,6 +89,7 @@ class Server::Listening {
   static void answer(httplib::Response& response, const Reply& reply) {
     response.status = reply.status;
     response.set_content(reply.body, reply.type);
+    if (!reply.location.empty()) response.set_header("Location", reply.location);
   }
 
   httplib::Server server_;

@@ -151,9 +151,10 @@ Result Session::step() {
 
 Result Session::film(const Json& args, const Advance& advance) const {
   if (!running_) throw Error(ExitCode::usage, "no scene is open");
-  const auto frames = argument<int>(args, "frames");
-  if (constexpr int most = 1000000; frames < 1 || frames > most)
-    throw Error(ExitCode::usage, fmt::format("frames: expected 1 to {}, found {}", most, frames));
+  const auto number = argument<double>(args, "frames");
+  if (constexpr int most = 1000000; !(number >= 1 && number <= most))
+    throw Error(ExitCode::usage, fmt::format("frames: expected 1 to {}, found {}", most, number));
+  const int frames = static_cast<int>(number);
   const std::unique_ptr<Hidden> folder = temporary();
   const fs::path path = folder->path() / plain_name(fmt::format("{}.{}", running_->effect(), argument<std::string>(args, "kind")));
   SceneText scene = scene_;

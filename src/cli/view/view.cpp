@@ -57,17 +57,21 @@ void view(const ViewRequest& request) {
   const SceneList scenes(request.named, request.scene.scene);
   Sessions sessions(scenes, request.scene.threads);
   Server server(request.port);
-  const Access access(Access::new_token(), server.port());
+  Access access(Access::new_secret(), Access::new_secret(), server.port());
 
-  std::string address = access.address() + "live.html?scene=" + escaped(scenes.first()) + "&size=" + escaped(request.size);
-  for (const std::string& set : request.set) address += "&set=" + escaped(set);
-  const bool is_opened = request.opens_browser && open_browser(address);
-  say("{}\n{}Ctrl-C ends it.\n", address,
+  std::string page = "live.html?scene=" + escaped(scenes.first()) + "&size=" + escaped(request.size);
+  for (const std::string& set : request.set) page += "&set=" + escaped(set);
+  const bool is_opened = request.opens_browser && open_browser(access.address_once());
+  say("{}\n{}Ctrl-C ends it.\n", access.address() + page,
       is_opened || !request.opens_browser ? "" : "No browser could be opened: open this address in one. ");
   if (std::fflush(stdout) != 0) throw Error(ExitCode::io, "standard output cannot be written");
 
   server.run({.refusal = [&](const Sender& sender, std::string_view path) { return access.refusal(sender, path); },
-              .get = [&](std::string_view path) { return answer_get(pages, scenes, access.name_in(path)); },
+              .get =
+                  [&](std::string_view path) {
+                    if (access.leads_to_page(path)) return Reply{303, "text/plain", "", access.address() + page};
+                    return answer_get(pages, scenes, access.name_in(path));
+                  },
               .post =
                   [&](std::string_view path, const Sent& sent, const Write& write) {
                     std::string_view name = access.name_in(path);

@@ -2,7 +2,7 @@
 // live.html?scene=puddle/default.toml&size=640x360&set=rain.rate=20 opens that scene, with values of keys.
 import {FilmRow} from "./live_film.js";
 import {LiveRun} from "./live_run.js";
-import {SceneList} from "./live_scenes.js";
+import {SceneList, sceneOfFiles} from "./live_scenes.js";
 import {Parameters} from "./parameters.js";
 import {shownGallery} from "./live_gallery.js";
 import {element} from "./report_words.js";
@@ -14,7 +14,7 @@ const fileSizes = ["1280x720", "960x540", "640x360", "480x270", "320x180", "160x
 
 const run = new LiveRun(), scenes = new SceneList(), parameters = new Parameters(part("parameters"), changeParameter);
 let playing = false, shownTimes = [], stopped = Promise.resolve();
-let comparison = null;  // where ports run beside the scene
+let comparison = null;  // promise of it, where ports run beside the scene
 let begun = 0;          // how often a scene began, or began again
 
 function showError(id, error) {
@@ -115,7 +115,7 @@ function setPlaying(now) {
 
 /// Opens a scene and shows frame 0, replacing the running one; false if it is refused, after showing the error.
 async function open(scene, options) {
-  ++begun;
+  const mine = ++begun;
   setPlaying(false);
   showError("scene-error", null);
   const effect = run.info?.effect, variant = run.info?.variant, isFirst = run.info === null;
@@ -123,6 +123,7 @@ async function open(scene, options) {
     await whileBusy("Opening the scene…", () => run.open(scene, options), 100);
   } catch (error) {
     showError("scene-error", error);
+    if (run.frame < 0 && run.info) await step();  // the scene that stays showed no frame yet
     return false;
   }
   await stopped;
@@ -146,11 +147,11 @@ async function open(scene, options) {
   part("warnings").replaceChildren(...run.info.warnings.map(text => element("li", {}, text)));
   part("warnings").hidden = run.info.warnings.length === 0;
   for (const id of ["scene", "variant", "save", "play", "step", "reset"]) part(id).disabled = false;
-  comparison?.ready();
+  (await comparison)?.ready();
   const address = new URL(location), sets = [...run.sets].map(([key, toml]) => ["set", `${key}=${toml}`]);
   address.search = known ? new URLSearchParams([["scene", known.path], ...(run.size === "automatic" ? [] : [["size", run.size]]), ...sets]) : "";
   history.replaceState(null, "", address);
-  await step();
+  if (mine === begun) await step();
   return true;
 }
 /// Opens a listed scene, by its path.
@@ -162,12 +163,12 @@ async function openListed(path, options) {
     return false;
   }
 }
-/// A chosen or dropped scene, with the files that it names.
 async function openFiles(list) {
-  const all = [...list], scene = all.find(file => /\.toml$/i.test(file.name));
-  if (!scene) return showError("scene-error", new Error(`${all.map(f => f.name).join(", ")}: expected a scene (.toml), and files that it names beside it`));
-  const files = await Promise.all(all.filter(f => f !== scene).map(async f => ({path: f.name, bytes: new Uint8Array(await f.arrayBuffer())})));
-  await open({file: scene.name, text: await scene.text(), files});
+  try {
+    await open(await sceneOfFiles([...list]));
+  } catch (error) {
+    showError("scene-error", error);
+  }
 }
 async function changeVariant(variant) {
   const {scene} = run, {effect} = run.info, sets = new Map([...run.sets, ["variant", JSON.stringify(variant)]]);
@@ -215,20 +216,19 @@ async function changeParameter(key, toml) {
 
 // ---- the page ----
 
-async function startComparison() {
+async function newComparison() {
   const {Comparison} = await import("./live_compare.js");
-  comparison = new Comparison(run, {
+  return new Comparison(run, {
     before: () => setPlaying(false),
     shown: shown => {
       shownTimes = [];
       showFrame(shown);
     },
   });
-  if (run.info) comparison.ready();
 }
 
 async function reset() {
-  ++begun;
+  const mine = ++begun;
   setPlaying(false);
   showError("run-error", null);
   part("state").textContent = "";
@@ -238,7 +238,7 @@ async function reset() {
     return showError("run-error", error);
   }
   await stopped;
-  await step();
+  if (mine === begun) await step();
 }
 part("play").onclick = () => setPlaying(!playing);
 part("step").onclick = () => step();
@@ -282,7 +282,7 @@ function showOffers() {
   const offers = what => run.offers.includes(what);
   if (run.where) part("where").textContent = run.where;
   if (offers("film")) new FilmRow(run, {before: () => setPlaying(false)});
-  if (offers("ports")) startComparison();
+  if (offers("ports")) comparison = newComparison();
   part("ports").hidden = !offers("ports");
   part("pages").hidden = !offers("site");
 }

@@ -52,12 +52,13 @@ export class LiveRun {
     return this.#inTurn(async () => { Object.assign(this, await this.#engine.run("describe")); });
   }
 
-  /// scene: {text, file, files}; size: "automatic", "scene" (its own) or "640x360". The running scene stays if the new one is refused.
+  /// scene: {text, file, files}; sets: null: as they are when its turn comes; size: "automatic", "scene" (its own) or "640x360". The running
+  /// scene stays if the new one is refused.
   async open(scene, {sets = new Map(), size = this.#size} = {}) {
     const former = {scene: this.#scene, sets: this.sets, size: this.#size}, lost = this.#giveUp();
     return this.#inTurn(async () => {
       try {
-        await this.#open(scene, sets, size);
+        await this.#open(scene, sets ?? new Map(this.sets), size);
       } catch (error) {
         if (lost && former.scene) await this.#open(former.scene, former.sets, former.size);
         throw error;
@@ -65,7 +66,7 @@ export class LiveRun {
     });
   }
   /// Frame 0 again, with the current keys.
-  reset() { return this.open(this.#scene, {sets: new Map(this.sets)}); }
+  reset() { return this.open(this.#scene, {sets: null}); }
   /// The same with another value that a running scene does not accept.
   restartWith(key, toml) { return this.open(this.#scene, {sets: new Map([...this.sets, [key, toml]])}); }
 

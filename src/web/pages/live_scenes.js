@@ -7,6 +7,14 @@ async function fetched(path, kind) {
   return answer[kind]();
 }
 
+/// A chosen or dropped scene in the form of LiveRun.open, with the files that it names.
+export async function sceneOfFiles(all) {
+  const scene = all.find(file => /\.toml$/i.test(file.name));
+  if (!scene) throw new Error(`${all.map(f => f.name).join(", ")}: expected a scene (.toml), and files that it names beside it`);
+  const files = await Promise.all(all.filter(f => f !== scene).map(async f => ({path: f.name, bytes: new Uint8Array(await f.arrayBuffer())})));
+  return {file: scene.name, text: await scene.text(), files};
+}
+
 export class SceneList {
   /// [{path, effect, variant, sentence, files, keys, picture?, error?, file?}]. `path`: below scenes; `file`: what commands call it, if not
   /// "scenes/" and the path; `error`: why it cannot run here.

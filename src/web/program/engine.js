@@ -55,6 +55,7 @@ export class Engine {
 
   /// Calls an operation. `files` of its arguments are sent beside them. `signal` aborts this call alone.
   async run(operation, {files = [], ...args} = {}, {onProgress, signal} = {}) {
+    if (signal?.aborted) throw new Cancelled();
     const form = new FormData(), aborting = new AbortController();
     form.append("args", JSON.stringify(args));
     for (const {path, bytes} of files) form.append("file", new Blob([bytes]), path);

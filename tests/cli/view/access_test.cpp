@@ -12,7 +12,8 @@ using testing::MatchesRegex;
 using testing::Optional;
 
 const std::string token = "00112233445566778899aabbccddeeff", path = "/" + token + "/live.html";
-const Access access(token, 8123);
+const std::string once = "ffeeddccbbaa99887766554433221100";
+Access access(token, once, 8123);
 
 TEST(ViewAccess, ThePageMay) {
   EXPECT_EQ(access.address(), "http://127.0.0.1:8123/" + token + "/");
@@ -46,8 +47,27 @@ TEST(ViewAccess, NobodyMayWithoutTheToken) {
     EXPECT_THAT(access.refusal({"127.0.0.1:8123", "", ""}, wrong), Optional(HasSubstr("address"))) << wrong;
 }
 
-TEST(ViewAccess, TokensAreNew) {
-  const std::string a = Access::new_token(), b = Access::new_token();
+TEST(ViewAccess, ALinkToThePageMayStandAnywhere) {
+  EXPECT_EQ(access.refusal({"127.0.0.1:8123", "", "cross-site", true}, path), std::nullopt);
+  EXPECT_THAT(access.refusal({"127.0.0.1:8123", "http://rain.example", "cross-site", true}, path), Optional(HasSubstr("Origin")));
+}
+
+TEST(ViewAccess, TheBrowsersAddressLeadsThereOnce) {
+  Access fresh(token, once, 8123);
+  const std::string first = "/" + once + "/";
+  EXPECT_EQ(fresh.address_once(), "http://127.0.0.1:8123" + first);
+  EXPECT_FALSE(fresh.leads_to_page(path));
+  EXPECT_FALSE(fresh.leads_to_page(first + "live.html"));
+  EXPECT_THAT(fresh.refusal({"127.0.0.1:8123", "", ""}, first + "live.html"), Optional(HasSubstr("address")));
+  EXPECT_EQ(fresh.refusal({"127.0.0.1:8123", "", ""}, first), std::nullopt);
+  EXPECT_TRUE(fresh.leads_to_page(first));
+  EXPECT_FALSE(fresh.leads_to_page(first));
+  EXPECT_THAT(fresh.refusal({"127.0.0.1:8123", "", ""}, first), Optional(HasSubstr("has used")));
+  EXPECT_EQ(fresh.refusal({"127.0.0.1:8123", "", ""}, path), std::nullopt);
+}
+
+TEST(ViewAccess, SecretsAreNew) {
+  const std::string a = Access::new_secret(), b = Access::new_secret();
   EXPECT_THAT(a, MatchesRegex("[0-9a-f]{32}"));
   EXPECT_NE(a, b);
 }

@@ -219,12 +219,20 @@ TEST_F(View, AFilmHasTheFramesOfTheProgram) {
   EXPECT_THAT(page.run("film", {{"frames", 3}, {"kind", "avi"}}).back().json["error"]["message"].get<std::string>(), HasSubstr(".webm"));
 }
 
-TEST_F(View, OpensTheBrowserAtTheAddress) {
+TEST_F(View, OpensTheBrowser) {
   use("xdg-open", "printf '%s\\n' \"$#\" \"$@\" >opened.part && mv opened.part opened\n");
   ServedPage page(folder.path(), {"corrected.toml", "--set", "rain.rate= 20"});
-  await([&] { return fs::exists(folder / "opened"); });
-  EXPECT_THAT(lines_of(contents(folder / "opened")), ElementsAre("1", page.address()));
   EXPECT_THAT(page.address(), EndsWith("/live.html?scene=corrected.toml&size=640x360&set=rain.rate%3D%2020"));
+  await([&] { return fs::exists(folder / "opened"); });
+  // Others may see what it is given: that works once.
+  const std::vector<std::string> given = lines_of(contents(folder / "opened"));
+  const std::string start = "http://" + page.host();
+  ASSERT_THAT(given, ElementsAre("1", StartsWith(start + "/")));
+  EXPECT_THAT(given[1], Not(HasSubstr(page.root())));
+  const httplib::Result first = page.client().Get(given[1].substr(start.size()));
+  EXPECT_EQ(first->status, 303);
+  EXPECT_EQ(first->get_header_value("Location"), page.address());
+  EXPECT_EQ(page.client().Get(given[1].substr(start.size()))->status, 403);
 }
 
 TEST_F(View, RefusesBeforeItServes) {
