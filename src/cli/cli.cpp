@@ -95,18 +95,8 @@ std::vector<Verb> add_verbs(CLI::App& app, const std::string& command) {
                        "Print the version, and which bits this build gives");
   app.require_subcommand(1);
   app.footer("`rainref help VERB` or `rainref VERB --help` says what a verb takes.\nExample: rainref run scenes/puddle/default.toml");
-  return {list_verb(app),
-          describe_verb(app),
-          run_verb(app),
-          view_verb(app),
-          hash_verb(app),
-          pack_verb(app),
-          diff_verb(app),
-          validate_verb(app, command),
-          mutate_verb(app),
-          import_verb(app),
-          sweep_verb(app),
-          selftest_verb(app),
+  return {list_verb(app), describe_verb(app),          run_verb(app),    view_verb(app),   hash_verb(app),  pack_verb(app),
+          diff_verb(app), validate_verb(app, command), mutate_verb(app), import_verb(app), sweep_verb(app), selftest_verb(app),
           demo_verb(app)};
 }
 

@@ -17,7 +17,10 @@ using testing::StartsWith;
 class View : public CommandLine {
  protected:
   View() : path_(std::getenv("PATH")) { fs::create_directory(folder / "bin"); }
-  ~View() override { ::setenv("PATH", path_.c_str(), 1); }
+  ~View() override {
+    ::setenv("PATH", path_.c_str(), 1);
+    ::unsetenv("TMPDIR");
+  }
 
   /// A program of this shell script, before all others.
   void use(const std::string& name, const std::string& script) {
@@ -231,7 +234,7 @@ TEST_F(View, OpensTheBrowser) {
   EXPECT_THAT(given[1], Not(HasSubstr(page.root())));
   const httplib::Result first = page.client().Get(given[1].substr(start.size()));
   EXPECT_EQ(first->status, 303);
-  EXPECT_EQ(first->get_header_value("Location"), page.address());
+  EXPECT_THAT(first->get_header_value("Location"), StartsWith(start + page.root() + "live.html?scene=corrected.toml&size=640x360&set="));
   EXPECT_EQ(page.client().Get(given[1].substr(start.size()))->status, 403);
 }
 
@@ -244,7 +247,20 @@ TEST_F(View, RefusesBeforeItServes) {
   expect_refusal({"view", "corrected.toml", "--no-browser", "--port", page.host().substr(10)}, 4, HasSubstr("expected a free port"));
 }
 
+TEST_F(View, APictureIsAScene) {
+  good(rainref({"run", "corrected.toml", "--size", "24x16", "-o", "."}));
+  ServedPage page(folder.path(), {"puddle.0001.png", "--size", "24x16", "--no-browser"});
+  EXPECT_THAT(page.address(), HasSubstr("?scene=puddle.0001.png&"));
+  nlohmann::json args = scene();
+  args["text"] = page.get("scenes/puddle.0001.png")->body;
+  args["known"] = "puddle.0001.png";
+  page.good("open", args);
+  EXPECT_EQ(page.good("step", {}).json["result"]["lines"], lines_of_frame({}, 0));
+}
+
 TEST_F(View, EndsWithASignalAndLeavesNothing) {
+  fs::create_directory(folder / "tmp");
+  ::setenv("TMPDIR", (folder / "tmp").c_str(), 1);
   ServedPage page = served();
   nlohmann::json args = scene();
   args.erase("known");
@@ -252,7 +268,9 @@ TEST_F(View, EndsWithASignalAndLeavesNothing) {
       page.run("open", args, "1", {{"file", contents(folder / "sky.npy"), "sky.npy", "application/octet-stream"}}).back();
   EXPECT_TRUE(answer.json.contains("result")) << answer.json;
   EXPECT_EQ(page.good("step", {}).json["result"]["lines"], lines_of_frame({}, 0));
+  EXPECT_EQ(names("tmp").size(), 1u);
   EXPECT_EQ(page.program().end(SIGTERM), -SIGTERM);
+  EXPECT_THAT(names("tmp"), ElementsAre());
 }
 
 }  // namespace
