@@ -103,7 +103,8 @@ try {
       return document.getElementById("parameter-rain.rate").value;
     });
     assert(Number(rate) > 20, rate);
-    await page.waitForFunction(() => !document.getElementById("changed").hidden, {timeout});
+    await atFrame(page, 1);  // shown at once
+    assert.equal(await page.$eval("#changed", e => e.hidden), false);
     await click(page, "#reset");
     await page.waitForFunction(() => document.getElementById("changed").hidden, {timeout});
     for (let frame = 1; frame <= 2; ++frame) {
