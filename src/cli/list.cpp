@@ -39,7 +39,8 @@ int list(const std::string& effect, bool json) {
       for (const capture::PassInfo& pass : e->info->passes) one["passes"].push_back(pass.name);
       out["effects"].push_back(one);
     }
-    out["scenes"] = out["scene_sentences"] = nlohmann::ordered_json::array();
+    out["scenes"] = nlohmann::ordered_json::array();
+    out["scene_sentences"] = nlohmann::ordered_json::array();
     for (const simulation::KnownScene& scene : scenes) {
       out["scenes"].push_back(scene.name);
       out["scene_sentences"].push_back(scene.sentence);

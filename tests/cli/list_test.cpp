@@ -50,9 +50,9 @@ TEST_F(List, SaysWhatASceneIs) {
   put(folder / "scenes/longer.toml", "#Mist\n# of a kettle.\n# More.\n\n# Not this.\n" + effect);
   put(folder / "scenes/no_comment.toml", effect + "# Below\n");
   put(folder / "scenes/no_scene.toml", "# What is no TOML.\n[");
-  EXPECT_THAT(rainref({"list"}).out, HasSubstr("\nScenes\n  scenes/a.toml         Rain on a pond\n"
-                                               "  scenes/longer.toml    Mist of a kettle\n"
-                                               "  scenes/no_comment.toml\n  scenes/no_scene.toml  What is no TOML\n\n"));
+  EXPECT_THAT(rainref({"list"}).out, HasSubstr("\nScenes\n  scenes/a.toml           Rain on a pond\n"
+                                               "  scenes/longer.toml      Mist of a kettle\n"
+                                               "  scenes/no_comment.toml\n  scenes/no_scene.toml    What is no TOML\n\n"));
 }
 
 TEST_F(List, OfOneEffect) {
@@ -175,7 +175,7 @@ TEST_F(Describe, WhatASceneSets) {
   EXPECT_THAT(o.out, StartsWith("puddle/default: A puddle on a street at night, in rain\n\neffect puddle, variant corrected\n"));
   put(folder / "mine.toml", "# Rain.\neffect = 'puddle'\nvariant = 'corrected'\n[rain]\nrate = 30\n");
   const std::string mine = rainref({"describe", "mine.toml"}).out;
-  EXPECT_THAT(mine, AllOf(StartsWith("mine.toml: Rain\n"), ContainsRegex("\nrain.rate  real  30  0 to 200 .mm/h.\n"),
+  EXPECT_THAT(mine, AllOf(StartsWith("mine.toml: Rain\n"), ContainsRegex("\nrain.rate  real  30.0  0 to 200 .mm/h.\n"),
                           HasSubstr(" Default: 5."), Not(HasSubstr("puddle.damping")), HasSubstr("\nAll keys: rainref describe puddle\n")));
   const auto json = nlohmann::json::parse(rainref({"describe", "mine.toml", "--json"}).out);
   EXPECT_EQ(json["scene"], "mine.toml");
