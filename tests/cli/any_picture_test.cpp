@@ -116,8 +116,8 @@ TEST_P(AnyPicture, IsSeenBehindDryGlass) {
       worst = std::max(worst, off);
     }
   }
-  // Halves and codes: a code. As published the windshield adds nothing, but corrected it looks the picture up between its texels.
-  EXPECT_LT(sum / (18 * 96), 1.5) << worst;
+  // Halves and codes: a code. Corrected, the windshield's glass takes a twentieth of the light, 3 codes of 128.
+  EXPECT_LT(sum / (18 * 96), scene == "windshield" ? 4 : 1.5) << worst;
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, AnyPicture,
                          testing::Values("edge_splash", "edge_splash_published", "screen_drops", "screen_drops_published", "rainy_glass",
