@@ -89,7 +89,7 @@ Result Session::describe() const {
   return {dumped({{"effects", effects},
                   {"version", version()},
                   {"generation", golden_generation},
-                  {"offers", {"film"}},
+                  {"offers", {"film", "pictures"}},
                   {"where", fmt::format("in the program on this machine, with {}",
                                         threads == 1 ? "one thread" : fmt::format("{} threads", threads))}})};
 }

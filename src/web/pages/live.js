@@ -277,7 +277,7 @@ addEventListener("drop", event => {
   if (event.dataTransfer.files.length > 0) openFiles(event.dataTransfer.files);
 });
 
-/// What this page's engine offers beside running scenes: ports on this device's GPU, films, and the pages of the site around this one.
+/// What this page's engine offers beside running scenes: ports on this device's GPU, films, pictures of any kind, and the site around this page.
 function showOffers() {
   const offers = what => run.offers.includes(what);
   if (run.where) part("where").textContent = run.where;
@@ -285,6 +285,7 @@ function showOffers() {
   if (offers("ports")) comparison = newComparison();
   part("ports").hidden = !offers("ports");
   part("pages").hidden = !offers("site");
+  part("read-files").hidden = offers("pictures");
 }
 async function start() {
   part("size").append(option("automatic"), ...fileSizes.map(size => option(size.replace("x", " x "), size)), option("as the scene says", "scene"));
