@@ -243,7 +243,7 @@ TEST_F(CLibrary, JudgesAFolderAsTheCommandLineDoes) {
     found = std::regex_replace(found, std::regex("\"command\": *\"[^\"]*\""), "\"command\": \"\"");
     expected = std::regex_replace(expected, std::regex("\n[^\n]*<property name=\"command\"[^\n]*"), "");
     // How long it took differs from run to run.
-    for (std::string* text : {&expected, &found}) *text = std::regex_replace(*text, std::regex(" time=\"[0-9.]+\""), "");
+    for (std::string* report : {&expected, &found}) *report = std::regex_replace(*report, std::regex(" time=\"[0-9.]+\""), "");
     EXPECT_FALSE(found.empty());
     EXPECT_TRUE(found == expected) << ending;
   }
