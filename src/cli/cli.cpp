@@ -126,6 +126,7 @@ int main(int argc, const char* const* argv) {
         std::ferror(stdout) ? fmt::format("standard output cannot be written: {}", e.what()) : fmt::format("internal error: {}", e.what());
   }
   if (dies_of_pipes && code == ExitCode::io && std::ferror(stdout) && reader_is_gone()) die_of_closed_pipe();
+  std::fflush(stdout);  // what was printed comes before the complaint, also where both go to one place
   complain(message);
   return static_cast<int>(code);
 }

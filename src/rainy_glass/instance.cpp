@@ -147,7 +147,7 @@ effect::Effect entry() {
            {"rainy_glass panorama", effect::joined(camera, {"scene.panorama", "scene.defocus"})},
            {"rainy_glass bars", effect::joined(effect::joined(pane, behind), {"scene.defocus"})},
            {"rainy_glass scene", effect::joined(barred, {"scene.image", "scene.defocus"})},
-           {"rainy_glass near depth", effect::joined(barred, {"scene.depth", "scene.depth_image", "scene.depth_scale"})},
+           {"rainy_glass near depth", effect::joined(barred, {"scene.image", "scene.depth", "scene.depth_image", "scene.depth_scale"})},
            {"rainy_glass probe", {"seed", "glass.background", "glass.probe_image", "camera.position", "scene.panorama"}},
            {"rainy_glass surface", effect::joined(pane, {"glass.normal_image"})},
            {"rainy_glass droplets", droplets},
