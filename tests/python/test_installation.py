@@ -110,7 +110,7 @@ def test_a_wheel_of_an_installation_has_all_of_it(tmp_path):
     assert "likely cause: not written" in said and said.splitlines()[-1].startswith(str(tmp_path / "site/rainref/lib"))
     # Its program finds its own data, and hands on its exit code.
     script = tmp_path / "site/bin/rainref"
-    assert "\n  puddle/default.toml\n" in run(script, "list", **here)
+    assert "\n  puddle/default.toml " in run(script, "list", **here)
     if (ROOT / "build/release/share/rainref/demo").exists():
         assert "likely cause: refraction ratio inverted" in run(script, "demo", **here)
     assert subprocess.run([script, "nonsense"], capture_output=True, **here).returncode == 2
