@@ -175,6 +175,7 @@ TEST_F(Describe, WhatASceneSets) {
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_THAT(o.out, StartsWith("puddle/default: A puddle on a street at night, in rain\n\neffect puddle, variant corrected\n"));
   put(folder / "mine.toml", "# Rain.\neffect = 'puddle'\nvariant = 'corrected'\n[rain]\nrate = 30\n");
+  before = folder.names();
   const std::string mine = rainref({"describe", "mine.toml"}).out;
   EXPECT_THAT(mine, AllOf(StartsWith("mine.toml: Rain\n"), ContainsRegex("\nrain.rate  real  30.0  0 to 200 .mm/h.\n"),
                           HasSubstr(" Default: 5."), Not(HasSubstr("puddle.damping")), HasSubstr("\nAll keys: rainref describe puddle\n")));
