@@ -1,4 +1,4 @@
-#include "cli/child_process_windows.h"
+#include "base/child_process_windows.h"
 #include "cli/view/browser.h"
 
 #include <shellapi.h>
