@@ -22,7 +22,7 @@ class FilmReader {
   FilmReader(const NamedFile& named, double fps, std::int64_t frames);
   ~FilmReader();
 
-  /// Of the file's bytes.
+  /// The hash of the file's bytes.
   const std::string& hash() const { return hash_; }
   /// Frames that the film lasts; at least `wanted` if it goes on beyond them.
   std::int64_t frames(std::int64_t wanted);

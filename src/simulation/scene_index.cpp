@@ -1,13 +1,14 @@
 #include "simulation/scene_index.h"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 #include "base/path_text.h"
 #include "rainref/error.h"
-#include "scene/toml.h"
 #include "scene/toml_reader.h"
 #include "simulation/own_scenes.h"
+#include "simulation/picture_notes.h"
 
 namespace rainref::simulation {
 
@@ -26,17 +27,25 @@ std::string scene_sentence(std::string_view toml) {
   return text;
 }
 
+KnownScene known_scene(const std::string& name, const std::filesystem::path& file) {
+  KnownScene scene{name, "", "", ""};
+  try {
+    const std::string text = scene_text(file);
+    scene.sentence = scene_sentence(text);
+    for (const scene::RawEntry& entry : scene::read_toml(text, name)) {
+      const auto* said = std::get_if<std::string>(&entry.value.data);
+      if (said && entry.key == "effect") scene.effect = *said;
+      if (said && entry.key == "variant") scene.variant = *said;
+    }
+  } catch (const Error&) {  // it is listed all the same: running it says what is wrong
+  }
+  return scene;
+}
+
 std::vector<KnownScene> scene_index(std::string_view effect) {
   std::vector<KnownScene> all;
   for (const std::string& name : known_scenes()) {
-    KnownScene scene{name, "", ""};
-    try {
-      const std::string text = scene::read_scene(find_scene(utf8_path(name)));
-      scene.sentence = scene_sentence(text);
-      for (const scene::RawEntry& entry : scene::read_toml(text, name))
-        if (const auto* said = std::get_if<std::string>(&entry.value.data); said && entry.key == "effect") scene.effect = *said;
-    } catch (const Error&) {  // it is listed all the same: running it says what is wrong
-    }
+    KnownScene scene = known_scene(name, find_scene(utf8_path(name)));
     if (effect.empty() || scene.effect == effect) all.push_back(std::move(scene));
   }
   return all;

@@ -61,7 +61,7 @@ TEST(Fitted, AConstantPictureStaysSoBitForBit) {
 TEST(Fitted, OfTheSameSizeItIsThePicture) {
   const Image picture = noise_of(57, 31);
   EXPECT_TRUE(same(fitted_to(picture, {57, 31}), picture));
-  // Of what is cut, nothing is mixed in.
+  // Nothing that is cut is mixed in.
   const Image cut = fitted_to(picture, {55, 31});
   EXPECT_TRUE(same(cut, make_image(Format::rgba32f, 55, 31, [](int x, int y, int c) { return noise(x + 1, y, c); })));
 }

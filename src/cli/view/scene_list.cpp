@@ -5,47 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/path_text.h"
-#include "rainref/error.h"
 #include "simulation/own_scenes.h"
-#include "simulation/picture_notes.h"
+#include "simulation/scene_index.h"
 
 namespace rainref::cli {
-namespace {
-
 namespace fs = std::filesystem;
-
-/// The value of a line `key = "value"` before the first section; "" if there is none.
-std::string text_of(std::string_view toml, std::string_view key) {
-  for (std::size_t at = 0; at < toml.size();) {
-    const std::size_t end = std::min(toml.find('\n', at), toml.size());
-    const std::string_view line = toml.substr(at, end - at);
-    at = end + 1;
-    if (line.starts_with('[')) break;
-    const std::size_t from = line.find_first_of("\"'");
-    if (!line.starts_with(key) || line.substr(key.size()).find_first_not_of(" =") != from - key.size()) continue;
-    const std::size_t to = line.find(line[from], from + 1);
-    if (to != std::string_view::npos) return std::string(line.substr(from + 1, to - from - 1));
-  }
-  return "";
-}
-
-/// The first sentence of the comment at the beginning.
-std::string sentence_of(std::string_view toml) {
-  std::string words;
-  for (std::size_t at = 0; at < toml.size() && toml[at] == '#';) {
-    const std::size_t end = std::min(toml.find('\n', at), toml.size());
-    std::string_view line = toml.substr(at + 1, end - at - 1);
-    at = end + 1;
-    if (line.starts_with(' ')) line.remove_prefix(1);
-    if (line.starts_with("  ")) break;  // a command
-    words += (words.empty() ? "" : " ") + std::string(line);
-  }
-  for (std::size_t at = 0; (at = words.find_first_of(".:", at)) != std::string::npos; ++at)
-    if (at + 1 == words.size() || words[at + 1] == ' ') return words.substr(0, at) + ".";
-  return words;
-}
-
-}  // namespace
 
 SceneList::SceneList(const std::string& named, const fs::path& file) {
   std::error_code none;
@@ -64,17 +28,14 @@ SceneList::SceneList(const std::string& named, const fs::path& file) {
 std::string SceneList::json() const {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const auto& [name, entry] : scenes_) {
-    try {
-      const std::string toml = simulation::scene_text(entry.file);
-      list.push_back({{"path", name},
-                      {"effect", text_of(toml, "effect")},
-                      {"variant", text_of(toml, "variant")},
-                      {"sentence", sentence_of(toml)},
-                      {"files", nlohmann::ordered_json::array()},
-                      {"keys", nlohmann::ordered_json::array()},
-                      {"file", entry.shown}});
-    } catch (const Error&) {  // a file that went away; asking for it says why
-    }
+    const simulation::KnownScene scene = simulation::known_scene(name, entry.file);
+    list.push_back({{"path", name},
+                    {"effect", scene.effect},
+                    {"variant", scene.variant},
+                    {"sentence", scene.sentence.empty() ? "" : scene.sentence + "."},
+                    {"files", nlohmann::ordered_json::array()},
+                    {"keys", nlohmann::ordered_json::array()},
+                    {"file", entry.shown}});
   }
   return nlohmann::ordered_json{{"scenes", list}}.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

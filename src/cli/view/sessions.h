@@ -11,8 +11,8 @@
 
 namespace rainref::cli {
 
-/// A page chooses a name for its session, and another one to leave an operation that takes long. Of more than `most` the one that was used
-/// least recently is given up; an operation that runs in it goes on to its end.
+/// A page chooses a name for its session, and another one to leave an operation that takes long. Beyond `most` sessions the one that was
+/// used least recently is given up; an operation that runs in it goes on to its end.
 class Sessions {
  public:
   static constexpr std::size_t most = 4;

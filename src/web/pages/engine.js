@@ -5,6 +5,8 @@
 // (c_library.js) and progress(...values) calls onProgress. They keep what they need between calls in variables of their module.
 // Several engines share one compiled module.
 
+import {Cancelled} from "./cancelled.js";
+
 const compiled = new Map();
 /// The WebAssembly module of that name, downloaded and compiled once for the page. rainref_module is the library; rainref_simulator is its
 /// simulating part, which is smaller.
@@ -20,14 +22,6 @@ export function loadLibrary(name = "rainref_module") {
   compiled.set(name, loaded);
   loaded.catch(() => compiled.delete(name));  // the next call tries again
   return loaded;
-}
-
-/// Error of calls that were in progress when cancel() was called.
-export class Cancelled extends Error {
-  constructor() {
-    super("cancelled");
-    this.name = "Cancelled";
-  }
 }
 
 export class Engine {

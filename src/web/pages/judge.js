@@ -1,6 +1,7 @@
 // The judge page: the choice, the run, and its result.
 import {boundBuffers, isRecords} from "./ports/pack.js";
-import {Cancelled, Engine, loadLibrary} from "./engine.js";
+import {Cancelled} from "./cancelled.js";
+import {Engine, loadLibrary} from "./engine.js";
 import {chosenFolders, droppedFolders, jsonOf} from "./files.js";
 import {Editor} from "./editor.js";
 import {runPasses} from "./gpu_run.js";

@@ -1,13 +1,6 @@
 // In place of ../pages/engine.js where `rainref view` serves the page: the same interface, over operations of the program (cli/view/session.h),
 // which runs them on all threads. Paths are relative to the page, whose address holds the program's secret.
-
-/// Error of calls that were in progress when cancel() was called.
-export class Cancelled extends Error {
-  constructor() {
-    super("cancelled");
-    this.name = "Cancelled";
-  }
-}
+import {Cancelled} from "./cancelled.js";
 
 const newSession = () => [...crypto.getRandomValues(new Uint8Array(16))].map(byte => byte.toString(16).padStart(2, "0")).join("");
 
