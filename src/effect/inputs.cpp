@@ -32,7 +32,9 @@ NamedFile::NamedFile(const scene::Config& config, const std::string& of)
 
 std::filesystem::path NamedFile::path_of(const std::string& file) const {
   const std::filesystem::path path = utf8_path(file);
-  return path.is_relative() && origin.kind == scene::Origin::file ? directory / path : path;
+  if (path.is_absolute()) return path;
+  if (origin.kind == scene::Origin::file) return directory / path;
+  return utf8_path(origin.at.file).parent_path() / path;  // of a preset; --set has no file
 }
 Error NamedFile::placed(ExitCode code, const std::string& message) const {
   if (origin.kind == scene::Origin::file || !origin.at.file.empty()) return Error(code, origin.at, fmt::format("{}: {}", key, message));

@@ -66,7 +66,7 @@ def _take(tree: Path, to: Path) -> None:
         if (tree / "bin" / name).exists():
             (to / "bin").mkdir(exist_ok=True)
             shutil.copy(tree / "bin" / name, to / "bin" / name)
-    for data in "scenes", "pages", "profiles", "packs", "demo":
+    for data in "scenes", "presets", "pages", "profiles", "packs", "demo":
         if (tree / "share/rainref" / data).exists():
             shutil.copytree(tree / "share/rainref" / data, to / "share/rainref" / data, dirs_exist_ok=True)
 

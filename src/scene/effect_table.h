@@ -1,6 +1,7 @@
 // The effects as the scene room needs them; they live on a higher floor.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ struct Effect {
 
 struct EffectTable {
   std::vector<Effect> effects;
+  std::filesystem::path presets{};  ///< the folder of the presets that their scenes may name; "": none
 
   std::vector<std::string> names() const;
   /// Throws Error(usage) with the nearest effect if this name is unknown.

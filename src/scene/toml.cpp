@@ -16,6 +16,7 @@
 #include "scene/check.h"
 #include "scene/key_groups.h"
 #include "scene/key_guess.h"
+#include "scene/presets.h"
 #include "scene/unexercised.h"
 
 namespace rainref::scene {
@@ -161,6 +162,22 @@ std::string deciding(const Parameter& p, const std::vector<RawEntry>& entries, c
   refuse({Origin::file, {path_text(file)}}, p.key, "missing; expected " + expectation(p));
 }
 
+/// What the presets that the last "preset=..." names say.
+std::vector<Override> of_presets(const std::vector<Override>& given, const std::string& effect, const std::string& variant,
+                                 const std::filesystem::path& folder) {
+  std::vector<Override> out;
+  const auto said = std::find_if(given.rbegin(), given.rend(), [](const Override& o) { return o.key == preset_word; });
+  if (said == given.rend()) return out;
+  const std::string names = std::get<std::string>(checked(*said, text(std::string(preset_word), "", "Names of presets.")));
+  try {
+    for (const Preset& preset : presets_for(names, effect, variant, folder))
+      for (const RawEntry& e : preset.keys.at(effect)) out.push_back({e.key, e.value, e.value.at});
+  } catch (const Error& e) {
+    throw said->at.file.empty() ? e : Error(e.code(), said->at, e.what());
+  }
+  return out;
+}
+
 bool says(const std::vector<RawEntry>& entries, std::string_view key) {
   return std::any_of(entries.begin(), entries.end(), [&](const RawEntry& e) { return e.key == key; });
 }
@@ -200,9 +217,12 @@ Config parse(const std::vector<RawEntry>& entries, const std::filesystem::path& 
   const FloatingPointGuard guard;
   const Effect& effect = effects.find(deciding(effect_parameter(effects), entries, given, file));
   std::string variant = deciding(variant_parameter(effect), entries, given, file);
+  const std::vector<Override> preset = of_presets(given, effect.name, variant, effects.presets);
   Assembly assembly(effect, effects, std::move(variant));
   for (const RawEntry& e : entries) assembly.take(e);
-  for (const Override& o : given) assembly.take(o);
+  for (const Override& o : preset) assembly.take(o);
+  for (const Override& o : given)
+    if (o.key != preset_word) assembly.take(o);
   return assembly.finish(file);
 }
 

@@ -17,7 +17,8 @@ namespace rainref::scene {
 
 /// Reads a scene file and checks all of it. `overrides` are "key=value" texts. The value is a TOML value, or a bare text if that fails or
 /// if the parameter is a text or a choice. A later override of the same key replaces an earlier one, and all replace values of the file,
-/// including `effect` and `variant`.
+/// including `effect` and `variant`. "preset=NAME,..." stands for the keys of these presets (scene/presets.h); they replace values of the
+/// file, and the other overrides replace theirs.
 ///
 /// Throws Error(usage) for the first problem in the order of the file, then of the overrides: bad TOML; an effect or a variant that is
 /// missing or unknown; a key that is unknown, or that this variant does not use; a value of the wrong type, out of range or not finite; a

@@ -13,8 +13,9 @@
 #include "night_street/night_street.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
-#include "simulation/picture_notes.h"
 #include "simulation/light_mean.h"
+#include "simulation/own_scenes.h"
+#include "simulation/picture_notes.h"
 
 namespace rainref::simulation {
 namespace {
@@ -61,6 +62,7 @@ const scene::EffectTable& effect_table() {
       for (scene::Parameter& p : development_parameters()) all.push_back(std::move(p));
       t.effects.push_back({e->name, e->variants, all});
     }
+    t.presets = own_data("presets");
     return t;
   }();
   return table;

@@ -11,6 +11,7 @@
 #include "effect/inputs.h"
 #include "rainref/version.h"
 #include "registry/registry.h"
+#include "scene/presets.h"
 #include "scene/toml.h"
 #include "scene/toml_reader.h"
 #include "scene/value_text.h"
@@ -99,7 +100,8 @@ Cells::Cells(const Plan& plan, const Planned& planned) : plan_(plan) {
   std::optional<scene::Config> config;  // of the previous combination
   Cell before;
   const bool has_keys_anew = std::any_of(plan.axes.begin(), plan.axes.end(), [](const Axis& axis) {
-    return std::any_of(axis.keys.begin(), axis.keys.end(), [](const std::string& key) { return key == "effect" || key == "variant"; });
+    return std::any_of(axis.keys.begin(), axis.keys.end(),
+                       [](const std::string& key) { return key == "effect" || key == "variant" || key == scene::preset_word; });
   });
   Cell point;
   for (const std::uint32_t scenes = static_cast<std::uint32_t>(is_judging ? plan.judging.packs.size() : plan.scenes.size());

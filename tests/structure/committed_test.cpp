@@ -16,7 +16,7 @@ using rainref::output_of;
 TEST(Committed, TheTopLevelHoldsFoldersDocumentsAndPresets) {
   const auto [text, status] = output_of("git -C '" RAINREF_SOURCE_DIR "' ls-tree --name-only HEAD");
   if (status != 0) GTEST_SKIP() << "not a checkout: " << text;
-  const std::set<std::string> folders{"src", "include", "tests", "bench", "scenes", "scripts", "docs", "examples"};
+  const std::set<std::string> folders{"src", "include", "tests", "bench", "scenes", "presets", "scripts", "docs", "examples"};
   const std::regex files("\\..+|CMakeLists\\.txt|CMakePresets\\.json|pyproject\\.toml|LICENSE|[A-Z]+\\.md");
   std::istringstream names(text);
   std::size_t found = 0;
