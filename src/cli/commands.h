@@ -15,7 +15,7 @@ namespace rainref::cli {
 /// Options that `run`, `hash` and `pack` share.
 struct SceneOptions {
   std::filesystem::path scene;
-  std::vector<std::string> overrides;  ///< from --set, then --frames and --size
+  std::vector<std::string> overrides;  ///< from --preset and --set, then --frames and --size
   int threads = 0;                     ///< 0: one for each processor
 };
 
@@ -95,8 +95,9 @@ struct LayoutRequest {
 
 /// `effect`: what is listed is of this one; "": of all.
 int list(const std::string& effect, bool json);
-/// `name`: an effect or a scene. `group`: only the keys of an effect that begin so; "": all of it.
-int describe(const std::string& name, const std::string& group, bool json, const LayoutRequest& layout);
+/// `name`: an effect or a scene. `group`: only the keys of an effect that begin so; "": all of it. `overrides`: for a scene.
+int describe(const std::string& name, const std::string& group, bool json, const LayoutRequest& layout,
+             const std::vector<std::string>& overrides = {});
 int describe_shaders(const std::vector<std::filesystem::path>& shaders);
 int run(const RunOptions& options);
 int hash(const SceneOptions& options);

@@ -100,9 +100,9 @@ void say_group(const std::string& effect, const std::string& group, const std::v
 }
 
 /// What a scene file, or the scene in a picture, says beside the defaults.
-int describe_scene(const std::filesystem::path& named, bool json) {
+int describe_scene(const std::filesystem::path& named, bool json, const std::vector<std::string>& overrides) {
   const std::filesystem::path file = simulation::find_scene(named);
-  const scene::Config config = load_scene({file, {}, 0});
+  const scene::Config config = load_scene({file, overrides, 0});
   const std::string sentence = simulation::scene_sentence(simulation::scene_text(file));
   if (json) {
     const nlohmann::ordered_json out{{"scene", path_text(named)},
@@ -134,7 +134,8 @@ int describe_shaders(const std::vector<std::filesystem::path>& shaders) {
   return 0;
 }
 
-int describe(const std::string& name, const std::string& group, bool json, const LayoutRequest& layout) {
+int describe(const std::string& name, const std::string& group, bool json, const LayoutRequest& layout,
+             const std::vector<std::string>& overrides) {
   const scene::EffectTable& table = simulation::effect_table();
   const bool has_layout = layout.language || layout.pass || layout.variant;
   if (!group.empty() && (json || has_layout))
@@ -144,9 +145,10 @@ int describe(const std::string& name, const std::string& group, bool json, const
   if (std::find(effects.begin(), effects.end(), name) == effects.end() && name.find_first_of("./\\") != std::string::npos) {
     if (!group.empty() || has_layout)
       throw Error(ExitCode::usage, fmt::format("{}: expected an effect beside {}", name, group.empty() ? "--layout" : "a group of keys"));
-    return describe_scene(utf8_path(name), json);
+    return describe_scene(utf8_path(name), json, overrides);
   }
   const scene::Effect& declared = table.find(name);
+  if (!overrides.empty()) throw Error(ExitCode::usage, fmt::format("--preset: expected a scene, found the effect '{}'", name));
   const effect::Effect& e = *registry::find(declared.name);
   if (layout.language) {
     say("{}", layout_text(*e.info, scene::language_from_name(*layout.language), layout.pass, layout.variant));

@@ -64,6 +64,7 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
   verb.add_option("--shadow", f.shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time")
       ->type_name("DIR");
   verb.add_option("--size", f.scene.size, "With --shadow and a scene: its picture size, WxH")->type_name("WxH");
+  add_preset_flag(verb, f.scene.presets, "With --shadow and a scene: ");
   verb.add_option("--set", f.scene.set, "With --shadow and a scene: override one of its values, key=value")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -98,7 +99,7 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
       "--port out/port --partial --allow-untested\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
 }
 
-bool changes_scene(const ValidateFlags& f) { return f.scene.size || !f.scene.set.empty(); }
+bool changes_scene(const ValidateFlags& f) { return f.scene.size || !f.scene.set.empty() || !f.scene.presets.empty(); }
 
 /// A port's own run: PACK is the scene that it ran, or empty.
 void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
@@ -108,7 +109,7 @@ void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
                                                                               : f.spirv                  ? "--spirv"
                                                                               : !f.request.fused.empty() ? "--fused"
                                                                                                          : "--port"));
-  if (f.pack.empty() && changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
+  if (f.pack.empty() && changes_scene(f)) throw Error(ExitCode::usage, "--set, --preset and --size: expected the scene that they change");
   if (std::error_code ignored; std::filesystem::is_directory(utf8_path(f.pack), ignored)) {
     throw Error(ExitCode::usage, fmt::format("--shadow: expected the scene that the port ran, found the folder '{}'; a manifest.json "
                                              "beside the dumps would serve as well",
@@ -123,7 +124,7 @@ void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
 /// Judging a pack requires the pack and the port's outputs.
 void require_pack_and_port(const ValidateFlags& f) {
   if (f.pack.empty()) throw Error(ExitCode::usage, "validate: expected the folder of a PACK, or --shadow DIR");
-  if (changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: go with --shadow and a scene only");
+  if (changes_scene(f)) throw Error(ExitCode::usage, "--set, --preset and --size: go with --shadow and a scene only");
   if (f.request.foreign_host) throw Error(ExitCode::usage, "--foreign-host: goes with --shadow only");
   if (!f.exec && f.port.empty()) throw Error(ExitCode::usage, "validate: expected --port DIR, or --exec COMMAND, which runs the port");
 }

@@ -23,6 +23,7 @@ struct Described {
   /// "exr|png|both|none" as words; empty for other values.
   std::vector<std::string> words() const { return value.find('|') == std::string::npos ? std::vector<std::string>() : split(value); }
   bool is_scene() const { return names[0] == "SCENE"; }
+  bool is_preset() const { return names[0] == "--preset"; }
 
   static std::vector<std::string> split(std::string text) {
     std::replace(text.begin(), text.end(), '|', ',');
@@ -113,6 +114,9 @@ std::string quoted(const std::string& text) { return "'" + replaced(text, "'", "
 constexpr const char* scenes_command =
     "rainref list 2>/dev/null | sed -n -e '/^Scenes$/,/^$/!d' -e 's/^  //' -e 's/[.]toml  .*/.toml/' -e '/[.]toml$/p'";
 
+/// Prints the names of presets.
+constexpr const char* presets_command = "rainref list 2>/dev/null | sed -n -e '/^Presets/,/^$/s/^  \\([a-z_]*\\) .*/\\1/p'";
+
 }  // namespace
 
 std::string man_page() {
@@ -138,7 +142,8 @@ std::string man_page() {
       "3: a port's files, or a pack. 4: a file that cannot be read or written. 5: a defect of rainref.\n"
       ".SH ENVIRONMENT\n.TP\n\\fBXDG_CACHE_HOME\\fR\nWhere \\fBrun\\fR keeps pictures that it made: in its folder \\fIrainref\\fR. "
       "Default: "
-      "\\fI~/.cache\\fR.\n.SH FILES\n.TP\n\\fI.../share/rainref\\fR\nScenes, which \\fBlist\\fR names, small packs and profiles, beside "
+      "\\fI~/.cache\\fR.\n.SH FILES\n.TP\n\\fI.../share/rainref\\fR\nScenes and presets, which \\fBlist\\fR names, small packs and "
+      "profiles, beside "
       "the "
       "program wherever it is installed.\n";
   return out;
@@ -166,6 +171,7 @@ std::string bash_completion() {
       if (d.value.empty()) continue;
       for (const std::string& name : d.names) {
         const std::string action = !d.words().empty()  ? fmt::format("_rainref_words \"{}\"", shell_words(d.words()))
+                                   : d.is_preset()     ? fmt::format("_rainref_words \"$({})\"", presets_command)
                                    : d.value == "FILE" ? "_rainref_files"
                                    : d.value == "DIR"  ? "_rainref_folders"
                                                        : ":";
@@ -202,6 +208,7 @@ std::string zsh_completion() {
   const auto action = [](const Described& d) -> std::string {
     if (!d.words().empty()) return fmt::format("({})", shell_words(d.words()));
     if (d.is_scene()) return "_rainref_scenes";
+    if (d.is_preset()) return "_rainref_presets";
     return d.value == "DIR" ? "_files -/" : d.value == "FILE" ? "_files" : " ";
   };
   std::string names, cases;
@@ -228,11 +235,12 @@ std::string zsh_completion() {
       "#compdef rainref\n# zsh completion of rainref, written by its build from the program's own options.\n"
       "_rainref_scenes() {{\n  local -a scenes=(${{(f)\"$({})\"}})\n  _alternative 'scenes:scene:compadd -a scenes' "
       "'files:file:_files'\n}}\n"
+      "_rainref_presets() {{\n  local -a presets=(${{(f)\"$({})\"}})\n  compadd -a presets\n}}\n"
       "_rainref_verbs() {{\n  local -a verbs=(\n    'help:What a verb takes'\n{}  )\n  _describe verb verbs\n}}\n"
       "_rainref() {{\n  local line state\n  _arguments -C{} '1:verb:_rainref_verbs' '*::argument:->arguments'\n"
       "  [[ $state == arguments ]] || return\n  case $line[1] in\n    (help)\n      _rainref_verbs ;;\n{}  esac\n}}\n"
       "if [[ $funcstack[1] == _rainref ]]; then _rainref \"$@\"; else compdef _rainref rainref; fi\n",
-      scenes_command, names, own, cases);
+      scenes_command, presets_command, names, own, cases);
 }
 
 }  // namespace rainref::cli

@@ -9,9 +9,21 @@
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
+#include "scene/presets.h"
 #include "simulation/own_scenes.h"
 
 namespace rainref::cli {
+
+void add_preset_flag(CLI::App& verb, std::vector<std::string>& presets, const std::string& before) {
+  verb.add_option("--preset", presets, before + "Weather and light over the scene's own, such as storm,night; --set changes them again")
+      ->type_name("PRESET,...")
+      ->allow_extra_args(false);
+}
+
+std::vector<std::string> preset_override(const std::vector<std::string>& presets) {
+  if (presets.empty()) return {};
+  return {fmt::format("{}={}", scene::preset_word, fmt::join(presets, ","))};
+}
 
 void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames) {
   verb.add_option("SCENE", flags.scene,
@@ -22,13 +34,15 @@ void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames) {
   verb.add_option("--size", flags.size, "Picture size, WxH")->type_name("WxH");
   verb.add_option("--threads", flags.threads, "Threads; the result does not depend on them")->type_name("N");
   verb.add_option("--simd", flags.simd, "SIMD target; the result does not depend on it (see `rainref list`)")->type_name("TARGET");
+  add_preset_flag(verb, flags.presets);
   verb.add_option("--set", flags.set, "Override a scene value: key=value")->type_name("KEY=VALUE")->allow_extra_args(false);
 }
 
 SceneOptions resolve(const SceneFlags& flags) {
   SceneOptions options;
   options.scene = simulation::find_scene(utf8_path(flags.scene));
-  options.overrides = flags.set;
+  options.overrides = preset_override(flags.presets);
+  options.overrides.insert(options.overrides.end(), flags.set.begin(), flags.set.end());
   if (flags.frames) options.overrides.push_back(fmt::format("run.frames={}", whole_number(*flags.frames, "--frames", 1, 1000000)));
   if (flags.size) {
     const std::string& size = *flags.size;

@@ -40,7 +40,7 @@ Verb list_verb(CLI::App& app) {
     std::string effect;
     bool json = false;
   };
-  CLI::App& verb = *app.add_subcommand("list", "Effects, variants, passes, scenes and SIMD targets");
+  CLI::App& verb = *app.add_subcommand("list", "Effects, variants, passes, scenes, presets and SIMD targets");
   const auto f = std::make_shared<Flags>();
   verb.add_option("EFFECT", f->effect, "Only what is of this effect")->type_name(effect_words());
   verb.add_flag("--json", f->json, "As JSON");
@@ -53,13 +53,14 @@ Verb describe_verb(CLI::App& app) {
     std::string effect, group;
     bool json = false;
     LayoutRequest layout;
-    std::vector<std::string> spirv;
+    std::vector<std::string> presets, spirv;
   };
   CLI::App& verb = *app.add_subcommand("describe", "Keys, passes and buffers of an effect, or what a scene sets; GPU layouts");
   const auto f = std::make_shared<Flags>();
   verb.add_option("EFFECT", f->effect, "Effect, or a scene: a file, or a name of `rainref list`")->type_name(effect_words());
   verb.add_option("GROUP", f->group, "Only the keys of the effect that begin so, such as rain or rain.rate")->type_name("NAME");
   verb.add_flag("--json", f->json, "As JSON");
+  add_preset_flag(verb, f->presets, "With a scene: ");
   verb.add_option("--layout", f->layout.language, "Uniform blocks, records, images and lists ready to paste")
       ->type_name("c|glsl|hlsl|wgsl|cuda|glsl330|gdshader");
   verb.add_option("--pass", f->layout.pass, "With --layout: what this pass needs alone")->type_name("NAME");
@@ -68,13 +69,13 @@ Verb describe_verb(CLI::App& app) {
       ->type_name("FILE...");
   verb.footer(
       "Example: rainref describe windshield condensation\n"
-      "What a scene sets: rainref describe puddle/default\n"
+      "What a scene sets: rainref describe puddle/default --preset storm\n"
       "For a shader: rainref describe puddle --layout glsl --pass wave_step --variant corrected\n"
       "An effect of your own: rainref describe --spirv fog.spv shade.spv > effect.json");
   return {&verb, [f] {
             require_either(f->effect, "EFFECT", f->spirv.empty() ? "" : f->spirv.front());
-            if (f->spirv.empty()) return describe(f->effect, f->group, f->json, f->layout);
-            if (!f->group.empty() || f->json || f->layout.language || f->layout.pass || f->layout.variant)
+            if (f->spirv.empty()) return describe(f->effect, f->group, f->json, f->layout, preset_override(f->presets));
+            if (!f->group.empty() || !f->presets.empty() || f->json || f->layout.language || f->layout.pass || f->layout.variant)
               throw Error(ExitCode::usage, "--spirv: expected no other option beside it");
             std::vector<std::filesystem::path> shaders;
             for (const std::string& shader : f->spirv) shaders.push_back(utf8_path(shader));
@@ -116,6 +117,7 @@ Verb run_verb(CLI::App& app) {
   verb.add_flag("--json", f->options.json, "Print the summary as JSON");
   verb.footer(
       "Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy\n"
+      "Weather: rainref run puddle/default --preset storm,night\n"
       "A film:  rainref run scenes/rainy_glass/default.toml --size 960x540 --frames 600 --film rain.mp4\n"
       "What made a picture, again: rainref run out/heavy/puddle.0119.png\n"
       "Pictures of a long film, the same command until it ends:\n"
@@ -188,9 +190,10 @@ Verb pack_verb(CLI::App& app) {
               throw Error(ExitCode::usage,
                           fmt::format("expected one of SCENE, --spirv and --flat, found {}", sources == 0 ? "none" : "several"));
             if (f->scene.scene.empty()) {
-              if (f->at || f->passes || f->shows_coverage || f->scene.size || f->scene.simd || !f->scene.set.empty())
+              if (f->at || f->passes || f->shows_coverage || f->scene.size || f->scene.simd || !f->scene.set.empty() ||
+                  !f->scene.presets.empty())
                 throw Error(ExitCode::usage,
-                            fmt::format("{}: expected none of --at, --passes, --coverage, --size, --simd and --set beside it",
+                            fmt::format("{}: expected none of --at, --passes, --coverage, --size, --simd, --preset and --set beside it",
                                         f->flat.empty() ? "--spirv" : "--flat"));
             }
             if (!f->flat.empty()) {

@@ -27,12 +27,13 @@ Verb view_verb(CLI::App& app) {
       "The page is served to this machine alone, at an address that nobody can guess. Without SCENE it shows puddle/default.toml, and "
       "without\n"
       "--size pictures of 640x360.\n"
-      "Example: rainref view puddle/default.toml --set rain.rate=20\n"
+      "Example: rainref view puddle/default.toml --preset storm --set rain.rate=20\n"
       "On a machine without a screen, by ssh -L 8000:127.0.0.1:8000: rainref view puddle/default.toml --no-browser --port 8000");
   return {&verb, [f] {
             ViewRequest request;
             if (f->scene.scene.empty()) f->scene.scene = "puddle/default.toml";
             request.named = f->scene.scene;
+            request.presets = f->scene.presets;
             request.set = f->scene.set;
             if (!f->scene.size) f->scene.size = request.size;
             request.scene = resolve(f->scene);

@@ -227,6 +227,9 @@ TEST_F(Installation, MayBeStagedForAPrefixOfItsOwn) {
   const Outcome o = rainref({"list"}, c);
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_THAT(o.out, HasSubstr("\n  puddle/default.toml  "));
+  EXPECT_THAT(o.out, HasSubstr("\n  storm          weather  "));
+  EXPECT_THAT(rainref({"describe", "puddle/default", "--preset", "storm", "--json"}, c).out,
+              HasSubstr((folder / "moved/share/rainref/presets/storm.toml:").string()));
   EXPECT_THAT(rainref({"describe", "puddle/default"}, c).out, testing::StartsWith("puddle/default: A puddle on a street at night"));
   EXPECT_THAT(o.out, Not(HasSubstr(RAINREF_SOURCE_DIR)));
   // Names that it takes, its own scenes' and no others': also without ".toml", and as the documents write them.

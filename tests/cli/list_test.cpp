@@ -81,7 +81,7 @@ TEST_F(List, JsonHasTheSchema) {
   const auto json = nlohmann::ordered_json::parse(o.out);
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, ElementsAre("effects", "scenes", "scene_sentences", "simd_targets", "threads"));
+  EXPECT_THAT(keys, ElementsAre("effects", "scenes", "scene_sentences", "presets", "simd_targets", "threads"));
   ASSERT_EQ(json["effects"].size(), 5u);
   const auto& puddle = json["effects"][0];
   EXPECT_EQ(puddle.size(), 3u);

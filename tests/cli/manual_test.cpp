@@ -77,6 +77,7 @@ TEST_F(Manual, ShellsCompleteVerbsWordsScenesAndFiles) {
   EXPECT_EQ(completed({"run", "x.toml", "--image", "p"}), std::vector<std::string>{"png"});
   EXPECT_EQ(completed({"validate", "--profile", "v"}), std::vector<std::string>{"vulkan"});
   EXPECT_EQ(completed({"hash", "puddle/def"}), std::vector<std::string>{"puddle/default.toml"});
+  EXPECT_EQ(completed({"run", "x.toml", "--preset", "st"}), std::vector<std::string>{"storm"});
   EXPECT_THAT(completed({"run", "x.toml", "--frames", ""}), testing::IsEmpty());
   std::filesystem::create_directories(folder / "my_folder");
   put(folder / "my_file.toml", "");

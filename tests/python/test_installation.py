@@ -68,7 +68,8 @@ def test_an_installation_from_a_fresh_clone_builds_the_library_first(tmp_path):
     done = wheel_of(clone, tmp_path / "to")
     assert done.returncode == 0, done.stdout + done.stderr
     names = {name.split("/purelib/")[-1] for name in zipfile.ZipFile(next((tmp_path / "to").glob("*.whl"))).namelist()}
-    assert {"rainref/lib/librainref.so.0", "rainref/share/rainref/scenes/puddle/default.toml", "rainref/py.typed"} <= names
+    assert {"rainref/lib/librainref.so.0", "rainref/share/rainref/scenes/puddle/default.toml", "rainref/share/rainref/presets/storm.toml",
+            "rainref/py.typed"} <= names
 
 
 def test_where_the_library_cannot_be_built_one_sentence_says_so(tmp_path):

@@ -6,6 +6,7 @@
 
 #include "base/path_text.h"
 #include "simulation/own_scenes.h"
+#include "simulation/preset_texts.h"
 #include "simulation/scene_index.h"
 
 namespace rainref::cli {
@@ -37,7 +38,14 @@ std::string SceneList::json() const {
                     {"keys", nlohmann::ordered_json::array()},
                     {"file", entry.shown}});
   }
-  return nlohmann::ordered_json{{"scenes", list}}.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  nlohmann::ordered_json presets = nlohmann::ordered_json::array();
+  for (const scene::Preset& preset : simulation::known_presets()) {
+    nlohmann::ordered_json keys;
+    for (const auto& [effect, unused] : preset.keys) keys[effect] = simulation::preset_texts(preset, effect);
+    presets.push_back({{"name", preset.name}, {"kind", preset.kind}, {"sentence", preset.sentence}, {"keys", keys}});
+  }
+  return nlohmann::ordered_json{{"scenes", list}, {"presets", presets}}.dump(-1, ' ', false,
+                                                                             nlohmann::ordered_json::error_handler_t::replace);
 }
 
 fs::path SceneList::file(std::string_view name) const {

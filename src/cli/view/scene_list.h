@@ -16,8 +16,9 @@ class SceneList {
 
   /// The name of the user's scene in the page's address: "puddle/default.toml" if it is bundled, else the name of its file.
   const std::string& first() const { return first_; }
-  /// {"scenes": [{path, effect, variant, sentence, files, keys, file}]}, as the page reads it (src/web/scene_index.mjs). `file`: what
-  /// commands call it. One that cannot be read has no effect; opening it says why.
+  /// {"scenes": [{path, effect, variant, sentence, files, keys, file}], "presets": [{name, kind, sentence, keys: {effect: [[key,
+  /// value]]}}]}, as the page reads it (src/web/scene_index.mjs). `file`: what commands call it. One that cannot be read has no effect;
+  /// opening it says why.
   std::string json() const;
   /// The file of a scene, by its name; "" if there is none.
   std::filesystem::path file(std::string_view name) const;

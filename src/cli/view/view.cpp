@@ -5,6 +5,7 @@
 #include <exception>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/path_text.h"
 #include "cli/scene_file.h"
@@ -16,7 +17,9 @@
 #include "cli/view/server.h"
 #include "cli/view/sessions.h"
 #include "rainref/error.h"
+#include "simulation/opened.h"
 #include "simulation/picture_notes.h"
+#include "simulation/preset_texts.h"
 
 namespace rainref::cli {
 namespace {
@@ -52,7 +55,7 @@ Reply answer_get(const PageFiles& pages, const SceneList& scenes, std::string_vi
 
 void view(const ViewRequest& request) {
   Server::require();
-  load_scene(request.scene);  // its mistakes are told here, before a browser is opened
+  const scene::Config config = load_scene(request.scene);  // its mistakes are told here, before a browser is opened
   const PageFiles pages;
   const SceneList scenes(request.named, request.scene.scene);
   Sessions sessions(scenes, request.scene.threads);
@@ -60,6 +63,10 @@ void view(const ViewRequest& request) {
   Access access(Access::new_secret(), Access::new_secret(), server.port());
 
   std::string page = "live.html?scene=" + escaped(scenes.first()) + "&size=" + escaped(request.size);
+  if (!request.presets.empty())
+    for (const scene::Preset& preset : scene::presets_for(fmt::format("{}", fmt::join(request.presets, ",")), config.effect(),
+                                                          config.variant(), simulation::effect_table().presets))
+      for (const auto& [key, toml] : simulation::preset_texts(preset, config.effect())) page += "&set=" + escaped(key + "=" + toml);
   for (const std::string& set : request.set) page += "&set=" + escaped(set);
   const bool is_opened = request.opens_browser && open_browser(access.address_once());
   say("{}\n{}Ctrl-C ends it.\n", access.address() + page,

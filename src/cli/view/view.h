@@ -9,11 +9,12 @@
 namespace rainref::cli {
 
 struct ViewRequest {
-  SceneOptions scene;            ///< what the page opens; --size and --set are its overrides
-  std::string named;             ///< the scene as typed
-  std::string size = "640x360";  ///< of the picture
-  std::vector<std::string> set;  ///< "key=value"
-  int port = 0;                  ///< 0: any free one
+  SceneOptions scene;                ///< what the page opens; --size, --preset and --set are its overrides
+  std::string named;                 ///< the scene as typed
+  std::string size = "640x360";      ///< of the picture
+  std::vector<std::string> presets;  ///< names, or lists of them
+  std::vector<std::string> set;      ///< "key=value"
+  int port = 0;                      ///< 0: any free one
   bool opens_browser = true;
 };
 
