@@ -1,10 +1,10 @@
-// node scene_index.mjs RAINREF_MODULE.js SCENES [PICTURES]: what a page must know of the scenes that come with rainref, as scenes/index.json.
-// One that names files is opened with the library as the page does: where it is refused, it is listed with the reason.
+// node scene_index.mjs RAINREF_MODULE.js SCENES PRESETS [PICTURES]: what a page must know of the scenes and presets that come with rainref, as
+// scenes/index.json. A scene that names files is opened with the library as the page does: where it is refused, it is listed with the reason.
 import fs from "node:fs";
 import {createRequire} from "node:module";
 import path from "node:path";
 
-const [modulePath, folder, pictures = ""] = process.argv.slice(2);
+const [modulePath, folder, presetFolder, pictures = ""] = process.argv.slice(2);
 const m = await createRequire(import.meta.url)(path.resolve(modulePath))();
 const all = fs.readdirSync(folder, {recursive: true}).filter(name => fs.statSync(path.join(folder, name)).isFile()).sort();
 for (const name of all) {
@@ -46,4 +46,21 @@ const scenes = all.filter(name => name.endsWith(".toml")).map(name => {
     ...(fs.existsSync(path.join(pictures, picture)) ? {picture: `gallery/${picture}`} : {}), ...(error === null ? {} : {error}),
   };
 });
-process.stdout.write(JSON.stringify({scenes}, null, 1) + "\n");
+
+// A preset that names a picture is left out for that effect: the library in a page does not read those.
+const presets = fs.readdirSync(presetFolder).filter(name => name.endsWith(".toml")).map(file => {
+  const preset = {name: file.replace(/\.toml$/, ""), keys: {}};
+  let effect = null;
+  for (const line of fs.readFileSync(path.join(presetFolder, file), "utf8").split("\n")) {
+    const [, table] = /^\[(\w+)\]$/.exec(line) ?? [], [, key, value] = /^([\w.]+) = (.+)$/.exec(line) ?? [];
+    if (table) preset.keys[effect = table] = [];
+    else if (key && effect) preset.keys[effect].push([key, value]);
+    else if (key) preset[key] = JSON.parse(value);
+  }
+  const needsFile = keys => keys.some(([, value]) => /^"[^"]*\.\w+"$/.test(value));
+  for (const [effect, keys] of Object.entries(preset.keys)) if (needsFile(keys)) delete preset.keys[effect];
+  return preset;
+});
+const place = ({kind, order, name}) => `${kind === "light"} ${String(order).padStart(9, "0")} ${name}`;
+presets.sort((a, b) => place(a) < place(b) ? -1 : 1);
+process.stdout.write(JSON.stringify({scenes, presets: presets.map(({order, ...shown}) => shown)}, null, 1) + "\n");

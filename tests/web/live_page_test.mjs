@@ -168,6 +168,18 @@ try {
     assert.deepEqual(await linesOf(page), natively(path.join(work, "saved.toml"), "--frames", "2")[1]);
   });
 
+  await step("a preset sets its keys, and the command holds them", async () => {
+    const other = await ready("puddle/default.toml");
+    await other.select("#weather", "storm");
+    await other.waitForFunction(() => document.getElementById("command").textContent.includes("rain.rate"), {timeout, polling: 50});
+    await atFrame(other, 0);
+    assert.deepEqual(await linesOf(other), natively("scenes/puddle/default.toml", "--size", "64x36", "--frames", "1", "--preset", "storm")[0]);
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command")));
+    // The picture of the day is one of those that the library in a page does not read.
+    assert.deepEqual(await other.$$eval("#light option", all => all.map(o => o.value)), ["", "night"]);
+    await other.close();
+  });
+
   await step("the other variant, and one that the scene's keys do not fit", async () => {
     await page.select("#size", "64x36").catch(() => {});
     await page.select("#scene", "puddle/default.toml");

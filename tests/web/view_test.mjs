@@ -106,6 +106,49 @@ try {
     }
   });
 
+  await step("a preset sets its keys: sliders, lines, command and link", async () => {
+    const other = await ready("scene=puddle/default.toml&size=64x36"), size = ["--size", "64x36", "--frames", "1"];
+    const chosen = () => other.$$eval("#weather, #light", all => all.map(e => e.value));
+    const commanded = key => other.waitForFunction(k => document.getElementById("command").textContent.includes(k), {timeout, polling: 50}, key);
+    const choose = async (kind, name, key) => {
+      await other.select(`#${kind}`, name);
+      await commanded(key);
+      await atFrame(other, 0);
+    };
+    assert.deepEqual(await other.$$eval("#weather option", all => all.map(o => o.value)), ["", "drizzle", "rain", "storm", "after_the_rain"]);
+    assert.deepEqual(await chosen(), ["", ""]);
+    await choose("weather", "storm", "rain.rate");
+    assert.deepEqual(await linesOf(other), nativeLines(0, "scenes/puddle/default.toml", ...size, "--preset", "storm"));
+    const rate = JSON.parse(natively("describe", "puddle/default", "--preset", "storm", "--json")).values["rain.rate"];
+    assert.equal(Number(await other.$eval('[id="parameter-rain.rate"]', e => e.value)), rate);
+    assert.match(await textOf(other, "#about"), /street at night.* storm/i);
+    await choose("light", "day", "environment.image");
+    assert.deepEqual(await linesOf(other), nativeLines(0, "scenes/puddle/default.toml", ...size, "--preset", "storm,day"));
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command")));
+    // The link holds the keys, and what is chosen follows from them.
+    const again = await ready(new URL(other.url()).searchParams.toString());
+    assert.deepEqual(await again.$$eval("#weather, #light", all => all.map(e => e.value)), ["storm", "day"]);
+    assert.deepEqual(await linesOf(again), await linesOf(other));
+    await again.close();
+    // Another preset leaves nothing of this one; another value is no preset's.
+    await choose("weather", "drizzle", "rain.rate=0.");
+    assert.deepEqual(await linesOf(other), nativeLines(0, "scenes/puddle/default.toml", ...size, "--preset", "drizzle,day"));
+    await slide(other, "rain.rate", 700);
+    await atFrame(other, 1);
+    assert.deepEqual(await chosen(), ["", "day"]);
+    await choose("weather", "rain", "rain.rate=6");
+    // The next scene has them, too, where they describe its effect.
+    await other.select("#scene", "edge_splash/default.toml");
+    await commanded("edge_splash/default");
+    await atFrame(other, 0);
+    assert.equal((await chosen())[0], "rain");
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command")));
+    await other.select("#scene", "puddle/as_published.toml");
+    await commanded("as_published");
+    assert.deepEqual(await other.$$eval("#weather, #light", all => all.map(e => e.disabled)), [true, true]);
+    await other.close();
+  });
+
   const page = await ready("scene=puddle/default.toml&size=64x36");
   await step("plays, pauses and steps", async () => {
     await click(page, "#play");

@@ -1,5 +1,5 @@
 // The live page: a scene that the reference simulates, its controls, and the lines that the native program prints for the same frame.
-// live.html?scene=puddle/default.toml&size=640x360&set=rain.rate=20 opens that scene, with values of keys.
+// live.html?scene=puddle/default.toml&size=640x360&set=rain.rate=20 opens that scene, with values of keys. A preset is such values.
 import {FilmRow} from "./live_film.js";
 import {LiveRun} from "./live_run.js";
 import {SceneList, sceneOfFiles} from "./live_scenes.js";
@@ -10,6 +10,7 @@ import {tomlOf} from "./scene_values.js";
 
 const part = id => document.getElementById(id);
 const option = (text, value = text) => element("option", {value}, text);
+const kinds = ["weather", "light"];  // of presets
 const fileSizes = ["1280x720", "960x540", "640x360", "480x270", "320x180", "160x90"];
 
 const run = new LiveRun(), scenes = new SceneList(), parameters = new Parameters(part("parameters"), changeParameter);
@@ -57,6 +58,11 @@ function showFrame(shown) {
   part("hashes").tBodies[0].replaceChildren(...rows);
   showCommand();
 }
+/// The preset of each kind, as the keys say now.
+function showPresets() {
+  for (const kind of kinds) scenes.presets.show(part(kind), kind, opened(), run.info.variant);
+}
+const opened = () => ({effect: run.info.effect, sets: run.sets});
 function showCommand() {
   part("command").textContent = run.command();
   part("changed").hidden = !run.changedLate;
@@ -143,7 +149,9 @@ async function open(scene, options) {
   part("text").value = scene.text;
   const known = scenes.entry(scene.path);
   part("scene").value = known?.path ?? "";
-  part("about").textContent = known?.sentence ?? `${scene.file}: a scene of yours.`;
+  const said = kinds.map(kind => scenes.presets.chosen(kind, opened())?.sentence).filter(Boolean);
+  part("about").textContent = [known?.sentence ?? `${scene.file}: a scene of yours.`, ...said.map(text => `${text}.`)].join(" ");
+  showPresets();
   part("warnings").replaceChildren(...run.info.warnings.map(text => element("li", {}, text)));
   part("warnings").hidden = run.info.warnings.length === 0;
   for (const id of ["scene", "variant", "save", "play", "step", "reset"]) part(id).disabled = false;
@@ -195,6 +203,7 @@ async function changeParameter(key, toml) {
       value = waiting.get(key);
       await run.set(key, value);
       showCommand();
+      showPresets();
       if (value === waiting.get(key)) parameters.update(run.values);
       if (!playing && scene === begun) await step();
     }
@@ -206,6 +215,7 @@ async function changeParameter(key, toml) {
       part("state").textContent = "";
       await run.restartWith(key, value);
       parameters.update(run.values);
+      showPresets();
       await step();
     };
     throw error;
@@ -250,7 +260,11 @@ document.addEventListener("keydown", event => {
   event.preventDefault();
   if (!part(button).disabled) part(button).click();
 });
-part("scene").onchange = () => openListed(part("scene").value);
+part("scene").onchange = () => {
+  const {effect, variant} = scenes.entry(part("scene").value);
+  openListed(part("scene").value, {sets: variant === "corrected" ? scenes.presets.carried(opened(), effect) : new Map()});
+};
+for (const kind of kinds) part(kind).onchange = () => open(run.scene, {sets: scenes.presets.replaced(kind, part(kind).value, opened())});
 part("variant").onchange = () => changeVariant(part("variant").value);
 part("size").onchange = () => open(run.scene, {sets: run.sets, size: part("size").value});
 part("choose").onclick = () => part("files").click();

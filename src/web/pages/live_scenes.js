@@ -1,4 +1,5 @@
 // The scenes that the live page offers: scenes/index.json, and their files below scenes.
+import {Presets} from "./live_presets.js";
 import {element} from "./report_words.js";
 
 async function fetched(path, kind) {
@@ -19,8 +20,9 @@ export class SceneList {
   /// [{path, effect, variant, sentence, files, keys, picture?, error?, file?}]. `path`: below scenes; `file`: what commands call it, if not
   /// "scenes/" and the path; `error`: why it cannot run here.
   all = [];
+  presets = new Presets();
 
-  async load() { this.all = (await fetched("scenes/index.json", "json")).scenes; }
+  async load() { [this.all, this.presets.all] = (({scenes, presets}) => [scenes, presets])(await fetched("scenes/index.json", "json")); }
   entry(path) { return this.all.find(scene => scene.path === path); }
 
   /// A scene in the form of LiveRun.open, with the files that it names.
