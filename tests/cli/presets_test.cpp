@@ -60,7 +60,7 @@ TEST_F(Preset, EveryVerbThatTakesASceneTakesIt) {
   EXPECT_EQ(summary["config"]["rain.rate"], described["values"]["rain.rate"]);
   EXPECT_GT(summary["config"]["rain.rate"], 49);
   good(rainref(joined({"pack", "corrected.toml", "--at", "1", "-o", "pack"}, storm)));
-  EXPECT_EQ(nlohmann::json::parse(contents(folder / "pack/manifest.json"))["scene"]["rain.rate"], summary["config"]["rain.rate"]);
+  EXPECT_EQ(nlohmann::json::parse(contents(folder / "pack/manifest.json"))["config"]["rain.rate"], summary["config"]["rain.rate"]);
   // A picture holds the keys, so it needs no preset.
   EXPECT_THAT(rainref({"describe", "out/puddle.0001.png"}).out, HasSubstr("\nrain.rate "));
   before = folder.names();

@@ -198,7 +198,7 @@ TEST_P(Weather, GrowsFromDrizzleToStorm) {
   EXPECT_GT(storm, 1.2 * rain);
 }
 INSTANTIATE_TEST_SUITE_P(Presets, Weather, testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& of) { return of.param; });
 
 /// The drops of the last frame: those on the glass, or that hit the water.
 int drops_in(const Simulation& simulation, const std::string& buffer) {

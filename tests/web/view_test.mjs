@@ -136,7 +136,7 @@ try {
     await slide(other, "rain.rate", 700);
     await atFrame(other, 1);
     assert.deepEqual(await chosen(), ["", "day"]);
-    await choose("weather", "rain", "rain.rate=6");
+    await choose("weather", "rain", "rain.rate=4");
     // The next scene has them, too, where they describe its effect.
     await other.select("#scene", "edge_splash/default.toml");
     await commanded("edge_splash/default");
