@@ -191,6 +191,10 @@ RR_API int rr_get_picture(rr_simulation* simulation, rr_array* picture);
 
 typedef struct rr_cases rr_cases;
 
+/// Receives how much is done (frames, or runs of passes), and the total. Returns 0 to continue. Any other value ends the work, which then
+/// returns RR_USAGE and leaves no partial file.
+typedef int (*rr_progress)(void* user, int32_t done, int32_t of);
+
 /// Makes an empty set of cases; rr_next_frame_cases adds to it. It may outlive the simulation. Call rr_free_cases on it.
 RR_API int rr_cases_of_simulation(rr_simulation* simulation, rr_cases** cases);
 /// Runs the next frame like rr_next_frame. Adds each run of the named passes to `cases`, which must be of the same effect and variant, with
@@ -245,6 +249,29 @@ RR_API int rr_give(rr_cases* cases, size_t index, size_t output, const void* dat
 /// sRGB. Returns RR_FILES for another size or type.
 RR_API int rr_give_image(rr_cases* cases, size_t index, size_t output, const rr_array* image);
 
+// ---- files of a running scene: packs and films ----
+
+typedef struct rr_pack_options {
+  size_t struct_bytes;
+  const int32_t* frames;  ///< if none is named: 0, 1 and 12, and a later one for a pass that does nothing in these
+  size_t frame_count;
+  const char* const* passes;  ///< if none is named, all are taken
+  size_t pass_count;
+  const char* seed;      ///< NULL: the scene's; a whole number; "random": one that nobody can predict. The pack's manifest has it
+  rr_progress progress;  ///< called after each frame; begins anew if the pack is written again with more frames; may be NULL
+  void* user;
+} rr_pack_options;
+/// Writes a pack of the simulation's scene into a folder, like `rainref pack`, from the scene's first frame on; the simulation does not
+/// change. The pack appears whole or not at all, and replaces an older one. `notes` are sentences, each ended by a newline: passes that it
+/// leaves out, frames that it adds, passes of which it says nothing. They are valid until the next call of this function. `options` and
+/// `notes` may be NULL.
+RR_API int rr_write_pack(rr_simulation* simulation, const char* folder, const rr_pack_options* options, const char** notes);
+/// Simulates the next `frames` frames (0: those that remain of the scene's), and writes a film of those whose number `every` divides, like
+/// `rainref run --film`: .mp4, .webm or .gif, made by ffmpeg. The last frame is rendered in any case. `progress` is called after each
+/// frame; it may be NULL. It invalidates every array of the simulation. Not in the WebAssembly
+/// module.
+RR_API int rr_film(rr_simulation* simulation, const char* path, int32_t frames, int32_t every, rr_progress progress, void* user);
+
 // ---- verdicts ----
 
 typedef struct rr_judgement rr_judgement;
@@ -264,8 +291,6 @@ typedef struct rr_judge_options {
 /// may be NULL. The judgement may outlive the cases. Call rr_free_judgement on it.
 RR_API int rr_judge(const rr_cases* cases, const rr_judge_options* options, rr_judgement** judgement);
 
-/// Receives the number of runs of passes judged so far, and their total. Returns 0 to continue; any other value ends the judging.
-typedef int (*rr_progress)(void* user, int32_t done, int32_t of);
 typedef struct rr_folder_options {
   size_t struct_bytes;
   const char* profile;        ///< NULL: "vulkan"
@@ -273,7 +298,7 @@ typedef struct rr_folder_options {
   size_t pass_count;
   int32_t partial;       ///< 1: a pass without any file is NOT JUDGED; its files do not count as missing
   int32_t threads;       ///< 0: one for each processor
-  rr_progress progress;  ///< called by the thread that judges; may be NULL
+  rr_progress progress;  ///< called by the thread that judges, after each run of a pass; may be NULL
   void* user;
   int32_t strict;      ///< 1: each WARN is a FAIL
   int32_t exhaustive;  ///< as in rr_judge_options

@@ -61,6 +61,14 @@ public delegate int rr_progress(IntPtr user, int done, int of);
   public IntPtr filter, mip_filter, address_u, address_v;
   public float border0, border1, border2, border3;
 }
+[StructLayout(LayoutKind.Sequential)] public struct rr_pack_options {
+  public UIntPtr struct_bytes;
+  public IntPtr frames;
+  public UIntPtr frame_count;
+  public IntPtr passes;
+  public UIntPtr pass_count;
+  public IntPtr seed, progress, user;
+}
 [StructLayout(LayoutKind.Sequential)] public struct rr_judge_options {
   public UIntPtr struct_bytes;
   public IntPtr profile, port, half;
@@ -167,6 +175,9 @@ public static class Native {
   [DllImport(Library, CallingConvention = C)] public static extern IntPtr rr_get_judge(CasesHandle cases, UIntPtr index, UIntPtr output);
   [DllImport(Library, CallingConvention = C)] public static extern int rr_give(CasesHandle cases, UIntPtr index, UIntPtr output, byte[] data, UIntPtr row_bytes, UIntPtr count);
   [DllImport(Library, CallingConvention = C)] public static extern int rr_give_image(CasesHandle cases, UIntPtr index, UIntPtr output, ref rr_array image);
+
+  [DllImport(Library, CallingConvention = C)] public static extern int rr_write_pack(SimulationHandle simulation, [MarshalAs(Utf8)] string folder, ref rr_pack_options options, out IntPtr notes);
+  [DllImport(Library, CallingConvention = C)] public static extern int rr_film(SimulationHandle simulation, [MarshalAs(Utf8)] string path, int frames, int every, rr_progress progress, IntPtr user);
 
   [DllImport(Library, CallingConvention = C)] public static extern int rr_judge(CasesHandle cases, ref rr_judge_options options, out JudgementHandle judgement);
   [DllImport(Library, CallingConvention = C)] public static extern int rr_judge_folder([MarshalAs(Utf8)] string pack, [MarshalAs(Utf8)] string port, ref rr_folder_options options, out JudgementHandle judgement);

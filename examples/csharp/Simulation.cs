@@ -71,6 +71,23 @@ public sealed class Simulation : IDisposable {
   public void WritePng(string path) { Call.Check(Native.rr_write_png(Handle, path)); }
   public void WriteExr(string path) { Call.Check(Native.rr_write_exr(Handle, path)); }
 
+  /// A film of the next frames (0: the rest of the scene's) whose number `every` divides: .mp4, .webm or .gif, made by ffmpeg.
+  public void Film(string path, int frames = 0, int every = 1) {
+    Call.Check(Native.rr_film(Handle, path, frames, every, null, IntPtr.Zero));
+  }
+  /// A pack of the scene from its first frame on; returns sentences about it. `seed`: a whole number, "random", or null for the scene's.
+  public string WritePack(string folder, string seed = null, params string[] passes) {
+    using (var texts = new Texts()) {
+      var options = new rr_pack_options {
+        struct_bytes = Call.SizeOf<rr_pack_options>(), passes = texts.AddList(passes), pass_count = Call.Size(passes.Length),
+        seed = texts.Add(seed)
+      };
+      IntPtr notes;
+      Call.Check(Native.rr_write_pack(Handle, folder, ref options, out notes));
+      return Kept(Text.Of(notes));
+    }
+  }
+
   /// A buffer where the library holds it, without a copy: valid until the simulation changes or is disposed of.
   public rr_array View(string buffer) {
     var array = new rr_array { struct_bytes = Call.SizeOf<rr_array>() };

@@ -120,18 +120,38 @@ struct Verdict {
   bool is_good() const { return status == "PASS" || status == "WARN"; }
 };
 
+/// Names of the profiles that a port can be judged under: "ieee", "vulkan", ...
+std::vector<std::string> profile_names();
+
+/// Options of Judgement::of_folder.
+struct FolderOptions {
+  std::string profile = "vulkan";
+  std::vector<std::string> passes{};  ///< judge only these; if none is named, all are judged
+  bool partial = false;               ///< a pass without any file is NOT JUDGED; its files do not count as missing
+  bool strict = false;                ///< each WARN is a FAIL
+  bool exhaustive = false;            ///< as in JudgeOptions
+  std::filesystem::path spirv{};      ///< as in JudgeOptions
+  Progress progress{};                ///< called after each run of a pass, by the thread that judges; may be null
+};
+
 /// A verdict and its reports. It may outlive the cases.
 class Judgement {
  public:
+  /// Judges the files that a port wrote (docs/dumps.md) for the cases of a pack, like `rainref validate PACK --port PORT`. One case is in
+  /// memory at a time. The reports list missing and unusable files; everything else is judged. Reports with pictures read both folders
+  /// again. Throws Error(usage) for an unknown profile or pass, Error(port_files) if nothing can be judged, Error(io).
+  static Judgement of_folder(const std::filesystem::path& pack, const std::filesystem::path& port, const parallel::Executor& executor,
+                             const FolderOptions& options = {});
   ~Judgement();
   Judgement(Judgement&&) noexcept;
 
   const Verdict& verdict() const;
-  /// The reports of `rainref validate`: plain text for a log, JSON for programs (docs/reports.md lists the keys), and an HTML page with
-  /// pictures of the failures.
+  /// The reports of `rainref validate`: plain text for a log, JSON for programs (docs/reports.md lists the keys), an HTML page with
+  /// pictures of the failures, and JUnit XML for continuous integration.
   std::string text() const;
   std::string json() const;
   std::string html() const;
+  std::string junit() const;
 
  private:
   friend class Cases;
@@ -139,6 +159,25 @@ class Judgement {
   explicit Judgement(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// Options of write_pack.
+struct PackOptions {
+  std::vector<int> frames{};          ///< none: 0, 1 and 12, and a later one for a pass that does nothing in these
+  std::vector<std::string> passes{};  ///< none: every pass of the variant
+  std::string seed{};                 ///< "": the scene's; a whole number; "random": one that nobody can predict
+  Progress progress{};                ///< called after each frame; begins anew if the pack is written again with more frames; may be null
+};
+/// What write_pack wrote.
+struct PackSummary {
+  std::int64_t seed = 0;  ///< `PackOptions::seed` with it makes the pack again; the manifest has it, too
+  int cases = 0;
+  std::vector<std::string> passes{};
+  std::vector<std::string> notes{};  ///< sentences: passes left out, frames added, what the pack says nothing of
+};
+/// Runs a scene from its first frame and writes a pack of it, like `rainref pack`. It appears whole or not at all, and replaces an older
+/// one. Throws Error(usage) for an invalid scene, an unknown pass or another seed; Error(io).
+PackSummary write_pack(const SceneText& scene, const std::filesystem::path& folder, const parallel::Executor& executor,
+                       const PackOptions& options = {});
 
 /// Options of Cases::judge.
 struct JudgeOptions {

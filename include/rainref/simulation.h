@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,6 +25,22 @@ class Scenery;  // src/scene/scenery.h
 
 /// A named buffer of an effect: an image, or records.
 using Buffer = std::variant<BufferView, RecordView>;
+
+/// Names of the effects, in the order of `rainref list`: "puddle", ...
+std::vector<std::string> effect_names();
+/// Returns the output of `rainref describe EFFECT --json`: parameters with units, ranges and defaults; passes; buffers; layouts. Throws
+/// Error(usage) with the nearest effect.
+std::string describe(const std::string& effect);
+
+/// Receives how much is done, and the total. It may throw to stop the work: the exception reaches the caller, and no partial file stays.
+using Progress = std::function<void(int done, int of)>;
+
+/// Options of Simulation::film.
+struct FilmOptions {
+  int frames = 0;       ///< number of frames to simulate; 0: those that remain of run.frames
+  int every = 1;        ///< shows the frames whose number this divides
+  Progress progress{};  ///< called after each frame; may be null
+};
 
 /// Reads a scene file and adds changes to it. If no such file exists, the bundled scene of that name is used ("puddle/default.toml":
 /// `rainref list`). A PNG or EXR that rainref wrote gives the scene stored in it, up to that frame. Throws Error(io) if it cannot be read,
@@ -53,6 +70,8 @@ class Simulation {
   /// "puddle", ...: a name of `rainref list`.
   const std::string& effect() const;
   Variant variant() const;
+  /// The text of the scene with every change since: another simulation of it begins as this one would begin now.
+  const SceneText& scene_text() const;
   /// Every key of the scene with its value, as JSON: {"key": value, ...}.
   std::string scene_json() const;
   /// Number of frames that the scene asks for (run.frames). More may be simulated.
@@ -70,6 +89,8 @@ class Simulation {
     simulate(recorder);
     render(recorder);
   }
+  /// Simulates and renders the next frame, and returns the lines of `rainref hash`: "frame pass buffer hash".
+  std::vector<std::string> next_frame_hashes();
   /// Replaces render, once for each frame whose picture is not wanted. It updates only what later frames need, so their pictures are the
   /// same. To reach frame n quickly, simulate and skip the frames before it.
   void skip(Recorder* recorder = nullptr);
@@ -99,6 +120,10 @@ class Simulation {
   void write_png(const std::filesystem::path& path) const;
   /// Writes radiance and its auxiliary images as named channels, half or float as the effect stores them. Throws like write_png.
   void write_exr(const std::filesystem::path& path) const;
+  /// Simulates the next frames and writes a film of them, as `rainref run --film` does: .mp4, .webm or .gif, made by ffmpeg, with
+  /// run.fps / every pictures a second. The last frame is rendered in any case. Throws Error(usage) for the name, the rate, or if there is
+  /// no frame to show; Error(io) if ffmpeg is missing or fails. A film appears whole or not at all.
+  void film(const std::filesystem::path& path, const FilmOptions& options = {});
 
  private:
   struct State;

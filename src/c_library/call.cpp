@@ -26,6 +26,25 @@ std::vector<std::string> texts(const char* const* first, std::size_t count, cons
   return out;
 }
 
+const char* joined(const std::vector<std::string>& lines, std::string& text) {
+  text.clear();
+  for (const std::string& line : lines) text += line + "\n";
+  return text.c_str();
+}
+
+Progress progress_of(rr_progress callback, void* user, const char* name, const char* unit) {
+  if (!callback) return {};
+  return [=](int done, int of) {
+    int result = 1;
+    try {
+      result = callback(user, done, of);
+    } catch (...) {
+      throw Error(ExitCode::usage, fmt::format("{}: the callback threw an exception", name));
+    }
+    if (result != 0) throw Error(ExitCode::usage, fmt::format("stopped by {} after {} of {} {}", name, done, of, unit));
+  };
+}
+
 }  // namespace rainref::c_library
 
 const char* rr_error(void) { return rainref::c_library::last_error.data(); }

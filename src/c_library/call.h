@@ -13,6 +13,7 @@
 #include "base/floating_point.h"
 #include "rainref.h"
 #include "rainref/error.h"
+#include "rainref/simulation.h"
 
 namespace rainref::c_library {
 
@@ -56,5 +57,12 @@ T& sized(T* from, const char* type) {
 
 /// Converts the caller's list of texts. None may be NULL.
 std::vector<std::string> texts(const char* const* first, std::size_t count, const char* name);
+
+/// Puts the lines into `text`, each ended by a newline, and returns it for C.
+const char* joined(const std::vector<std::string>& lines, std::string& text);
+
+/// A caller's progress callback; null if it is NULL. If it returns another value than 0, Error(usage) "stopped by NAME after 2 of 9 runs"
+/// ends the work. A C++ callback may throw; its exception becomes an Error.
+Progress progress_of(rr_progress callback, void* user, const char* name, const char* unit);
 
 }  // namespace rainref::c_library

@@ -16,7 +16,7 @@ struct rr_simulation {
   rainref::parallel::Executor executor;
   rainref::Simulation running;
   std::vector<std::string> buffers;  ///< names
-  std::string scene_json{}, hash_lines{};
+  std::string scene_json{}, hash_lines{}, notes{};
 
   rr_simulation(const rainref::SceneText& scene, int threads) : executor(threads), running(scene, executor), buffers(running.buffers()) {}
 };

@@ -26,17 +26,6 @@ const PassVerdict& pass_of(const rr_judgement* judgement, size_t pass) {
   return j.made.verdict.passes[pass];
 }
 
-/// Reports progress to the caller. A C++ callback may throw; the exception is discarded.
-void go_on(const rr_folder_options& o, int done, int of) {
-  int result = 1;
-  try {
-    result = o.progress(o.user, done, of);
-  } catch (...) {
-    throw Error(ExitCode::usage, "rr_folder_options.progress: the callback threw an exception");
-  }
-  if (result != 0) throw Error(ExitCode::usage, fmt::format("stopped by rr_folder_options.progress after {} of {} runs", done, of));
-}
-
 /// A report, which is made on the first call.
 template <class Make>
 int report(rr_judgement* judgement, const char** text, std::optional<std::string> rr_judgement::*which, const Make& make) {
@@ -78,7 +67,7 @@ int rr_judge_folder(const char* pack, const char* port, const rr_folder_options*
     how.strict = o.strict != 0;
     if (o.exhaustive != 0) how.sample = 0;
     if (o.spirv) how.spirv = utf8_path(o.spirv);
-    if (o.progress) how.progress = [&o](int done, int of) { go_on(o, done, of); };
+    how.progress = c_library::progress_of(o.progress, o.user, "rr_folder_options.progress", "runs");
     const parallel::Executor executor(o.threads);
     how.executor = &executor;
     const auto opened = std::make_shared<const capture::Pack>(utf8_path(&required(pack, "pack")));

@@ -5,11 +5,8 @@
 #include "base/path_text.h"
 #include "c_library/call.h"
 #include "c_library/handles.h"
-#include "capture/hashing.h"
-#include "judge/profiles.h"
+#include "rainref/judging.h"
 #include "rainref/version.h"
-#include "registry/registry.h"
-#include "simulation/describe.h"
 
 using namespace rainref;
 using c_library::call;
@@ -37,15 +34,15 @@ uint32_t rr_golden_generation(void) { return golden_generation; }
 const char* rr_effect_name(size_t index) {
   const char* name = nullptr;
   call([&] {
-    const auto& all = registry::effects();
-    if (index < all.size()) name = all[index]->name.c_str();
+    static const std::vector<std::string> names = effect_names();
+    if (index < names.size()) name = names[index].c_str();
   });
   return name;
 }
 const char* rr_profile_name(size_t index) {
   const char* name = nullptr;
   call([&] {
-    static const std::vector<std::string> names = judge::profile_names();
+    static const std::vector<std::string> names = profile_names();
     if (index < names.size()) name = names[index].c_str();
   });
   return name;
@@ -59,7 +56,7 @@ int rr_describe(const char* effect, const char** json) {
     const std::lock_guard lock(mutex);
     std::string& text = made[name];
     try {
-      if (text.empty()) text = simulation::describe_json(name);
+      if (text.empty()) text = describe(name);
     } catch (...) {
       made.erase(name);
       throw;
@@ -111,11 +108,7 @@ int rr_next_frame_hashes(rr_simulation* simulation, const char** lines) {
   return call([&] {
     rr_simulation& s = required(simulation, "simulation");
     required(lines, "lines") = nullptr;
-    capture::HashRecorder recorder;
-    s.running.next_frame(&recorder);
-    s.hash_lines.clear();
-    for (const capture::HashLine& line : recorder.take_lines()) s.hash_lines += line.text() + "\n";
-    *lines = s.hash_lines.c_str();
+    *lines = c_library::joined(s.running.next_frame_hashes(), s.hash_lines);
   });
 }
 int rr_write_png(rr_simulation* simulation, const char* path) {

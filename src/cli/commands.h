@@ -42,6 +42,7 @@ struct PackOptions {
   bool may_add_frames = false;      ///< for passes that a null port would pass with these frames
   std::vector<std::string> passes;  ///< empty: every pass of the variant
   bool shows_coverage = false;      ///< lists the alternatives of each pass's text that no case takes
+  bool has_random_seed = false;     ///< says which
 };
 
 /// `pack --spirv`.

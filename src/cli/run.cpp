@@ -18,7 +18,6 @@
 #include "capture/pack_write.h"
 #include "cli/checkpoint.h"
 #include "cli/commands.h"
-#include "cli/film.h"
 #include "cli/json_text.h"
 #include "cli/output_folder.h"
 #include "cli/progress.h"
@@ -27,6 +26,7 @@
 #include "cli/terminal.h"
 #include "image/flipped.h"
 #include "image_io/codec.h"
+#include "image_io/film.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
@@ -77,7 +77,9 @@ void check(const RunOptions& options, int frames) {
         "a sweep with chunks");
   if (const int every = std::max(options.every, 1); !has_frame(every)) refuse("--film", every);
 }
-FilmRate film_rate(const RunOptions& options, const scene::Config& config) { return {config.real("run.fps"), std::max(options.every, 1)}; }
+image_io::FilmRate film_rate(const RunOptions& options, const scene::Config& config) {
+  return {config.real("run.fps"), std::max(options.every, 1)};
+}
 
 nlohmann::ordered_json summary(const scene::Config& config, const std::vector<effect::InputFile>& inputs,
                                const parallel::Executor& executor, const capture::HashRecorder& recorder,
@@ -118,7 +120,7 @@ int run(const RunOptions& options) {
       options.output.empty() ? std::filesystem::path("out") / utf8_path(config.effect()) / options.scene.scene.stem() : options.output;
   const int frames = static_cast<int>(config.integer("run.frames"));
   check(options, frames);
-  if (!options.film.empty()) require_film(options.film, film_rate(options, config));
+  if (!options.film.empty()) image_io::require_film(options.film, film_rate(options, config));
   OutputFolder made(folder);
   const Checkpoint checkpoint(folder, options);
   const std::optional<std::uintmax_t> left = options.resume ? checkpoint.bytes() : std::nullopt;
@@ -151,7 +153,7 @@ int run(const RunOptions& options) {
                                              config.effect(), config.variant()));
   }
   const auto filmed = [&](int frame) { return !options.film.empty() && frame >= options.first && frame % std::max(options.every, 1) == 0; };
-  std::optional<Film> film;
+  std::optional<image_io::Film> film;
   if (!options.film.empty()) {
     const scene::Integer2& size = config.integer2("run.size");
     film.emplace(options.film, static_cast<int>(size[0]), static_cast<int>(size[1]), film_rate(options, config));

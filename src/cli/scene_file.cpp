@@ -33,9 +33,13 @@ scene::Config load_scene(const SceneOptions& options) {
 
 simulation::Opened open_scene(const scene::Config& config, const parallel::Executor& executor) {
   simulation::Opened opened(config, executor);
-  for (const std::string& note : opened.inputs().notes) complain("note: " + note);
-  for (const std::string& warning : opened.inputs().warnings) complain("warning: " + warning);
+  complain_of(opened.inputs());
   return opened;
+}
+
+void complain_of(const effect::Inputs& inputs) {
+  for (const std::string& note : inputs.notes) complain("note: " + note);
+  for (const std::string& warning : inputs.warnings) complain("warning: " + warning);
 }
 
 }  // namespace rainref::cli

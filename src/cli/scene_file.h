@@ -11,7 +11,9 @@ namespace rainref::cli {
 /// the error names the nearest scene.
 scene::Config load_scene(const SceneOptions& options);
 
-/// Opens the scene for a run. Warnings about its files, and choices made while reading them, go to standard error.
+/// Opens the scene for a run, and calls complain_of.
 simulation::Opened open_scene(const scene::Config& config, const parallel::Executor& executor);
+/// Warnings about a scene's files, and choices made while reading them, go to standard error.
+void complain_of(const effect::Inputs& inputs);
 
 }  // namespace rainref::cli

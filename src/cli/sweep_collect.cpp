@@ -12,10 +12,10 @@
 #include "base/folders.h"
 #include "base/hidden.h"
 #include "base/path_text.h"
-#include "cli/film.h"
 #include "cli/progress.h"
 #include "cli/sweep.h"
 #include "cli/terminal.h"
+#include "image_io/film.h"
 #include "image_io/read.h"
 #include "image_io/write.h"
 #include "rainref/error.h"
@@ -46,7 +46,7 @@ std::string timings_csv(const OpenPlan& open) {
 }
 
 /// The scene's speed, if every K-th frame is kept.
-FilmRate film_rate_of(const OpenPlan& open) {
+image_io::FilmRate film_rate_of(const OpenPlan& open) {
   std::int64_t every = 0;
   for (const sweep::Keep& keep : open.cells.plan().keep)
     if (keep.what == sweep::Keep::What::picture && keep.every > 0) every = std::gcd(every, keep.every);
@@ -63,7 +63,7 @@ std::string write_film(const OpenPlan& open, const sweep::Table& table, const fs
   }
   if (pictures.size() < 2) return "no film: the first run has fewer than two pictures";
   try {
-    std::optional<Film> film;
+    std::optional<image_io::Film> film;
     for (const fs::path& picture : pictures) {
       const Image image = image_io::read(picture).image;
       if (!film) film.emplace(folder / "film.mp4", image.width(), image.height(), film_rate_of(open));

@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/scene_flags.h"
+#include "judging/make_pack.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
 #include "registry/registry.h"
@@ -157,7 +158,7 @@ Verb pack_verb(CLI::App& app) {
   struct Flags {
     SceneFlags scene;
     std::string output;
-    std::optional<std::string> at, passes;
+    std::optional<std::string> at, passes, seed;
     bool shows_coverage = false;
     std::string spirv, inputs, flat;
   };
@@ -178,9 +179,14 @@ Verb pack_verb(CLI::App& app) {
   verb.add_option("-o,--output", f->output, "Folder of the pack; an older pack there is replaced")->type_name("DIR")->required();
   verb.add_option("--at", f->at, "Frames to take (default: 0,1,12, and one more for a pass that does nothing in these)")->type_name("LIST");
   verb.add_option("--passes", f->passes, "Passes to take, such as wave_step,shade (default: all)")->type_name("LIST");
+  verb.add_option("--seed", f->seed,
+                  "Seed of the scene's random numbers; random: one that nobody can know before, printed and kept in the manifest, so that "
+                  "a port cannot know the expected outputs")
+      ->type_name("N|random");
   verb.add_flag("--coverage", f->shows_coverage, "List what of each pass's text no case takes; the manifest has it too");
   verb.footer(
       "Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack\n"
+      "For a last judgement, new rain: rainref pack puddle/default.toml --size 320x180 --seed random -o out/fresh\n"
       "An effect of your own: rainref pack --spirv effect.json --inputs my_run -o out/pack\n"
       "For an engine without NPY: rainref pack --flat out/pack -o out/flat");
   return {&verb, [f] {
@@ -190,11 +196,12 @@ Verb pack_verb(CLI::App& app) {
               throw Error(ExitCode::usage,
                           fmt::format("expected one of SCENE, --spirv and --flat, found {}", sources == 0 ? "none" : "several"));
             if (f->scene.scene.empty()) {
-              if (f->at || f->passes || f->shows_coverage || f->scene.size || f->scene.simd || !f->scene.set.empty() ||
+              if (f->at || f->passes || f->seed || f->shows_coverage || f->scene.size || f->scene.simd || !f->scene.set.empty() ||
                   !f->scene.presets.empty())
-                throw Error(ExitCode::usage,
-                            fmt::format("{}: expected none of --at, --passes, --coverage, --size, --simd, --preset and --set beside it",
-                                        f->flat.empty() ? "--spirv" : "--flat"));
+                throw Error(
+                    ExitCode::usage,
+                    fmt::format("{}: expected none of --at, --passes, --seed, --coverage, --size, --simd, --preset and --set beside it",
+                                f->flat.empty() ? "--spirv" : "--flat"));
             }
             if (!f->flat.empty()) {
               if (!f->inputs.empty()) throw Error(ExitCode::usage, "--inputs: only beside --spirv");
@@ -216,6 +223,10 @@ Verb pack_verb(CLI::App& app) {
             std::sort(options.frames.begin(), options.frames.end());
             if (f->passes) options.passes = list_of(*f->passes);
             options.scene = resolve(f->scene);
+            if (f->seed) {
+              options.scene.overrides.push_back(fmt::format("seed={}", judging::seed_of(*f->seed, "--seed")));
+              options.has_random_seed = *f->seed == "random";
+            }
             return pack(options);
           }};
 }

@@ -1,10 +1,19 @@
 #include "rainref/judging.h"
 
+#include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/floating_point.h"
+#include "base/path_text.h"
+#include "judge/profiles.h"
 #include "judging/case_list.h"
 #include "judging/judge_cases.h"
+#include "judging/judge_folder.h"
+#include "judging/make_pack.h"
+#include "scene/toml.h"
+#include "simulation/opened.h"
 
 namespace rainref {
 namespace {
@@ -125,6 +134,58 @@ std::string Judgement::json() const {
 std::string Judgement::html() const {
   const FloatingPointGuard guard;
   return state_->judged.html();
+}
+std::string Judgement::junit() const {
+  const FloatingPointGuard guard;
+  return state_->judged.junit();
+}
+
+std::vector<std::string> profile_names() {
+  const FloatingPointGuard guard;
+  return judge::profile_names();
+}
+
+Judgement Judgement::of_folder(const std::filesystem::path& pack, const std::filesystem::path& port, const parallel::Executor& executor,
+                               const FolderOptions& options) {
+  const FloatingPointGuard guard;
+  judging::FolderOptions how;
+  how.profile = options.profile;
+  how.only = options.passes;
+  how.partial = options.partial;
+  how.strict = options.strict;
+  if (options.exhaustive) how.sample = 0;
+  how.spirv = options.spirv;
+  how.progress = options.progress;
+  how.executor = &executor;
+  return Judgement(std::make_unique<Judgement::State>(
+      Judgement::State{judging::judge_folder(std::make_shared<const capture::Pack>(pack), {port}, how)}));
+}
+
+PackSummary write_pack(const SceneText& scene, const std::filesystem::path& folder, const parallel::Executor& executor,
+                       const PackOptions& options) {
+  const FloatingPointGuard guard;
+  SceneText seeded = scene;
+  if (!options.seed.empty()) seeded.set.push_back(fmt::format("seed={}", judging::seed_of(options.seed, "seed")));
+  judging::PackRequest request{simulation::config_of_passes(scene::parse(seeded, simulation::effect_table())), scene.toml,
+                               utf8_path(scene.file), folder};
+  request.frames = options.frames.empty() ? judging::usual_frames : options.frames;
+  request.may_add_frames = options.frames.empty();
+  request.passes = options.passes;
+  std::sort(request.frames.begin(), request.frames.end());
+  if (request.frames.front() < 0) throw Error(ExitCode::usage, fmt::format("frames: expected 0 or more, found {}", request.frames.front()));
+  PackSummary made;
+  const auto note = [&](const std::string& line) { made.notes.push_back(line); };
+  const auto warn = [&](const effect::Inputs& inputs) {
+    for (const std::string& warning : inputs.warnings) note("warning: " + warning);
+  };
+  const auto advance = [&](int done, int of) {
+    if (options.progress) options.progress(done, of);
+  };
+  const judging::WrittenPack written = judging::make_pack(request, executor, {warn, note, advance});
+  made.seed = request.config.integer("seed");
+  made.cases = written.total.cases;
+  made.passes = written.passes;
+  return made;
 }
 
 }  // namespace rainref

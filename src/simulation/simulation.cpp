@@ -12,13 +12,16 @@
 #include "base/read_file.h"
 #include "cache/kept_images.h"
 #include "cache/prepared.h"
+#include "capture/hashing.h"
 #include "night_street/night_street.h"
 #include "rainref/error.h"
+#include "registry/registry.h"
 #include "scene/json.h"
-#include "scene/toml.h"
+#include "simulation/describe.h"
 #include "simulation/opened.h"
 #include "simulation/own_scenes.h"
 #include "simulation/picture_notes.h"
+#include "simulation/simulation_state.h"
 
 namespace rainref {
 namespace {
@@ -56,21 +59,6 @@ void keep_images(const std::filesystem::path& folder) {
   keeping().is_said = true;
 }
 
-struct Simulation::State {
-  SceneText scene;
-  const parallel::Executor& executor;
-  simulation::Opened opened;
-
-  State(SceneText text, const parallel::Executor& e)
-      : scene(std::move(text)), executor(e), opened(scene::parse(scene, simulation::effect_table()), e) {}
-
-  std::vector<std::byte> save() const {
-    std::vector<std::byte> bytes;
-    opened.save("", [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
-    return bytes;
-  }
-};
-
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set) {
   const FloatingPointGuard guard;
   const std::filesystem::path found = simulation::find_scene(file);
@@ -84,6 +72,17 @@ SceneText read_scene(const std::filesystem::path& file, std::vector<std::string>
     throw Error(e.code(), e.what() + simulation::did_you_mean_scene(file));
   }
   return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), path_text(found)};
+}
+
+std::vector<std::string> effect_names() {
+  const FloatingPointGuard guard;
+  std::vector<std::string> names;
+  for (const effect::Effect* e : registry::effects()) names.push_back(e->name);
+  return names;
+}
+std::string describe(const std::string& effect) {
+  const FloatingPointGuard guard;
+  return simulation::describe_json(effect);
 }
 
 std::shared_ptr<const scene::Scenery> street_at_night(std::uint64_t seed, bool clear_lane) {
@@ -104,6 +103,7 @@ Variant Simulation::variant() const {
   const FloatingPointGuard guard;
   return variant_from_name(state_->opened.config().variant());
 }
+const SceneText& Simulation::scene_text() const { return state_->scene; }
 std::string Simulation::scene_json() const {
   const FloatingPointGuard guard;
   return scene::config_json(state_->opened.config()).dump(2);
@@ -125,6 +125,15 @@ void Simulation::render(Recorder* recorder) {
 void Simulation::skip(Recorder* recorder) {
   const FloatingPointGuard guard;
   state_->opened.skip(recorder);
+}
+
+std::vector<std::string> Simulation::next_frame_hashes() {
+  const FloatingPointGuard guard;
+  capture::HashRecorder recorder;
+  state_->opened.next_frame(&recorder);
+  std::vector<std::string> lines;
+  for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(line.text());
+  return lines;
 }
 
 std::vector<std::byte> Simulation::save() const {

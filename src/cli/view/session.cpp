@@ -13,9 +13,9 @@
 #include "base/read_file.h"
 #include "capture/hashing.h"
 #include "capture/json_read.h"
-#include "cli/film.h"
 #include "cli/run_command.h"
 #include "image/flipped.h"
+#include "image_io/film.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
 #include "registry/registry.h"
@@ -160,7 +160,7 @@ Result Session::film(const Json& args, const Advance& advance) const {
   SceneText scene = scene_;
   scene.set.push_back(fmt::format("run.frames={}", frames));
   const Json keys = capture::parse_json(running_->scene_json(), "scene", own);
-  Film film(path, keys.at("run.size").at(0), keys.at("run.size").at(1), {keys.at("run.fps")});
+  image_io::Film film(path, keys.at("run.size").at(0), keys.at("run.size").at(1), {keys.at("run.fps")});
   Simulation simulation(scene, executor_);
   for (int frame = 0; frame < frames; ++frame) {
     simulation.next_frame();

@@ -13,8 +13,10 @@ what was found and the nearest name.
 
 from ._library import golden_generation, keep_images, version
 from .cases import Case, Cases, Inputs
+from .codes import from_srgb8, from_unorm8, srgb8, unorm8
 from .errors import Error, FileError, StaleViewError
 from .judging import Cause, Failure, PassVerdict, Port, Verdict, judge, judge_folder, port
+from .packs import Pack, write_pack
 from .parameters import Parameter, describe, effects, profiles
 from .pictures import show, shown
 from .simulation import Frame, Simulation, open
@@ -22,7 +24,7 @@ from .views import View
 
 __version__ = version()
 __all__ = [
-    "Case", "Cases", "Cause", "Error", "Failure", "FileError", "Frame", "Inputs", "Parameter", "PassVerdict", "Port", "Simulation",
-    "StaleViewError", "Verdict", "View", "describe", "effects", "golden_generation", "judge", "judge_folder", "keep_images", "open", "port", "profiles",
-    "show", "shown", "version",
+    "Case", "Cases", "Cause", "Error", "Failure", "FileError", "Frame", "Inputs", "Pack", "Parameter", "PassVerdict", "Port",
+    "Simulation", "StaleViewError", "Verdict", "View", "describe", "effects", "from_srgb8", "from_unorm8", "golden_generation", "judge", "judge_folder",
+    "keep_images", "open", "port", "profiles", "show", "shown", "srgb8", "unorm8", "version", "write_pack",
 ]

@@ -41,7 +41,8 @@ def _load() -> c.CDLL:
 
 _S = TypeVar("_S", bound=s.Struct)
 _handle, _result, _index, _text, _out = c.c_void_p, c.c_int, c.c_size_t, c.c_char_p, c.POINTER(c.c_void_p)
-#: Callbacks: rr_write and rr_read.
+#: Callbacks: rr_progress, rr_write and rr_read.
+PROGRESS = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int32, c.c_int32)
 WRITE, READ = (c.CFUNCTYPE(result, c.c_void_p, c.c_void_p, c.c_size_t) for result in (c.c_int, c.c_int64))
 _texts, _text_out = c.POINTER(c.c_char_p), c.POINTER(c.c_char_p)
 _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
@@ -84,6 +85,8 @@ _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
     "get_judge": (_text, [_handle, _index, _index]),
     "give": (_result, [_handle, _index, _index, c.c_void_p, _index, _index]),
     "give_image": (_result, [_handle, _index, _index, c.POINTER(s.Array)]),
+    "write_pack": (_result, [_handle, _text, c.POINTER(s.PackOptions), _text_out]),
+    "film": (_result, [_handle, _text, c.c_int32, c.c_int32, c.c_void_p, c.c_void_p]),
     "judge": (_result, [_handle, c.POINTER(s.JudgeOptions), _out]),
     "judge_folder": (_result, [_text, _text, c.POINTER(s.FolderOptions), _out]),
     "free_judgement": (None, [_handle]),
@@ -152,8 +155,13 @@ class Handle:
         self._as_parameter_ = made
         #: Library memory that arrays view, by the id of its owner in Python.
         self.looked_into: weakref.WeakValueDictionary[int, object] = weakref.WeakValueDictionary()
-        # Not at the end of the program, because arrays may still view it.
-        weakref.finalize(self, _functions[free], made).atexit = False
+        self._free = weakref.finalize(self, _functions[free], made)
+        self._free.atexit = False  # at the end of the program arrays may still view it
+
+    def close(self) -> None:
+        """Frees it now, unless an array views its memory: then with the last of these."""
+        if not self.looked_into:
+            self._free()
 
 
 def version() -> str:

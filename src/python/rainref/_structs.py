@@ -19,7 +19,7 @@ class Struct(c.Structure):
 def _members(text: str) -> list[tuple[str, object]]:
     """Parses names with their types: 'struct_bytes:size name:text'."""
     types = {"size": c.c_size_t, "text": c.c_char_p, "i32": c.c_int32, "i64": c.c_int64, "real": c.c_double, "float": c.c_float,
-             "pointer": c.c_void_p, "texts": c.POINTER(c.c_char_p), "pointers": c.c_void_p * 4, "floats": c.c_float * 4}
+             "pointer": c.c_void_p, "ints": c.POINTER(c.c_int32), "texts": c.POINTER(c.c_char_p), "pointers": c.c_void_p * 4, "floats": c.c_float * 4}
     return [("struct_bytes", c.c_size_t)] + [(n, types[t]) for n, t in (word.split(":") for word in text.split())]
 
 
@@ -51,6 +51,10 @@ class CaseInfo(Struct):
 
 class Sampling(Struct):
     _fields_ = _members("filter:text mip_filter:text address_u:text address_v:text border:floats")
+
+
+class PackOptions(Struct):
+    _fields_ = _members("frames:ints frame_count:size passes:texts pass_count:size seed:text progress:pointer user:pointer")
 
 
 class JudgeOptions(Struct):

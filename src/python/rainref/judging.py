@@ -7,18 +7,19 @@ import inspect
 import json
 import os
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 
 from . import _structs as s
 from ._library import Handle, decoded, encoded, filled, text_of, texts
 from .cases import Case, Cases
-from .errors import Error, unknown
+from .errors import Error, nearest, unknown
 from .parameters import describe
+from .progress import Progress, told
 from .simulation import Simulation
 
 
@@ -168,16 +169,62 @@ class Verdict:
         Path(path).write_text(text_of("report_junit", self._handle), "utf-8", "surrogateescape")
 
 
-def _run(ports: Iterable[Port], cases: Cases) -> None:
+#: A port of a pass: made by @port, or a function that `Given` or its own name tells the pass of.
+Function = Union[Port, Callable[..., Any]]
+Given = Union[Function, Iterable[Function], Mapping[str, Function]]
+
+
+def _ports(given: Given, effect: str, passes: Sequence[str]) -> list[Port]:
+    """The given functions as ports of these passes of an effect, one for each."""
+    if isinstance(given, Mapping):
+        named = list(given.items())
+    else:
+        functions = [given] if callable(given) else list(given)
+        named = [(p.name if isinstance(p, Port) else getattr(p, "__name__", ""), p) for p in functions]
+    ports = []
+    for name, function in named:
+        if not callable(function):
+            raise Error(f"ports: expected functions, found {function!r}")
+        if isinstance(function, Port) and function.effect != effect:
+            raise Error(f"ports: expected ports of {effect}, found one of {function.effect}.{function.name}")
+        if not isinstance(function, Port) and not isinstance(given, Mapping) and len(named) == len(passes) == 1:
+            name = passes[0]
+        if name not in passes:
+            raise Error(f"ports: expected a function whose name is a pass, one with @rainref.port(...), or {{\"{passes[0]}\": function}}; found "
+                        f"'{name}'" + (nearest(name, passes) or f", and the passes are {', '.join(passes)}"))
+        ports.append(Port(effect, name, function.function if isinstance(function, Port) else function))
+    names = [p.name for p in ports]
+    if not ports or len(set(names)) != len(names):
+        raise Error(f"ports: expected one for each pass, found {', '.join(names) or 'none'}")
+    return ports
+
+
+def _passes_of(pack: str | os.PathLike[str]) -> tuple[str, list[str]]:
+    """The effect of a pack, and its passes that have cases; the library says what is wrong with a pack that has no such manifest."""
+    try:
+        manifest = json.loads((Path(pack) / "manifest.json").read_text("utf-8"))
+        return manifest["effect"], list(dict.fromkeys(case["pass"] for case in manifest["cases"]))
+    except (OSError, ValueError, KeyError, TypeError):
+        cases = Cases.of_pack(pack)
+        return cases[0].effect, list(dict.fromkeys(case.name for case in cases))
+
+
+def _run(ports: Iterable[Port], cases: Cases, progress: Progress) -> None:
     by_name = {p.name: p for p in ports}
-    for case in cases:
+    for done, case in enumerate(cases, 1):
         by_name[case.name].run(case)
+        if progress:
+            progress(done, len(cases))
 
 
-def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port], frames: Iterable[int] = (0, 1), profile: str = "vulkan", *,
+def judge(what: Simulation | str | os.PathLike[str], ports: Given, frames: Iterable[int] = (0, 1), profile: str = "vulkan", *,
           half: str | None = None, threads: int = 0, strict: bool = False, exhaustive: bool = False,
-          spirv: str | os.PathLike[str] | None = None) -> Verdict:
+          spirv: str | os.PathLike[str] | None = None, progress: Progress = None) -> Verdict:
     """Runs ports on the cases of a simulation or of a pack's folder, and judges their outputs.
+
+    A port is made by @port, or is a plain function of the same arguments. The pass of a plain function is the key in a dict
+    ({"wave_step": function}), else its name; the only function for a pack of one pass may have any name. `progress` is called with (cases
+    run, cases in all).
 
     A simulation runs until the last of `frames`; none of them may already have been simulated. `half` says how the ports round stores to
     binary16 ("rne", "rtz"); None: it is inferred from the outputs if the profile leaves it open. With `strict` each WARN is a FAIL. With
@@ -185,21 +232,17 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
     with bindings.json and the ports' SPIR-V: causes get lines of it, and the report says who is wrong. Raises Error for outputs that cannot
     be judged.
     """
-    ports = [ports] if callable(ports) else list(ports)
-    for p in ports:
-        if not isinstance(p, Port):
-            raise Error(f"ports: expected functions with @rainref.port(...), found {p!r}")
-    names = [p.name for p in ports]
-    if not ports or len(set(names)) != len(names):
-        raise Error(f"ports: expected one for each pass, found {', '.join(names) or 'none'}")
-    effect = what.effect if isinstance(what, Simulation) else None
+    if isinstance(what, Simulation):
+        effect, passes = what.effect, [p["name"] for p in describe(what.effect)["passes"]]
+    else:
+        effect, passes = _passes_of(what)
+    judged = _ports(ports, effect, passes)
+    names = [p.name for p in judged]
     if isinstance(what, Simulation):
         wanted = sorted(set(frames))
         if not wanted or wanted[0] < what.frame:
             raise Error(f"frames: expected frames from {what.frame} on, found {', '.join(map(str, wanted)) or 'none'}")
         cases = Cases.of_simulation(what)
-        for other in (p for p in ports if p.effect != effect):
-            raise Error(f"ports: expected ports of {effect}, found one of {other.effect}.{other.name}")
         while what.frame <= wanted[-1]:
             if what.frame in wanted:
                 cases.add_next_frame(what, names)
@@ -207,25 +250,25 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
                 what.step()
     else:
         cases = Cases.of_pack(what, names)
-        for other in (p for p in ports if len(cases) and p.effect != cases[0].effect):
-            raise Error(f"ports: expected ports of {cases[0].effect}, found one of {other.effect}.{other.name}")
-    _run(ports, cases)
+    _run(judged, cases, progress)
     options = s.JudgeOptions.new(profile=encoded(profile), half=encoded(half) if half is not None else None, threads=threads, strict=strict,
                                  exhaustive=exhaustive, spirv=None if spirv is None else encoded(spirv),
-                                 port=", ".join(getattr(p.function, "__name__", p.name) for p in ports).encode())
+                                 port=", ".join(getattr(p.function, "__name__", p.name) for p in judged).encode())
     return Verdict(Handle("free_judgement", "judge", cases.handle, c.byref(options)))
 
 
 def judge_folder(pack: str | os.PathLike[str], port: str | os.PathLike[str], profile: str = "vulkan", *, passes: Iterable[str] = (),
                  partial: bool = False, threads: int = 0, strict: bool = False, exhaustive: bool = False,
-                 spirv: str | os.PathLike[str] | None = None) -> Verdict:
+                 spirv: str | os.PathLike[str] | None = None, progress: Progress = None) -> Verdict:
     """Judges the files that a port wrote for the cases of a pack, like `rainref validate PACK --port PORT`.
 
     Only `passes` are judged; if none is named, all are. With `partial` a pass without any file is NOT JUDGED. With `strict` each WARN is
-    a FAIL. With `exhaustive` every envelope is computed. `spirv` is as in judge(). The verdict's `json()["files"]` lists missing and unusable files. `html` reads
-    both folders again. Raises Error if nothing can be judged.
+    a FAIL. With `exhaustive` every envelope is computed. `spirv` is as in judge(). `progress` is
+    called with (runs of passes judged, runs in all). The verdict's `json()["files"]` lists missing and unusable files. `html` reads both
+    folders again. Raises Error if nothing can be judged.
     """
     many, count = texts(passes)
-    options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads, strict=strict,
-                                  exhaustive=exhaustive, spirv=None if spirv is None else encoded(spirv))
-    return Verdict(Handle("free_judgement", "judge_folder", encoded(pack), encoded(port), c.byref(options)))
+    with told(progress) as callback:
+        options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads, progress=callback,
+                                      strict=strict, exhaustive=exhaustive, spirv=None if spirv is None else encoded(spirv))
+        return Verdict(Handle("free_judgement", "judge_folder", encoded(pack), encoded(port), c.byref(options)))

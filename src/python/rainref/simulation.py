@@ -16,8 +16,10 @@ from . import _structs as s
 from . import states
 from ._library import Handle, call, decoded, encoded, filled, text_of, texts
 from .buffers import buffer_of, copy_of, view_of
-from .errors import FileError, StaleViewError, nearest
+from .errors import Error, FileError, StaleViewError, nearest
 from .parameters import Parameters, changes, effects, toml
+from .pictures import png, shown
+from .progress import Progress, told
 from .views import View
 
 
@@ -63,13 +65,38 @@ class Simulation:
         many, count = texts(set)
         options = s.OpenOptions.new(set=many, set_count=count, threads=threads)
         if isinstance(scene, Path):
-            self._handle = Handle("close", "open_file", encoded(scene), c.byref(options))
+            self._open: Handle | None = Handle("close", "open_file", encoded(scene), c.byref(options))
         else:
-            self._handle = Handle("close", "open", encoded(scene), c.byref(options))
+            self._open = Handle("close", "open", encoded(scene), c.byref(options))
         # Arguments to open it again, for copies in this and other processes.
         self._scene, self._set, self._threads = scene.absolute() if isinstance(scene, Path) and scene.exists() else scene, set, threads
         self.changes = 0  #: counts the changes that invalidate views
         self._look_up()
+
+    @property
+    def _handle(self) -> Handle:
+        if self._open is None:
+            raise Error(f"this simulation of {self.effect} is closed")
+        return self._open
+
+    def close(self) -> None:
+        """Frees the simulation's memory. Arrays and cases taken from it stay valid; views end. `with` calls this at the end of its block.
+
+        >>> with open("edge_splash", {"run.size": (16, 9)}) as sim:
+        ...     edge = sim.step()["edge"]
+        >>> edge.shape, sim
+        ((9, 16), <rainref edge_splash corrected, closed>)
+        """
+        if self._open is not None:
+            self.changes += 1
+            self._open.close()
+            self._open = None
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def _look_up(self) -> None:
         about = self._about()
@@ -86,7 +113,11 @@ class Simulation:
         return filled("get_info", s.SimulationInfo, self._handle)
 
     def __repr__(self) -> str:
-        return f"<rainref {self.effect} {self.variant}, frame {self.frame}>"
+        return f"<rainref {self.effect} {self.variant}, {'closed' if self._open is None else f'frame {self.frame}'}>"
+
+    def _repr_png_(self) -> bytes | None:
+        """The picture, which a notebook shows; before the first frame the text of repr()."""
+        return png(shown(self.picture)) if self._open is not None and self.frame > 0 else None
 
     @property
     def frame(self) -> int:
@@ -177,7 +208,7 @@ class Simulation:
         # The library rebuilds the simulation and frees the old one. If an array still views the old one, keep it and continue with a copy.
         handle = copy.copy(self)._handle if self._handle.looked_into else self._handle
         call("set", handle, encoded(key), encoded(text))
-        self._handle = handle
+        self._open = handle
         self._set = [kept for kept in self._set if not kept.startswith(f"{key}=")] + [f"{key}={text}"]
         self.changes += 1
         self._look_up()
@@ -217,6 +248,16 @@ class Simulation:
         call("write_exr", self._handle, encoded(path))
 
 
+    def film(self, path: str | os.PathLike[str], frames: int = 0, *, every: int = 1, progress: Progress = None) -> None:
+        """Simulates the next `frames` frames and writes a film of those whose number `every` divides, as `rainref run --film` does: .mp4,
+        .webm or .gif, made by ffmpeg, with run.fps / every pictures a second. 0: the frames that remain of the scene. The last frame is
+        rendered in any case. `progress` is called with (frames done, frames in all). A film appears whole or not at all. Raises Error for
+        the name or the rate, FileError if ffmpeg is missing or fails."""
+        self.changes += 1
+        with told(progress) as callback:
+            call("film", self._handle, encoded(path), frames, every, callback, None)
+
+
 def _opened_again(scene: str | Path, set: list[str], threads: int, state: bytes) -> Simulation:
     return Simulation(scene, set, threads).load(state)
 
@@ -249,3 +290,6 @@ class Frame:
     def picture(self) -> np.ndarray:
         """Simulation.picture."""
         return self._now().picture
+
+    def _repr_png_(self) -> bytes | None:
+        return self._now()._repr_png_()

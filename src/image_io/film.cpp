@@ -1,4 +1,4 @@
-#include "cli/film.h"
+#include "image_io/film.h"
 
 #include <algorithm>
 #include <optional>
@@ -15,10 +15,10 @@
 #include "base/path_text.h"
 #include "base/piped_program.h"
 #include "base/program_path.h"
-#include "cli/film_command.h"
+#include "image_io/film_command.h"
 #include "rainref/error.h"
 
-namespace rainref::cli {
+namespace rainref::image_io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,4 +121,4 @@ void Film::add(const Image& picture) {
 
 void Film::finish() { process_->finish(); }
 
-}  // namespace rainref::cli
+}  // namespace rainref::image_io

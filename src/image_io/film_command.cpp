@@ -1,4 +1,4 @@
-#include "cli/film_command.h"
+#include "image_io/film_command.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "base/path_text.h"
 #include "rainref/error.h"
 
-namespace rainref::cli {
+namespace rainref::image_io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ std::vector<std::string> film_arguments(const fs::path& film, int width, int hei
   return all;
 }
 
-}  // namespace rainref::cli
+}  // namespace rainref::image_io

@@ -7,7 +7,7 @@
 
 #include "rainref/image.h"
 
-namespace rainref::cli {
+namespace rainref::image_io {
 
 /// Pictures per second: the frame rate divided by the number of frames for each picture.
 struct FilmRate {
@@ -43,4 +43,4 @@ class Film {
   int width_, height_, pictures_ = 0;
 };
 
-}  // namespace rainref::cli
+}  // namespace rainref::image_io

@@ -2,18 +2,19 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "cli/progress.h"
-#include "cli/terminal.h"
+#include <fmt/format.h>
+
 #include "rainref/recorder.h"
 #include "simulation/opened.h"
 
-namespace rainref::cli {
+namespace rainref::judging {
 
 /// The scene at a small size with the same aspect, which renders quickly. The same passes run in the same frames.
 inline scene::Config at_small_size(scene::Config config) {
@@ -58,12 +59,13 @@ class Frames : public Recorder {
     }
     followed_ = longest;
   }
-  void tell(const std::vector<std::string>& passes) const {
+  /// Says which passes have other frames than those asked for, or none.
+  void tell(const std::vector<std::string>& passes, const std::function<void(const std::string&)>& line) const {
     for (const std::string& pass : passes) {
       if (!has(pass))
-        say("left out: {} does not run in the first {}\n", pass, counted(followed_, "frame"));
+        line(fmt::format("left out: {} does not run in the first {} frame{}", pass, followed_, followed_ == 1 ? "" : "s"));
       else if (!runs_when_asked_.contains(pass))
-        say("added: frame {}, the first in which {} runs\n", first_.at(pass), pass);
+        line(fmt::format("added: frame {}, the first in which {} runs", first_.at(pass), pass));
     }
   }
   bool reads(int, std::string_view) const override { return false; }
@@ -99,4 +101,4 @@ class Frames : public Recorder {
   bool is_rendering_ = false;
 };
 
-}  // namespace rainref::cli
+}  // namespace rainref::judging
