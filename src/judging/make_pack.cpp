@@ -76,11 +76,11 @@ std::map<std::string, judge::NullPorts> idle_passes(const std::filesystem::path&
 }
 
 /// A pack of the selected frames, and its coverage.
-class Packing {
+class ScenePack {
  public:
   /// `fresh`: the scene before its first frame.
-  Packing(const PackRequest& request, const PackEvents& events, const parallel::Executor& executor, std::vector<std::string> passes,
-          Frames& frames, simulation::Opened fresh)
+  ScenePack(const PackRequest& request, const PackEvents& events, const parallel::Executor& executor, std::vector<std::string> passes,
+            Frames& frames, simulation::Opened fresh)
       : fresh_(std::move(fresh)),
         config_(request.config),
         request_(request),
@@ -202,7 +202,7 @@ WrittenPack make_pack(const PackRequest& request, const parallel::Executor& exec
   frames.tell(passes, events.line);
   std::erase_if(passes, [&](const std::string& pass) { return !frames.has(pass); });
   if (passes.empty()) throw Error(ExitCode::usage, "--passes: expected one that runs in this scene, found none");
-  Packing packing(request, events, executor, passes, frames, std::move(first));
+  ScenePack packing(request, events, executor, passes, frames, std::move(first));
   capture::PackWriter::Total total = packing.write();
   std::map<std::string, judge::NullPorts> idle = idle_passes(request.output, executor);
   if (!idle.empty() && request.may_add_frames) {

@@ -47,6 +47,8 @@
   X(rr_get_judge)           \
   X(rr_give)                \
   X(rr_give_image)          \
+  X(rr_write_pack)          \
+  X(rr_film)                \
   X(rr_judge)               \
   X(rr_judge_folder)        \
   X(rr_free_judgement)      \

@@ -76,6 +76,39 @@ static void running(rr_simulation* s) {
   expect(__LINE__, rr.rr_write_png(s, "/nowhere/a.png"), RR_IO, "/nowhere");
 }
 
+static int stop_at_once(void* user, int32_t done, int32_t of) {
+  (void)user, (void)of;
+  return done == 1;
+}
+static void files(rr_simulation* s) {
+  rr_pack_options o = {.struct_bytes = sizeof o};
+  const char* notes = "";
+  REFUSED(rr.rr_write_pack(NULL, "p", NULL, &notes), "simulation: ");
+  REFUSED(rr.rr_write_pack(s, NULL, NULL, &notes), "folder: ");
+  o.seed = "luck";
+  REFUSED(rr.rr_write_pack(s, "p", &o, &notes), "seed: expected \"random\" or a whole number");
+  CHECK(notes == NULL);
+  o.seed = "3";
+  o.frame_count = 1;
+  REFUSED(rr.rr_write_pack(s, "p", &o, NULL), "rr_pack_options.frames: expected an address");
+  const int32_t frames[] = {-1};
+  o.frames = frames;
+  REFUSED(rr.rr_write_pack(s, "p", &o, NULL), "frames: expected 0 or more, found -1");
+  o.frame_count = 0;
+  o.progress = stop_at_once;
+  REFUSED(rr.rr_write_pack(s, "p", &o, NULL), "stopped by rr_pack_options.progress after 1 of ");
+  const char* passes[] = {"displya"};
+  o.passes = passes;
+  o.pass_count = 1;
+  REFUSED(rr.rr_write_pack(s, "p", &o, NULL), "did you mean 'display'?");
+  o.struct_bytes = 8;
+  REFUSED(rr.rr_write_pack(s, "p", &o, NULL), "rr_pack_options.struct_bytes");
+  REFUSED(rr.rr_film(NULL, "a.mp4", 1, 1, NULL, NULL), "simulation: ");
+  REFUSED(rr.rr_film(s, NULL, 1, 1, NULL, NULL), "path: ");
+  REFUSED(rr.rr_film(s, "a.avi", 1, 1, NULL, NULL), "expected a name that ends in .mp4, .webm or .gif");
+  REFUSED(rr.rr_film(s, "a.mp4", 1, 0, NULL, NULL), "film: every: expected 1 or more, found 0");
+}
+
 static void cases_and_judging(rr_simulation* s, const char* scene) {
   rr_cases* cases = NULL;
   REFUSED(rr.rr_cases_of_simulation(NULL, &cases), "simulation: ");
@@ -159,6 +192,7 @@ void refusals(const char* scene) {
   rr_simulation* s = NULL;
   CHECK(rr.rr_open_file(scene, NULL, &s) == RR_OK);
   running(s);
+  files(s);
   cases_and_judging(s, scene);
   rr.rr_close(s);
 }

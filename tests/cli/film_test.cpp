@@ -2,9 +2,9 @@
 #include <set>
 
 #include "base/program_path.h"
-#include "cli/film.h"
-#include "cli/film_command.h"
 #include "cli/running.h"
+#include "image_io/film.h"
+#include "image_io/film_command.h"
 #include "image_io/read.h"
 
 namespace rainref::cli {
@@ -236,7 +236,7 @@ TEST(FilmProgram, IsFoundAsAShellFindsIt) {
   ::setenv("PATH", path.c_str(), 1);
 }
 
-TEST(FilmProgram, NoNameIsTakenForAnOption) { EXPECT_THAT(film_arguments("-y.mp4", 2, 2, {60}, "-y.tmp").back(), "file:-y.tmp"); }
+TEST(FilmProgram, NoNameIsTakenForAnOption) { EXPECT_THAT(image_io::film_arguments("-y.mp4", 2, 2, {60}, "-y.tmp").back(), "file:-y.tmp"); }
 
 /// With Debian's ffmpeg: a film's pictures, taken out again.
 class RealFilms : public Films {

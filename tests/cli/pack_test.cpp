@@ -137,6 +137,29 @@ TEST_F(PackVerb, ThreadsAndSimdTargetsDoNotMatter) {
   }
 }
 
+// What nobody knows before cannot be learned by heart; and the seed that is printed makes the pack again.
+TEST_F(PackVerb, ARandomSeedIsPrintedAndMakesThePackAgain) {
+  const auto made = [&](const std::string& name, const std::string& seed) {
+    return pack({"corrected.toml", "-o", name, "--at", "2", "--passes", "wave_step,display", "--seed", seed}).out;
+  };
+  const auto seed_in = [&](const std::string& name) {
+    return nlohmann::json::parse(contents(folder / name / "manifest.json"))["seed"].get<std::int64_t>();
+  };
+  const std::string said = made("a", "random");
+  made("b", "random");
+  const std::int64_t seed = seed_in("a");
+  EXPECT_NE(seed, seed_in("b"));
+  EXPECT_THAT(said, StartsWith(fmt::format("seed {0}: --seed {0} makes this pack again\n", seed)));
+  EXPECT_THAT(made("again", std::to_string(seed)), testing::Not(HasSubstr("seed")));
+  EXPECT_EQ(files("again"), files("a"));
+  EXPECT_NE(hash_lines(read("a")), hash_lines(read("b")));
+  // It is the scene's key, which it overrides.
+  pack({"corrected.toml", "-o", "set", "--at", "2", "--passes", "wave_step,display", "--set", fmt::format("seed={}", seed)});
+  EXPECT_EQ(hash_lines(read("set")), hash_lines(read("a")));
+  pack({"corrected.toml", "-o", "both", "--at", "2", "--passes", "display", "--set", "seed=5", "--seed", "6"});
+  EXPECT_EQ(seed_in("both"), 6);
+}
+
 TEST_F(PackVerb, AnOlderPackIsReplacedAndNothingElse) {
   pack({"corrected.toml", "-o", "p", "--at", "0"});
   pack({"corrected.toml", "-o", "p", "--at", "1", "--passes", "display"});
@@ -176,6 +199,10 @@ TEST_F(PackVerb, BadArguments) {
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", "ground_noise"}, 2,
                  HasSubstr("found 'ground_noise'"));  // as-published only
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", ""}, 2, EndsWith("found ''"));
+  for (const std::string seed : {"", "-1", "1.5", "luck", "Random", "9223372036854775808"})
+    expect_refusal({"pack", "corrected.toml", "-o", "p", "--seed", seed}, 2,
+                   fmt::format("--seed: expected \"random\" or a whole number from 0 to 9223372036854775807, found '{}'", seed));
+  expect_refusal({"pack", "--flat", "p", "-o", "q", "--seed", "random"}, 2, HasSubstr("--flat: expected none of --at, --passes, --seed"));
   expect_refusal({"pack", "none.toml", "-o", "p"}, 4, HasSubstr("none.toml"));
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--set", "puddle.zebra=1"}, 2, HasSubstr("puddle.zebra"));
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--set", "environment.image=none.png"}, 4, HasSubstr("none.png"));

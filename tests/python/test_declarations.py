@@ -11,7 +11,7 @@ HEADER = re.sub(r"//[^\n]*", "", (ROOT / "include/rainref.h").read_text())
 SIZES = {"size_t": ctypes.sizeof(ctypes.c_size_t), "int32_t": 4, "int64_t": 8, "float": 4, "double": 8,
          "rr_progress": ctypes.sizeof(ctypes.c_void_p)}
 ALIASES = {"OpenOptions": "open_options", "SimulationInfo": "simulation_info", "LayoutInfo": "layout_info", "CaseInfo": "case_info",
-           "JudgeOptions": "judge_options", "FolderOptions": "folder_options", "VerdictInfo": "verdict", "PassVerdictInfo": "pass_verdict", "CauseInfo": "cause",
+           "PackOptions": "pack_options", "JudgeOptions": "judge_options", "FolderOptions": "folder_options", "VerdictInfo": "verdict", "PassVerdictInfo": "pass_verdict", "CauseInfo": "cause",
            "FailureInfo": "failure"}
 
 

@@ -80,6 +80,20 @@ def test_files_of_a_port(tmp_path):
         rr.judge_folder(pack, port, passes=["wavestep"])
 
 
+def test_progress_of_a_folder(tmp_path):
+    pack, port, done = PACKS / "edge_splash-corrected", tmp_path / "port", []
+    shutil.copytree(pack, port)
+    assert rr.judge_folder(pack, port, progress=lambda *now: done.append(now)).ok
+    assert done == [(k + 1, len(done)) for k in range(len(done))] and len(done) > 1
+
+    def stop(done, of):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        rr.judge_folder(pack, port, progress=stop)
+
+
 @pytest.mark.skipif(not shutil.which("glslangValidator"), reason="needs glslangValidator")
 def test_a_cause_has_its_line(tmp_path):
     """The port's shader exchanges red and blue; so do the files that it wrote."""
@@ -198,9 +212,43 @@ def test_floats_are_stored_as_the_buffer_stores_them(puddle, kind):
     assert codes.dtype == np.uint8 and verdict["display"].differing == 0 and verdict.ok, verdict
 
 
-def test_a_plain_function_a_wrong_uniform_and_an_exception(puddle):
-    with pytest.raises(ValueError, match="ports: expected functions with @rainref.port"):
-        rr.judge(puddle, lambda i, u: 0)
+def wave_step(i, u, case):
+    return ports.right.function(i, u, case)
+
+
+def test_plain_functions_are_ports(puddle):
+    """Of the pass that is their name, or their key; the only one of a pack of one pass may be called anything."""
+    assert rr.judge(puddle, wave_step, frames=[0]).status == "PASS"
+    assert rr.judge(puddle, {"wave_step": lambda i, u, case: wave_step(i, u, case)}, frames=[1]).status == "PASS"
+    assert rr.judge(puddle, [wave_step, rr.port("puddle.display")(lambda i, u, case: case.expected)], frames=[2]).ok
+    pack = PACKS / "puddle-corrected"
+    assert rr.judge(pack, wave_step).status == "PASS"
+    assert rr.judge(pack, {"wave_step": ports.zeros}).status == "FAIL"
+
+
+def test_the_only_pass_of_a_pack_is_that_of_any_function(tmp_path):
+    done = []
+    pack = rr.write_pack("puddle", tmp_path / "pack", PUDDLE, frames=[3], passes=["wave_step"], seed=3)
+    assert rr.judge(pack, lambda i, u, case: wave_step(i, u, case), progress=lambda *now: done.append(now)).status == "PASS"
+    assert done == [(1, 4), (2, 4), (3, 4), (4, 4)]
+
+
+def test_a_function_of_no_pass_is_told_the_nearest(puddle):
+    def wave_stp(i, u):
+        return 0
+
+    with pytest.raises(rr.Error, match="a function whose name is a pass.*found 'wave_stp'; did you mean 'wave_step'"):
+        rr.judge(puddle, wave_stp)
+    with pytest.raises(rr.Error, match="found '<lambda>', and the passes are raindrops, wave_step"):
+        rr.judge(PACKS / "puddle-corrected", lambda i, u: 0)
+    with pytest.raises(rr.Error, match="found 'displya'; did you mean 'display'"):
+        rr.judge(puddle, {"displya": wave_step})
+    with pytest.raises(rr.Error, match="ports: expected functions, found 3"):
+        rr.judge(puddle, [3])
+    assert puddle.frame == 0
+
+
+def test_a_wrong_uniform_and_an_exception(puddle):
     for wrong in (lambda i, u: u.courant_sqare, lambda i, u: u["courant_sqare"]):
         with pytest.raises(rr.Error, match="'courant_sqare' is not a uniform of this pass; did you mean 'courant_sq'") as caught:
             rr.judge(puddle, rr.port("puddle.wave_step")(wrong), frames=[puddle.frame])
@@ -217,8 +265,6 @@ def test_what_cannot_be_judged(puddle):
         rr.judge(puddle, ports.right, frames=[1], profile="vulcan")
     with pytest.raises(ValueError, match="one for each pass, found wave_step, wave_step"):
         rr.judge(puddle, [ports.right, ports.zeros])
-    with pytest.raises(ValueError, match="with @rainref.port"):
-        rr.judge(puddle, [lambda i, u: 0])
     with pytest.raises(ValueError, match="ports of puddle, found one of rainy_glass.display"):
         rr.judge(puddle, rr.Port("rainy_glass", "display", lambda i, u: 0), frames=[5])
     with pytest.raises(ValueError, match="'wavestep' is not a pass of puddle; did you mean 'wave_step'"):

@@ -4,8 +4,10 @@ import concurrent.futures
 import copy
 import io
 import pickle
+import struct
 import sys
 import warnings
+import zlib
 
 import numpy as np
 import pytest
@@ -212,6 +214,72 @@ def test_shown_pictures_have_their_top_row_first(puddle):
     np.testing.assert_array_equal(rr.shown(puddle.picture), puddle.picture[::-1, :, :3])
     heights = rr.shown(puddle["wave"])
     assert heights.dtype == np.uint8 and heights.min() == 0 and heights.max() == 255
+
+
+def decoded(png):
+    """Pixels of a PNG of 8 bits whose rows have no filter, and the kinds of its chunks."""
+    at, chunks = 8, {}
+    while at < len(png):
+        length, kind = struct.unpack(">I4s", png[at:at + 8])
+        content = png[at + 8:at + 8 + length]
+        assert struct.unpack(">I", png[at + 8 + length:at + 12 + length])[0] == zlib.crc32(kind + content)
+        chunks[kind] = content
+        at += 12 + length
+    assert png.startswith(b"\x89PNG\r\n\x1a\n") and list(chunks) == [b"IHDR", b"IDAT", b"IEND"]
+    width, height, bits, colour = struct.unpack(">IIBB", chunks[b"IHDR"][:10])
+    rows = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, -1)
+    assert bits == 8 and not rows[:, 0].any()
+    return rows[:, 1:].reshape((height, width, 3) if colour == 2 else (height, width))
+
+
+def test_a_notebook_shows_the_picture(puddle, tmp_path):
+    assert puddle._repr_png_() is None  # and so shows the text
+    frame = puddle.step()
+    png = puddle._repr_png_()
+    np.testing.assert_array_equal(decoded(png), rr.shown(puddle.picture))
+    assert frame._repr_png_() == png
+    np.testing.assert_array_equal(decoded(rr.pictures.png(rr.shown(puddle["wave"]))), rr.shown(puddle["wave"]))
+    (tmp_path / "own.png").write_bytes(png)  # other readers read it, too
+    rr.open("edge_splash", {"run.size": (64, 36), "scene.image": str(tmp_path / "own.png")}).step()
+    puddle.step()
+    with pytest.raises(rr.StaleViewError):
+        frame._repr_png_()
+
+
+def test_with_closes_a_simulation():
+    with rr.open("puddle", PUDDLE) as sim:
+        frame = sim.step()
+        view, wave, cases = frame.view("wave", 0), frame["wave"], rr.Cases.of_simulation(sim)
+        cases.add_next_frame(sim, ["display"])
+        view = sim.view("wave", 0)
+    assert wave.shape == (64, 96, 2) and cases[0].expected["picture"].any()
+    for use in (lambda: view.max(), lambda: sim.view("wave", 0), lambda: sim["wave"], lambda: sim.step(), lambda: sim.frame, lambda: len(sim), lambda: sim.save(),
+                lambda: sim.set("rain.rate", 3), lambda: rr.judge(sim, {"display": lambda i, u: 0})):
+        with pytest.raises(rr.Error):
+            use()
+    with pytest.raises(rr.Error, match="this simulation of puddle is closed"):
+        sim.step()
+    assert repr(sim) == "<rainref puddle corrected, closed>" and sim._repr_png_() is None
+    sim.close()
+    with pytest.raises(KeyError):
+        with rr.open("puddle", PUDDLE) as sim:
+            raise KeyError
+    assert "closed" in repr(sim)
+
+
+def test_memory_that_an_operation_looks_into_outlives_a_close():
+    sim = rr.open("puddle", PUDDLE)
+    sim.step()
+    view = sim.view("wave", 0)
+    before, seen = view.copy(), []
+
+    def look(row):
+        sim.close()
+        seen.append(row.copy())
+        return 0
+
+    np.apply_along_axis(look, 1, view)
+    np.testing.assert_array_equal(seen, before)
 
 
 def test_a_film_behind_a_windshield_and_a_wiper_on_its_side_window(tmp_path):

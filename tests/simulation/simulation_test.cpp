@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error_of.h"
+#include "callers/states.h"
 #include "capture/hashing.h"
 #include "image/images.h"
 #include "rainref/error.h"
@@ -132,6 +133,56 @@ TEST(Simulation, WhatCannotBeIsRefused) {
   Simulation scene(small("puddle", "corrected"), executor);
   EXPECT_THAT(refusal([&] { static_cast<void>(scene.buffer("colours")); }),
               HasSubstr("puddle has no buffer 'colours'; did you mean 'colour'?"));
+}
+
+TEST(Simulation, EffectsAreListedAndDescribed) {
+  std::vector<std::string> names;
+  for (const effect::Effect* e : registry::effects()) names.push_back(e->name);
+  EXPECT_EQ(effect_names(), names);
+  for (const std::string& name : effect_names()) EXPECT_THAT(describe(name), HasSubstr("\"effect\": \"" + name + "\""));
+  EXPECT_THAT(refusal([] { static_cast<void>(describe("pudle")); }), HasSubstr("did you mean 'puddle'?"));
+}
+
+TEST(Simulation, GivesTheLinesOfHash) {
+  const parallel::Executor executor(1);
+  Simulation scene(small("puddle", "corrected"), executor), other(small("puddle", "corrected"), executor);
+  capture::HashRecorder recorder;
+  for (int frame = 0; frame < 2; ++frame) {
+    other.next_frame(&recorder);
+    std::vector<std::string> expected;
+    for (const capture::HashLine& line : recorder.take_lines()) expected.push_back(line.text());
+    EXPECT_EQ(scene.next_frame_hashes(), expected);
+    EXPECT_GT(expected.size(), 3u);
+    EXPECT_TRUE(expected[0].starts_with(std::to_string(frame) + " "));
+  }
+  EXPECT_EQ(scene.frame(), 2);
+  for (const test::CallerState& state : test::decisive_states()) {
+    Simulation fresh(small("puddle", "corrected"), executor), hostile(small("puddle", "corrected"), executor);
+    std::vector<std::string> found;
+    test::CalledIn called(state);
+    called([&] { found = hostile.next_frame_hashes(); });
+    EXPECT_EQ(found, fresh.next_frame_hashes()) << state.name;
+    EXPECT_TRUE(called.kept()) << state.name;
+  }
+}
+
+TEST(Simulation, AFilmIsWholeOrNotThere) {
+  const TemporaryFolder folder;
+  const parallel::Executor executor(1);
+  Simulation scene(small("edge_splash", "corrected", {"run.frames=4"}), executor);
+  const auto refused = [&](const std::string& name, const FilmOptions& options) {
+    const std::string why = refusal([&] { scene.film(folder / name, options); });
+    EXPECT_EQ(scene.frame(), 0) << name;
+    return why;
+  };
+  EXPECT_THAT(refused("a.avi", {}), HasSubstr("expected a name that ends in .mp4, .webm or .gif"));
+  EXPECT_THAT(refused("a.mp4", {.frames = -3}), HasSubstr("film: frames: expected 0 or more, found -3"));
+  EXPECT_THAT(refused("a.mp4", {.every = 0}), HasSubstr("film: every: expected 1 or more, found 0"));
+  for (int frame = 0; frame < 3; ++frame) scene.next_frame();
+  EXPECT_THAT(refusal([&] { scene.film(folder / "a.mp4", {.frames = 1, .every = 5}); }), HasSubstr("none from 3 to 3 that 5 divides"));
+  scene.next_frame();
+  EXPECT_THAT(refusal([&] { scene.film(folder / "a.mp4"); }), HasSubstr("film: frames: expected some that remain of run.frames, found 0"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Simulation, TheVariantIsCorrectedUnlessSaid) {
