@@ -48,7 +48,7 @@ int pack(const PackOptions& options) {
                                    }};
   const judging::WrittenPack made =
       judging::make_pack({config, simulation::scene_text(options.scene.scene), options.scene.scene, options.output, options.frames,
-                          options.may_add_frames, options.passes, options.shows_coverage},
+                          options.may_add_frames, options.passes, options.has_random_seed, options.shows_coverage},
                          executor, events);
   if (options.has_random_seed) say("seed {0}: --seed {0} makes this pack again\n", config.integer("seed"));
   say("{} of {} in {}, {}, in {}\n", counted(made.total.cases, "case"), fmt::join(made.passes, " "), counted(made.total.files, "file"),

@@ -171,6 +171,7 @@ PackSummary write_pack(const SceneText& scene, const std::filesystem::path& fold
   request.frames = options.frames.empty() ? judging::usual_frames : options.frames;
   request.may_add_frames = options.frames.empty();
   request.passes = options.passes;
+  request.is_for_one_use = options.seed == "random";
   std::sort(request.frames.begin(), request.frames.end());
   if (request.frames.front() < 0) throw Error(ExitCode::usage, fmt::format("frames: expected 0 or more, found {}", request.frames.front()));
   PackSummary made;

@@ -16,6 +16,7 @@
 #include "base/system.h"
 #include "base/system_failure.h"
 #include "capture/capture_recorder.h"
+#include "capture/hashing.h"
 #include "capture/pack_read.h"
 #include "judge/coverage.h"
 #include "judge/evaluations.h"
@@ -181,6 +182,30 @@ class ScenePack {
   std::vector<std::string> not_exercised_;
 };
 
+/// Passes that run up to this frame and give the same for another seed: such as masks of fixed geometry, and all of the puddle as
+/// published, whose drops are functions of time alone.
+std::vector<std::string> seedless(const scene::Config& quick, const std::vector<std::string>& passes, int last,
+                                  const parallel::Executor& executor) {
+  const auto hashes = [&](std::int64_t seed) {
+    scene::Config config = quick;
+    config.set("seed", seed, config.entry("seed").origin);
+    simulation::Opened opened(config, executor);
+    opened.show(false);
+    capture::HashRecorder recorder;
+    std::map<std::string, std::string> all;
+    for (int frame = 0; frame <= last; ++frame) {
+      opened.next_frame(&recorder);
+      for (const capture::HashLine& line : recorder.take_lines()) all[line.pass] += line.text() + "\n";
+    }
+    return all;
+  };
+  const std::int64_t seed = quick.integer("seed");
+  std::map<std::string, std::string> one = hashes(seed), other = hashes(seed ^ 1);
+  std::vector<std::string> found = passes;
+  std::erase_if(found, [&](const std::string& pass) { return one[pass].empty() || one[pass] != other[pass]; });
+  return found;
+}
+
 }  // namespace
 
 WrittenPack make_pack(const PackRequest& request, const parallel::Executor& executor, const PackEvents& events) {
@@ -193,10 +218,13 @@ WrittenPack make_pack(const PackRequest& request, const parallel::Executor& exec
   events.opened(first.inputs());
   require_lossless(first.inputs());
   Frames frames(request.frames);
+  scene::Config quickly = config;
   try {
-    frames.follow(simulation::Opened(at_small_size(config), executor), passes);
+    quickly = at_small_size(config);
+    frames.follow(simulation::Opened(quickly, executor), passes);
   } catch (const Error&) {
     // The scene's pictures may have only one size.
+    quickly = config;
     frames.follow(simulation::Opened(config, executor), passes);
   }
   frames.tell(passes, events.line);
@@ -226,6 +254,10 @@ WrittenPack make_pack(const PackRequest& request, const parallel::Executor& exec
                     "in it",
                     pass, ports.passing()));
   for (const std::string& line : packing.not_exercised()) events.line(line);
+  if (!request.is_for_one_use) return {total, passes};
+  if (const std::vector<std::string> same = seedless(quickly, passes, request.frames.back(), executor); !same.empty())
+    events.line(fmt::format("warning: no seed changes what {} gives: take other frames or keys, so that it cannot be known before",
+                            fmt::join(same, " ")));
   return {total, passes};
 }
 

@@ -22,6 +22,7 @@ struct PackRequest {
   std::vector<int> frames{};          ///< ascending
   bool may_add_frames = false;        ///< for passes that a null port would pass with these frames
   std::vector<std::string> passes{};  ///< empty: every pass of the variant
+  bool is_for_one_use = false;        ///< of a random seed: names the passes whose outputs another seed does not change
   bool shows_coverage = false;        ///< lists the alternatives of each pass's text that no case takes
 };
 /// What is said meanwhile. None may be null.

@@ -153,11 +153,21 @@ TEST_F(PackVerb, ARandomSeedIsPrintedAndMakesThePackAgain) {
   EXPECT_THAT(made("again", std::to_string(seed)), testing::Not(HasSubstr("seed")));
   EXPECT_EQ(files("again"), files("a"));
   EXPECT_NE(hash_lines(read("a")), hash_lines(read("b")));
+  EXPECT_THAT(said, testing::Not(HasSubstr("no seed changes")));
   // It is the scene's key, which it overrides.
   pack({"corrected.toml", "-o", "set", "--at", "2", "--passes", "wave_step,display", "--set", fmt::format("seed={}", seed)});
   EXPECT_EQ(hash_lines(read("set")), hash_lines(read("a")));
   pack({"corrected.toml", "-o", "both", "--at", "2", "--passes", "display", "--set", "seed=5", "--seed", "6"});
   EXPECT_EQ(seed_in("both"), 6);
+}
+
+// The article's drops are functions of time; masks of fixed geometry have no drops at all.
+TEST_F(PackVerb, ARandomSeedNamesThePassesThatNoSeedChanges) {
+  EXPECT_THAT(
+      pack({"published.toml", "-o", "p", "--at", "1", "--passes", "wave_step,display", "--seed", "random"}).out,
+      HasSubstr("warning: no seed changes what wave_step display gives: take other frames or keys, so that it cannot be known before\n"));
+  EXPECT_THAT(pack({"published.toml", "-o", "p", "--at", "1", "--passes", "wave_step,display", "--seed", "5"}).out,
+              testing::Not(HasSubstr("no seed changes")));
 }
 
 TEST_F(PackVerb, AnOlderPackIsReplacedAndNothingElse) {
