@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/path_text.h"
 #include "sweep/cells.h"
+#include "sweep/pairs.h"
 #include "sweep/script.h"
 #include "sweep/shard.h"
 #include "sweep/store.h"
@@ -37,6 +39,8 @@ struct SweepOptions {
   int threads = 0;
   bool again = false;
   bool with_sheet = true, with_film = false;  ///< of collect
+  std::optional<sweep::PairsAsked> pairs;     ///< of collect: a data set is wanted
+  std::filesystem::path to;                   ///< its folder; "": in the tables' folder
   std::vector<std::filesystem::path> others;  ///< of gc: further plans
   bool removes = false, damaged = false;
   std::string engine, image;  ///< of script

@@ -12,6 +12,7 @@
 #include "base/folders.h"
 #include "base/hidden.h"
 #include "base/path_text.h"
+#include "capture/new_folder.h"
 #include "cli/progress.h"
 #include "cli/sweep.h"
 #include "cli/terminal.h"
@@ -19,6 +20,7 @@
 #include "image_io/read.h"
 #include "image_io/write.h"
 #include "rainref/error.h"
+#include "sweep/data_set.h"
 #include "sweep/database.h"
 #include "sweep/sheet.h"
 #include "sweep/table.h"
@@ -76,10 +78,21 @@ std::string write_film(const OpenPlan& open, const sweep::Table& table, const fs
   }
 }
 
+/// The folder that will hold the data set; refused before any work if there is one.
+std::optional<capture::NewFolder> new_data_set(const SweepOptions& options, const fs::path& folder) {
+  if (!options.pairs) return std::nullopt;
+  return std::optional<capture::NewFolder>(std::in_place, folder, [](const fs::path&) {
+    return "the folder is not empty, and a data set replaces none: --to names another folder";
+  });
+}
+
 }  // namespace
 
 int sweep_collect(const SweepOptions& options) {
   const OpenPlan open(options.plan, options.out);
+  const std::vector<sweep::Pair> pairs = options.pairs ? sweep::pairs_of(open.cells, *options.pairs) : std::vector<sweep::Pair>();
+  const fs::path data_set = options.to.empty() ? open.tables() / "pairs" : options.to;
+  std::optional<capture::NewFolder> new_folder = new_data_set(options, data_set);
   const sweep::Table table = sweep::read_table(open.cells, open.store);
   const fs::path folder = open.tables();
   std::error_code error;
@@ -107,7 +120,14 @@ int sweep_collect(const SweepOptions& options) {
     if (const auto n = table.count(s); n > 0) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", n, sweep::name(s));
   say("{}: {}; table.csv, table.sqlite, films.csv, timings.csv{} in {}\n", counted(static_cast<long long>(table.rows.size()), "cell"),
       counts, more, path_text(folder));
-  return table.count(sweep::State::done) == static_cast<std::int64_t>(table.rows.size()) ? 0 : 1;
+  const bool is_whole = table.count(sweep::State::done) == static_cast<std::int64_t>(table.rows.size());
+  if (new_folder && !is_whole) say("no data set: it needs every cell\n");
+  if (new_folder && is_whole) {
+    const sweep::DataSetFigures figures = sweep::write_data_set(open.cells, table, open.store, *options.pairs, pairs, *new_folder);
+    new_folder->commit();
+    say("{}in {}\n", sweep::figures_text(figures), path_text(data_set));
+  }
+  return is_whole ? 0 : 1;
 }
 
 }  // namespace rainref::cli

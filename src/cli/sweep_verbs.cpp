@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/number_text.h"
 #include "base/path_text.h"
 #include "cli/option_values.h"
 #include "cli/sweep.h"
@@ -21,7 +22,7 @@ constexpr int most_shards = 100000;
 
 struct Flags {
   std::string plan, out = "out/sweeps", shard = "0/1", engine, image = "rainref";
-  std::optional<std::string> threads, shards;
+  std::optional<std::string> threads, shards, pairs, mask, split, split_seed, to;
   std::vector<std::string> plans;
   SweepOptions options;
 
@@ -37,7 +38,35 @@ struct Flags {
     o.image = image;
     if (threads) o.threads = whole_number(*threads, "--threads", 1, parallel::Executor::max_threads);
     if (shards) o.shards = whole_number(*shards, "--shards", 1, most_shards);
+    take_pairs(o);
     return o;
+  }
+  void take_pairs(SweepOptions& o) const {
+    for (const auto& [value, option] :
+         {std::pair(&mask, "--mask"), std::pair(&split, "--split"), std::pair(&split_seed, "--split-seed"), std::pair(&to, "--to")})
+      if (*value && !pairs) throw Error(ExitCode::usage, fmt::format("{}: needs --pairs", option));
+    if (!pairs) return;
+    const std::vector<std::string> labels = list_of(*pairs);
+    if (labels.size() != 2 || labels[0].empty() || labels[1].empty())
+      throw Error(ExitCode::usage, fmt::format("--pairs: expected two labels such as clean,rainy, found '{}'", *pairs));
+    sweep::PairsAsked& asked = o.pairs.emplace();
+    asked.clean = labels[0];
+    asked.rainy = labels[1];
+    if (mask) {
+      require_text(*mask, "--mask", "a channel such as drops.A");
+      asked.mask = *mask;
+    }
+    if (split) {
+      const std::optional<double> share = number_from<double>(*split);
+      if (!share || !(*share >= 0 && *share <= 1))
+        throw Error(ExitCode::usage, fmt::format("--split: expected a number from 0 to 1, found '{}'", *split));
+      asked.split = *share;
+    }
+    if (split_seed) asked.split_seed = whole_number(*split_seed, "--split-seed", 0, 1'000'000'000);
+    if (to) {
+      require_text(*to, "--to", "a folder");
+      o.to = utf8_path(*to);
+    }
   }
 };
 
@@ -80,7 +109,13 @@ Action collect_action(CLI::App& verb, Flags& f) {
   add_common(action, f);
   action.add_flag("!--no-sheet", f.options.with_sheet, "No contact sheet");
   action.add_flag("--film", f.options.with_film, "The first run's pictures as a film, where ffmpeg is installed");
-  action.footer("Example: rainref sweep collect examples/sweeps/rates.toml");
+  action.add_option("--pairs", f.pairs, "Write a data set too: cells with these two labels, in column `name` of the cases, as pairs")
+      ->type_name("CLEAN,RAINY");
+  action.add_option("--mask", f.mask, "Channel of the rainy cells' EXR, kept as exr:CHANNEL, as masks of the pairs")->type_name("CHANNEL");
+  action.add_option("--split", f.split, "Share of the pairs that is for training (default: 0.9)")->type_name("SHARE");
+  action.add_option("--split-seed", f.split_seed, "Another seed makes another split (default: 1)")->type_name("N");
+  action.add_option("--to", f.to, "New folder of the data set (default: DIR/plans/NAME/pairs)")->type_name("DIR");
+  action.footer("Example: rainref sweep collect examples/sweeps/pairs_screen_drops.toml --pairs clean,rainy --mask drops.A");
   return {&action, sweep_collect};
 }
 Action gc_action(CLI::App& verb, Flags& f) {

@@ -13,6 +13,10 @@ struct DropPixel {
   double cover = 0;     ///< share of the pixel that is covered by a drop
   double u = 0, v = 0;  ///< offset from the pixel to the place whose light the drop shows, in widths and heights of the picture
 };
+/// A drop of round outline on the glass: centre from the picture's lower left corner, and radius [picture heights].
+struct DropDisc {
+  double x, y, radius;
+};
 /// Images of the picture's size, row 0 = bottom. A pixel at the rim of a drop is a mix of drop and background, so drops = colour - (1 -
 /// coverage) background. Composited over that background, drops + (1 - coverage) background, they give the picture within half a unit in
 /// the last place of drops.

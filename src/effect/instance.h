@@ -56,6 +56,8 @@ class Instance {
   virtual bool has_drops_layer() const { return false; }
   /// The drops of the last rendered frame as a layer.
   virtual DropsLayer drops_layer(const parallel::Executor& /*executor*/) const { return {}; }
+  /// The round drops of the last rendered frame that others do not hide; none if the effect has no list of them.
+  virtual std::optional<std::vector<DropDisc>> drop_discs() const { return std::nullopt; }
   /// Maps written to separate files beside the first EXR.
   virtual std::vector<Map> maps() const { return {}; }
 };

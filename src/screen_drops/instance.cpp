@@ -111,6 +111,14 @@ effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) con
   });
 }
 
+std::optional<std::vector<effect::DropDisc>> Instance::drop_discs() const {
+  if (settings_.variant != Variant::corrected) return std::nullopt;
+  std::vector<effect::DropDisc> discs;
+  for (const Cap& cap : shown_caps(settings_, running().cells()))
+    discs.push_back({cap.x / settings_.pane_height, cap.y / settings_.pane_height, cap.radius / settings_.pane_height});
+  return discs;
+}
+
 effect::Effect entry() {
   const std::vector<std::string> camera{"run.size",  "run.supersample",         "camera.position", "camera.target",
                                         "camera.up", "camera.vertical_fov_deg", "scene.margin"};

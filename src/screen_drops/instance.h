@@ -23,6 +23,7 @@ class Instance final : public effect::InstanceOf<ScreenDrops> {
   std::vector<image_io::Layer> layers() const override;
   bool has_drops_layer() const override { return settings_.variant == Variant::corrected; }
   effect::DropsLayer drops_layer(const parallel::Executor& executor) const override;
+  std::optional<std::vector<effect::DropDisc>> drop_discs() const override;
   std::optional<effect::Display> display() const override;
   bool has_sequence() const { return named_.change(); }
 

@@ -1,5 +1,8 @@
 #include "screen_drops/shown.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "blur_pyramid/blur_pyramid.h"
 #include "parallel/rows.h"
 #include "screen_drops/host.h"
@@ -13,23 +16,44 @@ using Number = scalar::Scalar<double>;
 
 double glass_distance(const Settings& settings) { return 0.5 * settings.pane_height / camera(settings).half_height(); }
 
-std::vector<Cap> caps(const Settings& settings, const Image& cells) {
+namespace {
+
+/// The drop of a cell of this layer. A millionth of a cell is less than any rounding in the pass: there is none.
+std::optional<Cap> cap_of(const Layer& layer, double cell, const Image& cells, int column, int row) {
+  const float* drop = cells.row<float>(layer.first_row + row) + 4 * column;
+  if (!(drop[2] > 1e-6f)) return std::nullopt;
+  return Cap{(column + double{drop[0]} - layer.offset[0]) * cell, (row + double{drop[1]} - layer.offset[1]) * cell, drop[2] * cell};
+}
+
+std::vector<Cap> caps_of(const Settings& settings, const Image& cells, bool with_hidden) {
   const double pixel = settings.pane_height / settings.height;
-  std::vector<Cap> all;
-  for (const Layer& layer : make_layers(settings)) {
-    const double cell = pixel / layer.cells_per_pixel;
-    for (int row = 0; row < layer.rows; ++row) {
-      const float* drop = cells.row<float>(layer.first_row + row);
-      for (int column = 0; column < layer.columns; ++column, drop += 4) {
-        // A millionth of a cell is less than any rounding in the pass.
-        if (drop[2] > 1e-6f)
-          all.push_back(
-              {(column + double{drop[0]} - layer.offset[0]) * cell, (row + double{drop[1]} - layer.offset[1]) * cell, drop[2] * cell});
+  const auto all = make_layers(settings);
+  const auto is_hidden = [&](const Cap& cap, const Layer& coarser) {
+    // A drop reaches into no other cell of its layer.
+    const double cell = pixel / coarser.cells_per_pixel, x = cap.x / cell + coarser.offset[0], y = cap.y / cell + coarser.offset[1];
+    if (!(x >= 0 && x < coarser.columns && y >= 0 && y < coarser.rows)) return false;
+    const std::optional<Cap> over = cap_of(coarser, cell, cells, static_cast<int>(x), static_cast<int>(y));
+    const double room = over ? over->radius - cap.radius : -1;
+    return room >= 0 && (over->x - cap.x) * (over->x - cap.x) + (over->y - cap.y) * (over->y - cap.y) <= room * room;
+  };
+  std::vector<Cap> found;
+  for (std::size_t l = 0; l < all.size(); ++l) {
+    for (int row = 0; row < all[l].rows; ++row) {
+      for (int column = 0; column < all[l].columns; ++column) {
+        const std::optional<Cap> cap = cap_of(all[l], pixel / all[l].cells_per_pixel, cells, column, row);
+        if (!cap) continue;
+        const auto end = all.begin() + static_cast<std::ptrdiff_t>(with_hidden ? 0 : l);
+        if (std::none_of(all.begin(), end, [&](const Layer& coarser) { return is_hidden(*cap, coarser); })) found.push_back(*cap);
       }
     }
   }
-  return all;
+  return found;
 }
+
+}  // namespace
+
+std::vector<Cap> caps(const Settings& settings, const Image& cells) { return caps_of(settings, cells, true); }
+std::vector<Cap> shown_caps(const Settings& settings, const Image& cells) { return caps_of(settings, cells, false); }
 
 Image defocused_scene(const Settings& settings, const Image& colour, const parallel::Executor& executor) {
   const std::vector<Image> levels = scene_levels(colour, parallel::rows_of(executor));

@@ -20,6 +20,8 @@ struct Cap {
 };
 /// The caps of a frame, layer by layer, coarser before finer.
 std::vector<Cap> caps(const Settings& settings, const Image& cells);
+/// Those that do not lie wholly inside one of a coarser layer, which the pass draws over them.
+std::vector<Cap> shown_caps(const Settings& settings, const Image& cells);
 
 /// The scene as a camera focused on the glass sees it: the text of background over the whole picture. rgba16f of the size of `colour`,
 /// texel centre (i, j) at ((i + 1/2) / width, (j + 1/2) / height).

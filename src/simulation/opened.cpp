@@ -1,9 +1,11 @@
 #include "simulation/opened.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/floating_point.h"
 #include "base/path_text.h"
@@ -38,6 +40,27 @@ void write_top_first(const std::filesystem::path& path, std::vector<image_io::La
   turned.reserve(layers.size());
   for (image_io::Layer& layer : layers) layer.image = &turned.emplace_back(flipped(*layer.image));
   image_io::write_exr(path, layers, notes);
+}
+
+/// One channel of one of the layers, as they are written.
+Image channel_of(const std::vector<image_io::Layer>& layers, std::string_view wanted) {
+  std::vector<std::string> known;
+  for (const image_io::Layer& layer : layers) {
+    for (std::size_t k = 0; k < layer.channels.size(); ++k) {
+      known.push_back(layer.name_prefix.empty() ? layer.channels[k] : layer.name_prefix + "." + layer.channels[k]);
+      if (known.back() != wanted) continue;
+      const Image& all = *layer.image;
+      const FormatInfo& of = info(all.format());
+      Image one(of.kind == FormatInfo::float16 ? Format::r16f : Format::r32f, all.width(), all.height());
+      for (int y = 0; y < all.height(); ++y)
+        for (int x = 0; x < all.width(); ++x)
+          std::memcpy(one.row_bytes(y) + x * of.channel_bytes, all.row_bytes(y) + x * of.texel_bytes() + k * of.channel_bytes,
+                      of.channel_bytes);
+      return one;
+    }
+  }
+  throw Error(ExitCode::usage, fmt::format("expected a channel of the picture's EXR, one of {}, found '{}'{}", fmt::join(known, ", "),
+                                           wanted, did_you_mean(wanted, known)));
 }
 
 void write_map(const std::filesystem::path& folder, const effect::Map& map) {
@@ -164,9 +187,8 @@ void Opened::write_png(const std::filesystem::path& path) const {
   image_io::write_png(path, flipped(picture()), image_io::PngChannels::rgb, notes());
 }
 
-void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
-  if (is_traced_) return write_top_first(path, tracing_->layers(), notes());
-  std::vector<image_io::Layer> layers = instance_->layers();
+void Opened::write_exr(const std::filesystem::path& path, bool with_maps, std::string_view channel) {
+  std::vector<image_io::Layer> layers = is_traced_ ? tracing_->layers() : instance_->layers();
   effect::DropsLayer own;
   if (development_.has_layer) {
     own = instance_->drops_layer(executor_);
@@ -175,8 +197,12 @@ void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
     const auto is_background = [](const image_io::Layer& layer) { return layer.name_prefix == "background"; };
     if (std::none_of(layers.begin(), layers.end(), is_background)) layers.push_back({"background", {"R", "G", "B"}, &own.background});
   }
+  if (!channel.empty()) {
+    const Image one = channel_of(layers, channel);
+    return write_top_first(path, {{"", {std::string(channel)}, &one}}, notes());
+  }
   write_top_first(path, std::move(layers), notes());
-  if (!with_maps || std::exchange(has_written_maps_, true)) return;
+  if (is_traced_ || !with_maps || std::exchange(has_written_maps_, true)) return;
   for (const effect::Map& map : instance_->maps()) write_map(path.parent_path(), map);
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "effect/effect.h"
@@ -33,6 +34,7 @@ class Opened {
   const scene::Config& config() const { return config_; }
   const effect::Inputs& inputs() const { return inputs_; }
   const effect::Effect& effect() const { return effect_; }
+  const effect::Instance& effect_now() const { return *instance_; }
 
   void simulate(Recorder* recorder);
   /// Also traces, if the scene asks for it.
@@ -64,9 +66,10 @@ class Opened {
   /// Notes stored in the picture's files.
   image_io::Notes notes() const;
   std::vector<std::byte> png_bytes() const;
-  /// Throws Error(io). The second also writes the maps beside the picture, once.
+  /// Throws Error(io). The second also writes the maps beside the picture, once. `channel`: the only one that is written; "": all. Throws
+  /// Error(usage) with the nearest name if there is none of this name.
   void write_png(const std::filesystem::path& path) const;
-  void write_exr(const std::filesystem::path& path, bool with_maps);
+  void write_exr(const std::filesystem::path& path, bool with_maps, std::string_view channel = {});
 
   /// True if there is a traced truth to compare the passes with; makes it. Throws Error(usage) if it is impossible.
   bool has_truth();

@@ -23,9 +23,6 @@
 namespace rainref::sweep {
 namespace {
 
-/// The column with labels of cases, which is not a key of scenes.
-constexpr std::string_view label = "name";
-
 std::string text_of(const scene::Override& o) {
   if (const auto* text = std::get_if<std::string>(&o.value)) return *text;
   const scene::RawValue& v = std::get<scene::RawValue>(o.value);
@@ -43,17 +40,20 @@ void place(scene::Override& o, const std::filesystem::path& folder) {
     *text = path_text(std::filesystem::absolute(folder / utf8_path(*text)).lexically_normal());
 }
 
-/// Checks that the effect has the buffers that a plan keeps.
+/// Checks that the effect has the buffers that a plan keeps, and that the scene makes the drops' channels.
 void check_keep(const Plan& plan, const scene::Config& config) {
   for (const Keep& keep : plan.keep) {
+    const bool is_of_drops = keep.part.starts_with("drops.") || keep.part.starts_with("offset.");
+    if (keep.what == Keep::What::exr && is_of_drops && !config.boolean("picture.layer"))
+      throw Error(ExitCode::usage, keep.at, fmt::format("keep: expected picture.layer = true for 'exr:{}', found false", keep.part));
     if (keep.what != Keep::What::buffer) continue;
     std::vector<std::string> known;
     for (const capture::BufferInfo& b : registry::find(config.effect())->info->buffers)
       if (b.variant.empty() || b.variant == config.variant()) known.push_back(b.name);
-    if (std::find(known.begin(), known.end(), keep.buffer) == known.end())
+    if (std::find(known.begin(), known.end(), keep.part) == known.end())
       throw Error(ExitCode::usage, keep.at,
                   fmt::format("keep: expected a buffer of {} {}, one of {}, found '{}'{}", config.effect(), config.variant(),
-                              fmt::join(known, ", "), keep.buffer, did_you_mean(keep.buffer, known)));
+                              fmt::join(known, ", "), keep.part, did_you_mean(keep.part, known)));
   }
 }
 
@@ -134,7 +134,7 @@ std::vector<scene::Override> Cells::said(const Cell& cell) const {
   std::vector<scene::Override> all = plan_.set;
   for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
     for (const scene::Override& o : plan_.axes[i].rows[cell.rows[i]])
-      if (o.key != label) all.push_back(o);
+      if (o.key != label_key) all.push_back(o);
   }
   for (scene::Override& o : all) place(o, plan_.file.parent_path());
   return all;
@@ -148,7 +148,7 @@ void Cells::change(scene::Config& config, const Cell& from, const Cell& to) cons
   for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
     if (from.rows[i] == to.rows[i]) continue;
     for (scene::Override o : plan_.axes[i].rows[to.rows[i]]) {
-      if (o.key == label) continue;
+      if (o.key == label_key) continue;
       place(o, plan_.file.parent_path());
       scene::give(config, o);
     }

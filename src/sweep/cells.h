@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "sweep/plan.h"
 
 namespace rainref::sweep {
+
+/// The column with labels of cases, which is not a key of scenes.
+inline constexpr std::string_view label_key = "name";
 
 struct Cell {
   std::string id;

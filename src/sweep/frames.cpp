@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> buffers_of(const Plan& plan) {
   std::vector<std::string> names;
   for (const Keep& keep : plan.keep)
-    if (keep.what == Keep::What::buffer) names.push_back(keep.buffer);
+    if (keep.what == Keep::What::buffer) names.push_back(keep.part);
   return names;
 }
 bool keeps(const Plan& plan, Keep::What what) {
@@ -116,17 +116,17 @@ class Keeping {
     for (const Keep& keep : plan_.keep) {
       if (keep.what == Keep::What::hash || !keep.wanted(frame, cell_.frames)) continue;
       if (keep.what == Keep::What::picture) {
-        writer_.write(fmt::format("picture.{:06}.png", frame), opened_.png_bytes());
+        writer_.write(keep.file(frame), opened_.png_bytes());
       } else if (keep.what == Keep::What::exr) {
-        const std::string name = fmt::format("picture.{:06}.exr", frame);
-        opened_.write_exr(writer_.folder() / utf8_path(name), false);
-        writer_.wrote(name);
+        write_exr(keep, keep.file(frame));
+      } else if (keep.what == Keep::What::drops) {
+        writer_.write(keep.file(frame), drops_text(keep));
       } else {
-        const auto buffer = found.find(keep.buffer);
+        const auto buffer = found.find(keep.part);
         if (buffer == found.end())
           throw Error(ExitCode::usage, keep.at,
-                      fmt::format("keep: expected a buffer that a pass takes or gives in frame {}, found '{}'", frame, keep.buffer));
-        writer_.write(fmt::format("{}.{:06}.npy", keep.buffer, frame), capture::npy_bytes(buffer->second, 0));
+                      fmt::format("keep: expected a buffer that a pass takes or gives in frame {}, found '{}'", frame, keep.part));
+        writer_.write(keep.file(frame), capture::npy_bytes(buffer->second, 0));
       }
     }
   }
@@ -137,6 +137,35 @@ class Keeping {
   }
 
  private:
+  void write_exr(const Keep& keep, const std::string& name) {
+    try {
+      opened_.write_exr(writer_.folder() / utf8_path(name), false, keep.part);
+    } catch (const Error& e) {
+      if (e.code() != ExitCode::usage) throw;
+      throw Error(e.code(), keep.at, fmt::format("keep: {}", e.what()));
+    }
+    writer_.wrote(name);
+  }
+  /// A line for each drop that reaches into the picture: [x, y, radius] in pixels, x to the right and y down from the upper left corner.
+  /// A smaller drop covers less than half of any pixel.
+  std::string drops_text(const Keep& keep) const {
+    const auto discs = opened_.effect_now().drop_discs();
+    if (!discs)
+      throw Error(
+          ExitCode::usage, keep.at,
+          fmt::format("keep: expected an effect with a list of round drops for 'drops', which screen_drops corrected is; found {} {}",
+                      opened_.config().effect(), opened_.config().variant()));
+    constexpr double smallest = 0.25;
+    const scene::Integer2 size = opened_.config().integer2("run.size");
+    const double width = static_cast<double>(size[0]), height = static_cast<double>(size[1]);
+    std::string text;
+    for (const effect::DropDisc& d : *discs) {
+      const double x = d.x * height, y = height - d.y * height, radius = d.radius * height;
+      if (radius < smallest || x + radius < 0 || x - radius > width || y + radius < 0 || y - radius > height) continue;
+      text += fmt::format("{}\n[{:.3f}, {:.3f}, {:.3f}]", text.empty() ? "" : ",", x, y, radius);
+    }
+    return fmt::format("[{}]\n", text);
+  }
   nlohmann::ordered_json record() const {
     nlohmann::ordered_json r{
         {"cell", cell_.id}, {"film", cell_.film}, {"golden_hash", golden_hash()}, {"first", cell_.first}, {"end", cell_.end}};

@@ -11,8 +11,9 @@
 namespace rainref::sweep {
 namespace {
 
-constexpr std::array names{"picture", "exr", "buffer", "hash"};
-constexpr std::string_view expected = "'picture', 'exr', 'buffer:NAME' or 'hash', with '@every=K' or '@all' behind it";
+constexpr std::array names{"picture", "exr", "buffer", "drops", "hash"};
+constexpr std::string_view expected =
+    "'picture', 'exr', 'exr:CHANNEL', 'buffer:NAME', 'drops' or 'hash', with '@every=K' or '@all' behind it";
 
 [[noreturn]] void refuse(const std::string& text, const SourceLocation& at, const std::string& more = "") {
   throw Error(ExitCode::usage, at, fmt::format("keep: expected {}, found '{}'{}", expected, text, more));
@@ -22,9 +23,15 @@ constexpr std::string_view expected = "'picture', 'exr', 'buffer:NAME' or 'hash'
 
 std::string Keep::text() const {
   std::string out = names[static_cast<std::size_t>(what)];
-  if (what == What::buffer) out += ":" + buffer;
+  if (!part.empty()) out += ":" + part;
   if (what != What::hash && every > 0) out += every == 1 ? "@all" : fmt::format("@every={}", every);
   return out;
+}
+
+std::string Keep::file(std::int64_t frame) const {
+  constexpr std::array endings{"png", "exr", "npy", "json", "txt"};
+  const std::string stem = !part.empty() ? part : what == What::drops ? "drops" : "picture";
+  return fmt::format("{}.{:06}.{}", stem, frame, endings[static_cast<std::size_t>(what)]);
 }
 
 Keep keep_from(const std::string& text, const SourceLocation& at) {
@@ -37,9 +44,11 @@ Keep keep_from(const std::string& text, const SourceLocation& at) {
   while (i < names.size() && word != names[i]) ++i;
   if (i == names.size()) refuse(text, at, did_you_mean(word, known));
   keep.what = static_cast<Keep::What>(i);
-  const bool is_buffer = keep.what == Keep::What::buffer;
-  if (colon != std::string::npos) keep.buffer = text.substr(colon + 1, sign == std::string::npos ? sign : sign - colon - 1);
-  if (is_buffer == keep.buffer.empty()) refuse(text, at);
+  if (colon != std::string::npos) {
+    keep.part = text.substr(colon + 1, sign == std::string::npos ? sign : sign - colon - 1);
+    if (keep.part.empty() || (keep.what != Keep::What::buffer && keep.what != Keep::What::exr)) refuse(text, at);
+  }
+  if (keep.what == Keep::What::buffer && keep.part.empty()) refuse(text, at);
   if (sign == std::string::npos) return keep;
   const std::string frames = text.substr(sign + 1);
   if (keep.what == Keep::What::hash) refuse(text, at, "; hashes are of every frame");

@@ -37,7 +37,9 @@ class Store {
   /// True if a run has marked the folder.
   bool is_marked() const;
 
-  std::filesystem::path cell(const std::string& id) const { return root_ / "cells" / utf8_path(id.substr(0, 2)) / utf8_path(id); }
+  /// The folder of a cell, relative to the root.
+  static std::string folder_of(const std::string& id) { return "cells/" + id.substr(0, 2) + "/" + id; }
+  std::filesystem::path cell(const std::string& id) const { return root_ / utf8_path(folder_of(id)); }
   bool has(const std::string& id) const;
 
   std::optional<Failure> failure(const std::string& id) const;

@@ -23,11 +23,6 @@ std::string csv_field(const std::string& text) {
   }
   return out + "\"";
 }
-std::string csv_line(const std::vector<std::string>& fields) {
-  std::vector<std::string> quoted;
-  for (const std::string& f : fields) quoted.push_back(csv_field(f));
-  return fmt::format("{}\n", fmt::join(quoted, ","));
-}
 
 /// Names in the order of their first occurrence in rows.
 std::vector<std::string> columns(const Table& table, std::vector<std::pair<std::string, std::string>> Row::*pairs) {
@@ -79,6 +74,12 @@ class Fold {
 
 }  // namespace
 
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::vector<std::string> quoted;
+  for (const std::string& f : fields) quoted.push_back(csv_field(f));
+  return fmt::format("{}\n", fmt::join(quoted, ","));
+}
+
 const char* name(State state) {
   constexpr std::array names{"done", "missing", "refused", "failed", "damaged"};
   return names[static_cast<std::size_t>(state)];
@@ -122,6 +123,7 @@ std::string table_csv(const Cells& cells, const Table& table) {
   std::vector<std::string> head{"cell", "id", "state", "sentence", "first", "end"};
   head.insert(head.end(), values.begin(), values.end());
   head.insert(head.end(), hashes.begin(), hashes.end());
+  head.insert(head.end(), {"folder", "files"});
   std::string text = csv_line(head);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Cell& cell = cells.all()[i];
@@ -130,6 +132,10 @@ std::string table_csv(const Cells& cells, const Table& table) {
                                   std::to_string(cell.end)};
     for (const std::string& key : values) line.push_back(value_of(row.values, key));
     for (const std::string& key : hashes) line.push_back(value_of(row.hashes, key));
+    std::vector<std::string> files;
+    for (const KeptFile& f : row.files) files.push_back(f.path);
+    line.push_back(files.empty() ? "" : Store::folder_of(cell.id));
+    line.push_back(fmt::format("{}", fmt::join(files, " ")));
     text += csv_line(line);
   }
   return text;

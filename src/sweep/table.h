@@ -40,7 +40,10 @@ Table read_table(const Cells& cells, const Store& store);
 /// The state of a cell, from the presence of its record alone; nothing is read.
 State state_of(const Cell& cell, const Store& store, std::string& sentence);
 
-/// A line for each cell: number, id, state, sentence, frames, values, hashes. Fields with commas, quotes or newlines are quoted.
+/// A line of such a table. Fields with commas, quotes or newlines are quoted.
+std::string csv_line(const std::vector<std::string>& fields);
+/// A line for each cell: number, id, state, sentence, frames, values, hashes, its folder in the store, and the names of its files there,
+/// with a space between them.
 std::string table_csv(const Cells& cells, const Table& table);
 std::string films_csv(const Table& table);
 

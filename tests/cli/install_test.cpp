@@ -261,7 +261,7 @@ TEST_F(Installation, ShowsAFirstVerdictFromAnyFolder) {
 // The plans that came with it name scenes as `rainref list` does: they run from where they were installed, and from a checkout.
 TEST_F(Installation, HasPlansThatFindTheirScenes) {
   const Circumstances c = installed();
-  for (const char* plan : {"rates", "pairs_windshield", "pairs_rainy_glass"}) {
+  for (const char* plan : {"rates", "pairs_windshield", "pairs_rainy_glass", "pairs_screen_drops"}) {
     const std::string file = fmt::format("examples/sweeps/{}.toml", plan);
     const Outcome o = rainref({"sweep", "plan", "moved/share/doc/rainref/" + file}, c);
     EXPECT_EQ(o.code, 0) << o.err;

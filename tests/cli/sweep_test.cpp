@@ -249,6 +249,42 @@ TEST_F(Sweep, AFilmOfSomeFramesKeepsTheScenesSpeed) {
   EXPECT_THAT(contents(folder / "asked"), HasSubstr("\n60/3\n"));
 }
 
+// A data set: made of a plan's whole result alone, never over another one, and said in figures.
+TEST_F(Sweep, ADataSetIsMadeOnce) {
+  put(folder / "cases.csv", "name,rain.rate\nclean,0\nrainy,80\n");
+  put(folder / "plan.toml",
+      "verb = 'run'\nscene = 'corrected.toml'\nframes = 20\n[axes]\nseed = {from = 1, count = 4}\ncases = 'cases.csv'\n");
+  const std::vector<std::string> collect{"collect", "plan.toml", "--pairs", "clean,rainy", "--split", "0.5"};
+  ASSERT_EQ(sweep({"run", "plan.toml", "--shard", "0/2"}).code, 0);
+  expect(sweep(collect), 1, HasSubstr("4 done, 4 missing; "));
+  EXPECT_FALSE(fs::exists(folder / "out/plans/plan/pairs"));
+  ASSERT_EQ(sweep({"run", "plan.toml"}).code, 0);
+  const Outcome made = sweep(collect);
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, AllOf(HasSubstr("4 pairs: "), HasSubstr("\nPSNR of rainy against clean [dB]: mean "), Not(HasSubstr("mask"))));
+  EXPECT_EQ(lines_of(contents(folder / "out/plans/plan/pairs/table.csv")).size(), 5u);
+  const std::string first = lines_of(contents(folder / "out/plans/plan/table.csv")).at(1);
+  EXPECT_THAT(first, MatchesRegex("0,([0-9a-f]+),done,.*,cells/[0-9a-f][0-9a-f]/[0-9a-f]+,picture.000019.png"));
+  // It stays as it is.
+  put(folder / "out/plans/plan/pairs/mine.txt", "mine");
+  const auto whole = results("out");
+  expect(sweep(collect), 4, "",
+         HasSubstr("out/plans/plan/pairs': the folder is not empty, and a data set replaces none: --to names another"));
+  EXPECT_EQ(results("out"), whole);
+  EXPECT_EQ(sweep(joined(collect, {"--to", "other"})).code, 0);
+  EXPECT_EQ(contents(folder / "other/table.csv"), contents(folder / "out/plans/plan/pairs/table.csv"));
+  // A pair of its own label, numbers and options.
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
+    expect(sweep(joined({"collect", "plan.toml"}, more)), 2, "", HasSubstr(words));
+  };
+  refused({"--pairs", "clean"}, "--pairs: expected two labels such as clean,rainy, found 'clean'");
+  refused({"--pairs", "clean,rainny"}, "found 'rainny'; did you mean 'rainy'?");
+  refused({"--pairs", "clean,rainy", "--split", "1.5"}, "--split: expected a number from 0 to 1, found '1.5'");
+  refused({"--pairs", "clean,rainy", "--mask", "drops.A"}, "--mask: expected 'exr:drops.A' in keep of plan.toml, found none");
+  refused({"--split", "0.5"}, "--split: needs --pairs");
+  EXPECT_EQ(results("out"), whole);
+}
+
 TEST_F(Sweep, ScriptsAndShards) {
   EXPECT_THAT(sweep({"script", "plan.toml", "--engine", "slurm", "--shards", "4"}).out,
               AllOf(HasSubstr("--array=0-3"), HasSubstr(RAINREF_PROGRAM)));

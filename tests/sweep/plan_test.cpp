@@ -48,11 +48,10 @@ TEST_F(PlanText, IsRefusedInOneSentence) {
   EXPECT_EQ(refusal(head + "size = '640'\n"), "2 plan.toml:3:8: size: expected WxH such as \"640x360\", found \"640\"");
   EXPECT_EQ(refusal(head + "exec = 'x'\n"), "2 plan.toml:3:1: exec: not used by verb 'run', only by 'validate'");
   EXPECT_EQ(refusal(head + "keep = ['pictures']\n"),
-            "2 plan.toml:3:9: keep: expected 'picture', 'exr', 'buffer:NAME' or 'hash', with '@every=K' or '@all' behind it, found "
-            "'pictures'; did "
-            "you mean 'picture'?");
+            "2 plan.toml:3:9: keep: expected 'picture', 'exr', 'exr:CHANNEL', 'buffer:NAME', 'drops' or 'hash', with '@every=K' or "
+            "'@all' behind it, found 'pictures'; did you mean 'picture'?");
   for (const std::string bad :
-       {"picture@every=0", "picture@", "picture@each", "buffer:", "buffer", "picture:x", "hash@all", "exr@every=1x"})
+       {"picture@every=0", "picture@", "picture@each", "buffer:", "buffer", "picture:x", "hash@all", "exr@every=1x", "exr:", "drops:x"})
     EXPECT_THAT(refusal(head + "keep = ['" + bad + "']\n"), StartsWith("2 plan.toml:3:9: keep: expected")) << bad;
   EXPECT_THAT(refusal(head + "keep = ['buffer:wav']\n"),
               StartsWith("2 plan.toml:3:9: keep: expected a buffer of puddle corrected, one of "));
