@@ -21,6 +21,7 @@
 #include "scene/camera.h"
 #include "scene/json.h"
 #include "simulation/light_mean.h"
+#include "sweep/identity.h"
 
 namespace rainref::sweep {
 namespace {
@@ -30,11 +31,6 @@ using Json = nlohmann::ordered_json;
 
 double log10_of(double x) { return log_real(Real64(x)).v / log_real(Real64(10)).v; }
 double rounded(double x) { return std::round(x * 1e4) / 1e4; }
-
-bool has(const scene::Config& config, std::string_view key) {
-  const auto& all = config.entries();
-  return std::any_of(all.begin(), all.end(), [&](const scene::Config::Entry& e) { return e.parameter.key == key; });
-}
 
 /// Every parameter but the names of files, which mean nothing elsewhere.
 Json parameters_of(const scene::Config& config) {
@@ -206,8 +202,9 @@ class Writing {
   void add_parameters(const Cell& clean, const Cell& rainy, Json& line) const {
     const scene::Config config = cells_.config(rainy);
     const Json in_rain = parameters_of(config);
+    const Json dry = parameters_of(cells_.config(clean));
     Json otherwise = Json::object();
-    for (const auto& [key, value] : parameters_of(cells_.config(clean)).items())
+    for (const auto& [key, value] : dry.items())
       if (!in_rain.contains(key) || in_rain[key] != value) otherwise[key] = value;
     line["camera"] = camera_of(config);
     line["parameters"] = in_rain;

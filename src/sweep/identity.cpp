@@ -22,11 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has(const scene::Config& config, std::string_view key) {
-  const auto& all = config.entries();
-  return std::any_of(all.begin(), all.end(), [&](const scene::Config::Entry& e) { return e.parameter.key == key; });
-}
-
 /// Equal bit for bit.
 bool is_same(const scene::Value& a, const scene::Value& b) {
   if (a.index() != b.index()) return false;
@@ -42,6 +37,11 @@ bool is_same(const scene::Value& a, const scene::Value& b) {
 }
 
 }  // namespace
+
+bool has(const scene::Config& config, std::string_view key) {
+  const auto& all = config.entries();
+  return std::any_of(all.begin(), all.end(), [&](const scene::Config::Entry& e) { return e.parameter.key == key; });
+}
 
 std::string id_of(std::string_view text) { return file_hash(std::as_bytes(std::span(text))).text(); }
 

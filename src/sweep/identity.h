@@ -11,6 +11,8 @@
 
 namespace rainref::sweep {
 
+/// True if the scene has this key.
+bool has(const scene::Config& config, std::string_view key);
 /// 32 hexadecimal digits: the XXH3-128 of a text.
 std::string id_of(std::string_view text);
 
