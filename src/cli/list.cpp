@@ -83,7 +83,8 @@ int list(const std::string& effect, bool json) {
   for (const simulation::KnownScene& scene : scenes)
     say("  {}\n", scene.sentence.empty() ? scene.name : fmt::format("{:<{}}  {}", scene.name, width, scene.sentence));
   if (!presets.empty()) say("\nPresets, for --preset: weather, light or both\n");
-  for (const scene::Preset& preset : presets) say("  {:<14} {:<8} {}\n", preset.name, preset.kind, preset_words(preset));
+  for (const scene::Preset& preset : presets)
+    say("  {:<14} {:<8} {}\n", preset.name, preset.kind, effect.empty() ? preset_words(preset) : preset.sentence);
   say("\nSIMD targets    {}\nThreads         {}\n", fmt::join(simd_targets(), " "), parallel::Executor().threads());
   return 0;
 }
