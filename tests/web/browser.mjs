@@ -1,5 +1,6 @@
 // A static site served to a headless browser, with what its tests share. node_modules: npm ci beside package.json.
 import assert from "node:assert/strict";
+import {spawn} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
 import path from "node:path";
@@ -31,6 +32,17 @@ export async function serve(folder) {
   const taken = (value, reset) => { reset(); return value; };
   return {url: `http://127.0.0.1:${server.address().port}/`, bytes: () => taken(bytes, () => { bytes = 0; }), requests: () => taken(paths, () => { paths = []; }),
           close: () => server.close()};
+}
+
+/// Starts `rainref view ARGUMENT...`: {address, root, close()}: the address that it prints, and that address without the page.
+export async function view(rainref, args, folder) {
+  const running = spawn(rainref, ["view", ...args, "--no-browser"], {cwd: folder, stdio: ["ignore", "pipe", "inherit"]});
+  const address = await new Promise((done, failed) => {
+    let text = "";
+    running.stdout.on("data", more => { if ((text += more).includes("\n")) done(text.split("\n")[0]); });
+    running.on("exit", code => failed(new Error(`rainref view ended with ${code}`)));
+  });
+  return {address, root: address.slice(0, address.indexOf("live.html")), close: () => { running.removeAllListeners("exit"); running.kill(); }};
 }
 
 /// Starts "chromium" or "firefox" with WebGPU on its software adapter.

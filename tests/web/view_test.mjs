@@ -1,12 +1,12 @@
 // node view_test.mjs RAINREF chromium|firefox SOURCES: the page of `rainref view` as its user has it. Pictures, lines and films must be those of the
 // same program's other commands. Prints times too, which no test depends on.
 import assert from "node:assert/strict";
-import {spawn, spawnSync} from "node:child_process";
+import {spawnSync} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
 import os from "node:os";
 import path from "node:path";
-import {click, expectReadable, launch, stepsIn, textOf} from "./browser.mjs";
+import {click, expectReadable, launch, stepsIn, textOf, view} from "./browser.mjs";
 
 const [program, name, sources] = process.argv.slice(2), rainref = path.resolve(program);
 const effects = ["puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"], timeout = 120000;
@@ -49,13 +49,8 @@ const slide = (page, key, place) => page.evaluate((k, at) => {
   return document.getElementById(`parameter-${k}`).value;
 }, key, place);
 
-const viewed = spawn(rainref, ["view", "scenes/puddle/default.toml", "--no-browser", "--set", "rain.rate=20"], {cwd: path.resolve(sources), stdio: ["ignore", "pipe", "inherit"]});
-const printed = await new Promise((done, failed) => {
-  let text = "";
-  viewed.stdout.on("data", more => { if ((text += more).includes("\n")) done(text.split("\n")[0]); });
-  viewed.on("exit", code => failed(new Error(`rainref view ended with ${code}`)));
-});
-const root = printed.slice(0, printed.indexOf("live.html")), browser = await launch(name);
+const viewed = await view(rainref, ["scenes/puddle/default.toml", "--set", "rain.rate=20"], path.resolve(sources));
+const printed = viewed.address, root = viewed.root, browser = await launch(name);
 async function ready(search, width = 1280) {
   const page = await browser.newPage();
   page.on("pageerror", error => errors.push(error.message));
@@ -261,7 +256,6 @@ try {
   console.log(`${name}: rainref view works`);
 } finally {
   await browser.close();
-  viewed.removeAllListeners("exit");
-  viewed.kill();
+  viewed.close();
   fs.rmSync(work, {recursive: true, force: true});
 }
