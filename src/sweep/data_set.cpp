@@ -10,6 +10,7 @@
 
 #include "base/path_text.h"
 #include "base/read_file.h"
+#include "capture/json_read.h"
 #include "effect/inputs.h"
 #include "image_io/evidence.h"
 #include "image_io/read.h"
@@ -170,7 +171,8 @@ class Writing {
     }
     if (const std::string drops = Keep{.what = Keep::What::drops, .part = {}, .at = {}}.file(frame);
         has_file(table_.rows[pair.rainy], drops)) {
-      line["drops"] = Json::parse(read_file(file_of(pair.rainy, drops)));
+      const fs::path list = file_of(pair.rainy, drops);
+      line["drops"] = capture::read_json(list, path_text(list), capture::large_json);
       figures_.drops.push_back(static_cast<double>(line["drops"].size()));
     }
     add_parameters(clean, rainy, line);

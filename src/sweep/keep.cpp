@@ -12,8 +12,7 @@ namespace rainref::sweep {
 namespace {
 
 constexpr std::array names{"picture", "exr", "buffer", "drops", "hash"};
-constexpr std::string_view forms =
-    "'picture', 'exr', 'exr:CHANNEL', 'buffer:NAME', 'drops' or 'hash', with '@every=K' or '@all' behind it";
+constexpr std::string_view forms = "'picture', 'exr', 'exr:CHANNEL', 'buffer:NAME', 'drops' or 'hash', with '@every=K' or '@all' behind it";
 
 [[noreturn]] void refuse(const std::string& text, const SourceLocation& at, const std::string& more = "") {
   throw Error(ExitCode::usage, at, fmt::format("keep: expected {}, found '{}'{}", forms, text, more));

@@ -139,8 +139,9 @@ TEST_F(PackVerb, ThreadsAndSimdTargetsDoNotMatter) {
 
 // What nobody knows before cannot be learned by heart; and the seed that is printed makes the pack again.
 TEST_F(PackVerb, ARandomSeedIsPrintedAndMakesThePackAgain) {
+  // So much rain that no seed leaves the first frames dry.
   const auto made = [&](const std::string& name, const std::string& seed) {
-    return pack({"corrected.toml", "-o", name, "--at", "2", "--passes", "wave_step,display", "--seed", seed}).out;
+    return pack({"corrected.toml", "-o", name, "--at", "12", "--set", "rain.rate=60", "--passes", "wave_step,display", "--seed", seed}).out;
   };
   const auto seed_in = [&](const std::string& name) {
     return nlohmann::json::parse(contents(folder / name / "manifest.json"))["seed"].get<std::int64_t>();
@@ -149,13 +150,14 @@ TEST_F(PackVerb, ARandomSeedIsPrintedAndMakesThePackAgain) {
   made("b", "random");
   const std::int64_t seed = seed_in("a");
   EXPECT_NE(seed, seed_in("b"));
-  EXPECT_THAT(said, StartsWith(fmt::format("seed {0}: --seed {0} makes this pack again\n", seed)));
+  EXPECT_THAT(said, HasSubstr(fmt::format("seed {0}: --seed {0} makes this pack again\n", seed)));
   EXPECT_THAT(made("again", std::to_string(seed)), testing::Not(HasSubstr("seed")));
   EXPECT_EQ(files("again"), files("a"));
   EXPECT_NE(hash_lines(read("a")), hash_lines(read("b")));
   EXPECT_THAT(said, testing::Not(HasSubstr("no seed changes")));
   // It is the scene's key, which it overrides.
-  pack({"corrected.toml", "-o", "set", "--at", "2", "--passes", "wave_step,display", "--set", fmt::format("seed={}", seed)});
+  pack({"corrected.toml", "-o", "set", "--at", "12", "--set", "rain.rate=60", "--passes", "wave_step,display", "--set",
+        fmt::format("seed={}", seed)});
   EXPECT_EQ(hash_lines(read("set")), hash_lines(read("a")));
   pack({"corrected.toml", "-o", "both", "--at", "2", "--passes", "display", "--set", "seed=5", "--seed", "6"});
   EXPECT_EQ(seed_in("both"), 6);
