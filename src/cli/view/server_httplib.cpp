@@ -1,10 +1,12 @@
 #include <httplib.h>
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/view/own_port.h"
 #include "cli/view/server.h"
 #include "rainref/error.h"
 
@@ -41,10 +43,7 @@ class Server::Listening {
     server_.set_payload_max_length(most_bytes);
     server_.set_tcp_nodelay(true);
     // Not the library's SO_REUSEPORT, with which other programs of this user could share the port.
-    server_.set_socket_options([](auto socket) {
-      const int yes = 1;
-      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, reinterpret_cast<const char*>(&yes), sizeof yes);
-    });
+    server_.set_socket_options([](auto socket) { own_port(static_cast<std::uintptr_t>(socket)); });
     server_.set_default_headers({{"Cache-Control", "no-store"},
                                  {"Content-Security-Policy", "frame-ancestors 'none'"},
                                  {"Cross-Origin-Resource-Policy", "same-origin"},
