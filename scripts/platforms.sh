@@ -109,7 +109,7 @@ set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
-# CMakeLists.txt says why.
+# CMakeLists.txt says why. The libraries need it, too.
 set(CMAKE_C_FLAGS_INIT "-fno-ipa-ra")
 set(CMAKE_CXX_FLAGS_INIT "-fno-ipa-ra")
 foreach(kind EXE SHARED MODULE)

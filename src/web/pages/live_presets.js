@@ -1,13 +1,13 @@
 // Presets of the live page: weather and light over the open scene. What is chosen is what the keys say, so a link and a slider need no more.
 import {element} from "./report_words.js";
 
-/// Of scenes/index.json: [{name, kind, sentence, keys: {effect: [[key, its text in TOML], ...]}}]. `kind`: "weather" or "light".
+/// `presets` in scenes/index.json: [{name, kind, sentence, keys: {effect: [[key, its text in TOML], ...]}}]. `kind`: "weather" or "light".
 export class Presets {
   all = [];
 
   of(kind, effect) { return this.all.filter(preset => preset.kind === kind && preset.keys[effect]); }
 
-  /// The preset of a kind whose keys all have its values; of several the one with the most keys; undefined if there is none.
+  /// The preset of a kind whose keys all have its values; undefined if there is none. If there are several, the one with the most keys.
   chosen(kind, {effect, sets}) {
     const fitting = this.of(kind, effect).filter(({keys}) => keys[effect].every(([key, toml]) => sets.get(key) === toml));
     return fitting.sort((a, b) => b.keys[effect].length - a.keys[effect].length)[0];
