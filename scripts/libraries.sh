@@ -1,25 +1,25 @@
-# Debian 12's sources of the libraries that rainref stands on, and these libraries built from them for any system: static and position
+# Debian's sources of the libraries that rainref stands on, and these libraries built from them for any system: static and position
 # independent, so that an archive with rainref needs nothing of the machine that runs it. Not run, but sourced behind lib.sh,
 # from the folder in which that leaves a script: . scripts/libraries.sh
 
-# The newest sources in Debian 12. Their folders begin with these names.
+# The newest sources in a release of Debian. Their folders begin with these names.
 library_sources=(highway fmtlib xxhash zlib libpng1.6 imath openexr libjpeg-turbo sqlite3 cpp-httplib googletest)
 # Headers alone, taken from this machine. And what builds the others: dpkg-dev unpacks sources, SQLite makes its one file with Tcl.
 library_headers=(libglm-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev)
 library_packages=(dpkg-dev debian-archive-keyring cmake ninja-build gcc make tcl pkg-config "${library_headers[@]}")
 
-# fetch_sources FOLDER: unpacks the sources into FOLDER, each in a folder of its own. Needs no root, and leaves the machine's apt as it is.
+# fetch_sources FOLDER RELEASE: unpacks the sources into FOLDER, each in a folder of its own. Needs no root, and leaves the machine's apt as it is.
 # Does nothing if they are there.
 fetch_sources() {
   local folder
   need "${library_packages[@]}"
   mkdir -p "$1"
   folder=$(realpath "$1")
-  [ "$(cat "$folder/complete" 2>/dev/null)" != "${library_sources[*]}" ] || return 0
-  say "Fetching sources of ${#library_sources[@]} libraries from Debian 12"
+  [ "$(cat "$folder/complete" 2>/dev/null)" != "$2 ${library_sources[*]}" ] || return 0
+  say "Fetching sources of ${#library_sources[@]} libraries from Debian's $2"
   rm -rf "${folder:?}"/*
-  in_own_shell "$folder.log" unpack_sources "$folder" "${library_sources[@]}" || die "Could not fetch the sources (log: $folder.log)"
-  echo "${library_sources[*]}" >"$folder/complete"
+  in_own_shell "$folder.log" unpack_sources "$folder" "$2" "${library_sources[@]}" || die "Could not fetch the sources (log: $folder.log)"
+  echo "$2 ${library_sources[*]}" >"$folder/complete"
 }
 
 # build_libraries SOURCES PREFIX TOOLCHAIN_FILE: builds what fetch_sources put into SOURCES with CMake's TOOLCHAIN_FILE and installs it into
@@ -46,12 +46,12 @@ in_own_shell() {
   bash -euo pipefail -c "$(declare -f)"$'\n"$@"' bash "$@" >"$log" 2>&1
 }
 
-unpack_sources() {  # FOLDER PACKAGE...
-  local folder=$1 package
-  shift
+unpack_sources() {  # FOLDER RELEASE PACKAGE...
+  local folder=$1 release=$2 package version
+  shift 2
   cd "$folder"
   mkdir -p apt/lists/partial apt/cache/archives/partial
-  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" >apt/sources.list
+  printf 'deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian %s main\n' "$release" bookworm >apt/sources.list
   # The machine's own configuration is read, too, for example a proxy.
   cat >apt/apt.conf <<CONFIGURATION
 Dir::Etc::SourceList "$folder/apt/sources.list";
@@ -62,10 +62,12 @@ APT::Sandbox::User "$(id -un)";
 CONFIGURATION
   export APT_CONFIG=$folder/apt/apt.conf LC_ALL=C
   apt-get update -qq
-  # While a mirror takes in a point release it lists newer sources than it has; the release's first ones are there all the time.
+  # While a mirror takes in a point release it lists newer sources than it has: then an older one does.
   for package in "$@"; do
-    apt-get source -qq "$package" ||
-      apt-get source -qq "$package=$(apt-cache showsrc --only-source "$package" | sed -n "s/^Version: //p" | sort -V | head -n 1)"
+    for version in $(apt-cache showsrc --only-source "$package" | sed -n "s/^Version: //p" | sort -urV); do
+      ! apt-get source -qq "$package=$version" || break
+    done
+    [ -d "$package"-* ] || return 1
   done
 }
 
@@ -76,7 +78,7 @@ library() {
   shift 2
   cmake -G Ninja -S "$folder" -B "$prefix.build/$name" --toolchain "$toolchain" -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR:PATH=lib \
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE="$flags" -DCMAKE_CXX_FLAGS_RELEASE="$flags" \
-    -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF "$@"
+    -DCMAKE_C_COMPILER_LAUNCHER="$(command -v ccache)" -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache)" -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF "$@"
   cmake --build "$prefix.build/$name" --target install
 }
 
