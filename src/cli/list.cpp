@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/preset_json.h"
 #include "cli/terminal.h"
 #include "math/simd_target.h"
 #include "rainref/executor.h"
@@ -27,15 +28,11 @@ std::vector<const effect::Effect*> effects_of(const std::string& name) {
   return out;
 }
 
-std::vector<std::string> described_by(const scene::Preset& preset) {
+/// Its sentence, and the effects that it describes unless it describes all.
+std::string preset_words(const scene::Preset& preset) {
   std::vector<std::string> names;
   for (const effect::Effect* e : registry::effects())
     if (preset.keys.contains(e->name)) names.push_back(e->name);
-  return names;
-}
-/// Its sentence, and the effects that it describes unless it describes all.
-std::string preset_words(const scene::Preset& preset) {
-  const std::vector<std::string> names = described_by(preset);
   if (names.size() == registry::effects().size()) return preset.sentence;
   return fmt::format("{} ({} only)", preset.sentence, fmt::join(names, ", "));
 }
@@ -45,7 +42,6 @@ std::string preset_words(const scene::Preset& preset) {
 int list(const std::string& effect, bool json) {
   if (!effect.empty()) static_cast<void>(simulation::effect_table().find(effect));
   const std::vector<simulation::KnownScene> scenes = simulation::scene_index(effect);
-  const std::vector<scene::Preset> presets = simulation::known_presets(effect);
   if (json) {
     nlohmann::ordered_json out;
     out["effects"] = nlohmann::ordered_json::array();
@@ -60,10 +56,7 @@ int list(const std::string& effect, bool json) {
       out["scenes"].push_back(scene.name);
       out["scene_sentences"].push_back(scene.sentence);
     }
-    out["presets"] = nlohmann::ordered_json::array();
-    for (const scene::Preset& preset : presets)
-      out["presets"].push_back(
-          {{"name", preset.name}, {"kind", preset.kind}, {"sentence", preset.sentence}, {"effects", described_by(preset)}});
+    out["presets"] = presets_json(effect);
     out["simd_targets"] = simd_targets();
     out["threads"] = parallel::Executor().threads();
     say("{}\n", json_text(out));
@@ -82,6 +75,7 @@ int list(const std::string& effect, bool json) {
   for (const simulation::KnownScene& scene : scenes) width = std::max(width, scene.name.size());
   for (const simulation::KnownScene& scene : scenes)
     say("  {}\n", scene.sentence.empty() ? scene.name : fmt::format("{:<{}}  {}", scene.name, width, scene.sentence));
+  const std::vector<scene::Preset> presets = simulation::known_presets(effect);
   if (!presets.empty()) say("\nPresets, for --preset: weather, light or both\n");
   for (const scene::Preset& preset : presets)
     say("  {:<14} {:<8} {}\n", preset.name, preset.kind, effect.empty() ? preset_words(preset) : preset.sentence);

@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/path_text.h"
+#include "cli/json_text.h"
+#include "cli/preset_json.h"
 #include "simulation/own_scenes.h"
-#include "simulation/preset_texts.h"
 #include "simulation/scene_index.h"
 
 namespace rainref::cli {
@@ -38,14 +39,7 @@ std::string SceneList::json() const {
                     {"keys", nlohmann::ordered_json::array()},
                     {"file", entry.shown}});
   }
-  nlohmann::ordered_json presets = nlohmann::ordered_json::array();
-  for (const scene::Preset& preset : simulation::known_presets()) {
-    nlohmann::ordered_json keys;
-    for (const auto& [effect, unused] : preset.keys) keys[effect] = simulation::preset_texts(preset, effect);
-    presets.push_back({{"name", preset.name}, {"kind", preset.kind}, {"sentence", preset.sentence}, {"keys", keys}});
-  }
-  return nlohmann::ordered_json{{"scenes", list}, {"presets", presets}}.dump(-1, ' ', false,
-                                                                             nlohmann::ordered_json::error_handler_t::replace);
+  return json_text({{"scenes", list}, {"presets", presets_json()}});
 }
 
 fs::path SceneList::file(std::string_view name) const {
