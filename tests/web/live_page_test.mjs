@@ -175,8 +175,17 @@ try {
     await atFrame(other, 0);
     assert.deepEqual(await linesOf(other), natively("scenes/puddle/default.toml", "--size", "64x36", "--frames", "1", "--preset", "storm")[0]);
     assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command")));
-    // The picture of the day is one of those that the library in a page does not read.
-    assert.deepEqual(await other.$$eval("#light option", all => all.map(o => o.value)), ["", "night"]);
+    // A preset that brings a picture; the link does, too.
+    await other.select("#light", "day");
+    await other.waitForFunction(() => document.getElementById("command").textContent.includes("city.png"), {timeout, polling: 50});
+    await atFrame(other, 0);
+    const lines = natively("scenes/puddle/default.toml", "--size", "64x36", "--frames", "1", "--preset", "storm,day")[0];
+    assert.deepEqual(await linesOf(other), lines);
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command")));
+    await other.reload();
+    await atFrame(other, 0);
+    assert.deepEqual(await linesOf(other), lines);
+    assert.equal(await other.$eval("#light", e => e.value), "day");
     await other.close();
   });
 

@@ -1,5 +1,6 @@
-// node npm_test.mjs PACKAGE PACK HASHES: the assembled npm package. Its frames have the lines that the native program printed
-// (HASHES/hash-<effect>.native), and its command judges a pack's own outputs, whole and with one of them broken.
+// node npm_test.mjs PACKAGE PACK HASHES RAINREF: the assembled npm package. Its frames have the lines that the native program printed
+// (HASHES/hash-<effect>.native), with presets those that it prints now (RAINREF), and its command judges a pack's own outputs, whole and with
+// one of them broken.
 import assert from "node:assert";
 import {spawnSync} from "node:child_process";
 import fs from "node:fs";
@@ -7,7 +8,7 @@ import os from "node:os";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 
-const [folder, pack, hashes] = process.argv.slice(2).map(name => path.resolve(name));
+const [folder, pack, hashes, native] = process.argv.slice(2).map(name => path.resolve(name));
 const {loadRainref, RainrefError} = await import(pathToFileURL(path.join(folder, "index.mjs")));
 const command = (...words) => spawnSync(process.execPath, [path.join(folder, "bin/rainref.mjs"), ...words], {encoding: "utf8"});
 
@@ -25,6 +26,12 @@ for (const effect of rainref.effects) {
   rain.close();
   const said = command("hash", `${effect}/default.toml`, "--set", set[0], "--frames", "3");
   assert.deepStrictEqual(said.stdout.trimEnd().split("\n"), native, said.stderr);
+}
+for (const preset of ["storm,night", "drizzle,day"]) {
+  const words = ["hash", "puddle/default", "--preset", preset, "--set", "run.size=[64, 36]", "--frames", "2"];
+  const said = command(...words), natively = spawnSync(native, words, {cwd: os.tmpdir(), encoding: "utf8"});
+  assert.notStrictEqual(natively.stdout, "", natively.stderr);
+  assert.strictEqual(said.stdout, natively.stdout.split("\n").filter(line => /^\d/.test(line)).join("\n") + "\n", said.stderr);
 }
 assert.throws(() => rainref.open("effect = 'pudle'"), error => error instanceof RainrefError && error.code === 2);
 

@@ -7,7 +7,7 @@ import {parseArgs} from "node:util";
 import {loadRainref, RainrefError} from "../index.mjs";
 
 const usage = `rainref validate PACK --port DIR [--profile P] [--only PASS,...] [--partial] [--strict] [--spirv DIR] [--html F] [--json F] [--junit F]
-rainref hash SCENE [--set KEY=VALUE]... [--frames N]
+rainref hash SCENE [--preset NAME,...] [--set KEY=VALUE]... [--frames N]
 rainref describe EFFECT
 rainref --version`;
 const scenes = fileURLToPath(new URL("../scenes/", import.meta.url));
@@ -51,9 +51,9 @@ async function hash([scene, ...more], values) {
   if (!scene || more.length) throw new UsageError("hash: expected one SCENE");
   const {toml, folder} = sceneOf(scene), rainref = await loadRainref({judge: false});
   // The files beside a scene that it names.
-  const files = new Map([...toml.matchAll(/"([^"\n]+\.npy)"/g)].map(([, name]) => name).filter(name => fs.existsSync(path.join(folder, name)))
+  const files = new Map([...toml.matchAll(/"([^"\n]+\.\w+)"/g)].map(([, name]) => name).filter(name => fs.existsSync(path.join(folder, name)))
     .map(name => [name, fs.readFileSync(path.join(folder, name))]));
-  const set = [...(values.set ?? []), ...(values.frames ? [`run.frames=${values.frames}`] : [])];
+  const set = [...(values.preset ? [`preset=${values.preset}`] : []), ...(values.set ?? []), ...(values.frames ? [`run.frames=${values.frames}`] : [])];
   const simulation = rainref.open(toml, {set, files, name: path.basename(scene)});
   for (let frame = simulation.info.frames; frame > 0; --frame) process.stdout.write(simulation.nextFrameHashes().join("\n") + "\n");
   simulation.close();
@@ -66,7 +66,7 @@ async function describe([effect, ...more]) {
   return 0;
 }
 
-const texts = Object.fromEntries(["port", "profile", "only", "spirv", "html", "json", "junit", "frames"].map(name => [name, {type: "string"}]));
+const texts = Object.fromEntries(["port", "profile", "only", "spirv", "html", "json", "junit", "frames", "preset"].map(name => [name, {type: "string"}]));
 const flags = Object.fromEntries(["partial", "strict", "version", "help"].map(name => [name, {type: "boolean"}]));
 try {
   let parsed;

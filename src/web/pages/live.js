@@ -119,14 +119,16 @@ function setPlaying(now) {
 
 // ---- scenes ----
 
-/// Opens a scene and shows frame 0, replacing the running one; false if it is refused, after showing the error.
+/// Opens a scene and shows frame 0, replacing the running one; false if it is refused, after showing the error, or another was opened.
 async function open(scene, options) {
   const mine = ++begun;
   setPlaying(false);
   showError("scene-error", null);
   const effect = run.info?.effect, variant = run.info?.variant, isFirst = run.info === null;
   try {
-    await whileBusy("Opening the scene…", () => run.open(scene, options), 100);
+    const whole = await scenes.withPresets(scene, options?.sets ?? new Map());
+    if (mine !== begun) return false;
+    await whileBusy("Opening the scene…", () => run.open(whole, options), 100);
   } catch (error) {
     showError("scene-error", error);
     if (run.frame < 0 && run.info) await step();  // the scene that stays showed no frame yet

@@ -1,7 +1,8 @@
 // Presets of the live page: weather and light over the open scene. What is chosen is what the keys say, so a link and a slider need no more.
 import {element} from "./report_words.js";
 
-/// `presets` in scenes/index.json: [{name, kind, sentence, keys: {effect: [[key, its text in TOML], ...]}}]. `kind`: "weather" or "light".
+/// `presets` in scenes/index.json: [{name, kind, sentence, keys: {effect: [[key, its text in TOML], ...]}, files?}]. `kind`: "weather" or
+/// "light"; `files`: what the keys name, if the page must bring it.
 export class Presets {
   all = [];
 
@@ -22,6 +23,12 @@ export class Presets {
   /// The keys of a scene of `effect` under the presets that `from` has.
   carried(from, effect) {
     return ["weather", "light"].reduce((sets, kind) => this.replaced(kind, this.chosen(kind, from)?.name ?? "", {effect, sets}), new Map());
+  }
+
+  /// The files that presets brought and these keys name.
+  filesIn(sets) {
+    const texts = [...sets.values()].join();
+    return new Set(this.all.flatMap(({files = []}) => files.filter(file => texts.includes(`"${file}"`))));
   }
 
   /// Offers those of a kind; presets describe the variant "corrected" alone.

@@ -8,6 +8,8 @@ async function fetched(path, kind) {
   return answer[kind]();
 }
 
+const bytesOf = async path => ({path, bytes: new Uint8Array(await fetched(path, "arrayBuffer"))});
+
 /// A chosen or dropped scene in the form of LiveRun.open, with the files that it names.
 export async function sceneOfFiles(all) {
   const scene = all.find(file => /\.toml$/i.test(file.name));
@@ -29,8 +31,14 @@ export class SceneList {
   async read(path) {
     const entry = this.entry(path);
     if (!entry) throw new Error(`no scene ${path}; there are ${this.all.map(scene => scene.path).join(", ")}`);
-    const files = await Promise.all(entry.files.map(async name => ({path: `scenes/${name}`, bytes: new Uint8Array(await fetched(`scenes/${name}`, "arrayBuffer"))})));
+    const files = await Promise.all(entry.files.map(name => bytesOf(`scenes/${name}`)));
     return {path, known: path, file: entry.file ?? `scenes/${path}`, text: await fetched(`scenes/${path}`, "text"), files};
+  }
+
+  /// The scene with the files that presets among the keys set name.
+  async withPresets(scene, sets) {
+    const has = new Set(scene.files.map(({path}) => path)), missing = [...this.presets.filesIn(sets)].filter(path => !has.has(path));
+    return {...scene, files: [...scene.files, ...await Promise.all(missing.map(bytesOf))]};
   }
 
   /// Shows the list by effect; scenes that cannot run here are marked.
