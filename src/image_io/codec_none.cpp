@@ -1,4 +1,4 @@
-// For a build without OpenImageIO (RAINREF_PICTURES=none): it reads no pictures and writes only PNG.
+// For a build without libraries for pictures (RAINREF_PICTURES=none), and for the small WebAssembly module: it writes PNG alone.
 #include <stdexcept>
 
 #include "image_io/codec.h"

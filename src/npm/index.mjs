@@ -7,7 +7,7 @@ import {load} from "#load";
 
 export {RainrefError, Simulation};
 
-/// The whole library, or without the judge, which is a quarter smaller.
+/// The whole library, or without the judge and without what reads pictures in files, which is half as large.
 export async function loadRainref({judge = true} = {}) {
   return new Rainref(new CLibrary(await load(judge ? "rainref_module" : "rainref_simulator")));
 }

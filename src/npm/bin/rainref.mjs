@@ -49,7 +49,7 @@ async function validate([pack, ...more], values) {
 
 async function hash([scene, ...more], values) {
   if (!scene || more.length) throw new UsageError("hash: expected one SCENE");
-  const {toml, folder} = sceneOf(scene), rainref = await loadRainref({judge: false});
+  const {toml, folder} = sceneOf(scene), rainref = await loadRainref();
   // The files beside a scene that it names.
   const files = new Map([...toml.matchAll(/"([^"\n]+\.\w+)"/g)].map(([, name]) => name).filter(name => fs.existsSync(path.join(folder, name)))
     .map(name => [name, fs.readFileSync(path.join(folder, name))]));

@@ -14,6 +14,9 @@ const asOpened = (scene, sets, size, pixels) => (
   {...scene, sets: [...[...sets].map(([name, toml]) => `${name}=${toml}`), ...(pixels ? [`run.size=[${pixels.join(", ")}]`] : []),
     ...(antialiases(sets, size) ? [] : ["run.supersample=1"])]});
 
+/// The smaller library reads no pictures in files, whose formats would double it.
+const namesPictures = ({files}) => files.some(({path}) => !/\.(csv|npy)$/i.test(path));
+
 export class LiveRun {
   #engine = new Engine("live_operations.js", "rainref_simulator");
   #pixels = null;  // of the open scene's picture; null: its own
@@ -125,8 +128,11 @@ export class LiveRun {
   async #open(scene, sets, size) {
     const key = [scene.file, scene.text.length, sets.get("variant")].join("|");
     let chosen = size === "automatic" ? this.#measured.get(key) ?? sizes[1] : size === "scene" ? null : size.split("x").map(Number);
-    const open = () => this.#engine.run("open", asOpened(scene, sets, size, chosen));
+    const engine = this.#engine.library === "rainref_simulator" && namesPictures(scene) ? new Engine("live_operations.js") : this.#engine;
+    const open = () => engine.run("open", asOpened(scene, sets, size, chosen));
     let info = await open();
+    if (engine !== this.#engine) this.#engine.cancel();
+    this.#engine = engine;
     if (size === "automatic" && !this.#measured.has(key)) {
       const best = await this.#sizeFor(chosen);
       this.#measured.set(key, best);
