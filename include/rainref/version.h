@@ -2,7 +2,7 @@
 #pragma once
 
 #define RAINREF_VERSION_MAJOR 0
-#define RAINREF_VERSION_MINOR 1
+#define RAINREF_VERSION_MINOR 2
 #define RAINREF_VERSION_PATCH 0
 
 #include <string_view>
