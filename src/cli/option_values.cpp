@@ -7,6 +7,7 @@
 
 #include "base/number_text.h"
 #include "rainref/error.h"
+#include "scene/rows_of_text.h"
 
 namespace rainref::cli {
 
@@ -18,14 +19,8 @@ int whole_number(const std::string& text, const char* option, int low, int high)
 }
 
 std::vector<std::string> list_of(const std::string& text) {
-  std::vector<std::string> parts{""};
-  for (const char c : text) {
-    if (c == ',')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
+  const std::vector<std::string_view> parts = scene::split(text, ',');
+  return {parts.begin(), parts.end()};
 }
 
 void require_word(const std::string& text, const char* option, const char* expected, const std::vector<std::string>& words) {

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse_film(const fs::path& film, const std::string& why) {
-  throw Error(ExitCode::io, fmt::format("--film '{}': {}", path_text(film), why));
+  throw Error(ExitCode::io, fmt::format("film '{}': {}", path_text(film), why));
 }
 
 fs::path found_ffmpeg(const fs::path& film) {

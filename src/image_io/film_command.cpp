@@ -56,12 +56,12 @@ const FilmFormat& format_of(const fs::path& film, FilmRate rate) {
     if (suffix != f.suffix) continue;
     if (f.most_per_second > 0 && rate.per_second() > f.most_per_second)
       throw Error(ExitCode::usage,
-                  fmt::format("--film '{}': expected at most {:g} pictures a second, which is what a GIF can show, found {:g}: --every {} "
+                  fmt::format("film '{}': expected at most {:g} pictures a second, which is what a GIF can show, found {:g}: --every {} "
                               "gives fewer",
                               path_text(film), f.most_per_second, rate.per_second(), 2 * rate.every));
     return f;
   }
-  throw Error(ExitCode::usage, fmt::format("--film '{}': expected a name that ends in .mp4, .webm or .gif", path_text(film)));
+  throw Error(ExitCode::usage, fmt::format("film '{}': expected a name that ends in .mp4, .webm or .gif", path_text(film)));
 }
 
 }  // namespace

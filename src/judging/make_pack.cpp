@@ -39,7 +39,7 @@ std::vector<std::string> chosen_passes(const capture::EffectInfo& info, const st
   for (const std::string& name : asked) {
     if (std::find(all.begin(), all.end(), name) == all.end()) {
       throw Error(ExitCode::usage,
-                  fmt::format("--passes: expected some of {}, found '{}'{}", fmt::join(all, ", "), name, did_you_mean(name, all)));
+                  fmt::format("passes: expected some of {}, found '{}'{}", fmt::join(all, ", "), name, did_you_mean(name, all)));
     }
   }
   std::vector<std::string> chosen;
@@ -229,7 +229,7 @@ WrittenPack make_pack(const PackRequest& request, const parallel::Executor& exec
   }
   frames.tell(passes, events.line);
   std::erase_if(passes, [&](const std::string& pass) { return !frames.has(pass); });
-  if (passes.empty()) throw Error(ExitCode::usage, "--passes: expected one that runs in this scene, found none");
+  if (passes.empty()) throw Error(ExitCode::usage, "passes: expected one that runs in this scene, found none");
   ScenePack packing(request, events, executor, passes, frames, std::move(first));
   capture::PackWriter::Total total = packing.write();
   std::map<std::string, judge::NullPorts> idle = idle_passes(request.output, executor);

@@ -12,6 +12,7 @@
 #include "base/path_text.h"
 #include "rainref/error.h"
 #include "scene/parameter.h"
+#include "scene/rows_of_text.h"
 #include "scene/toml.h"
 
 namespace rainref::scene {
@@ -64,18 +65,6 @@ Preset read_preset(const std::filesystem::path& file) {
   return preset;
 }
 
-std::vector<std::string> names_in(std::string_view list) {
-  std::vector<std::string> names;
-  for (std::size_t comma = 0; comma != std::string_view::npos; list.remove_prefix(comma == std::string_view::npos ? 0 : comma + 1)) {
-    comma = list.find(',');
-    std::string_view name = list.substr(0, comma);
-    while (name.starts_with(' ')) name.remove_prefix(1);
-    while (name.ends_with(' ')) name.remove_suffix(1);
-    names.emplace_back(name);
-  }
-  return names;
-}
-
 [[noreturn]] void refuse_name(const std::string& message) { throw Error(ExitCode::usage, fmt::format("--preset: {}", message)); }
 
 }  // namespace
@@ -103,7 +92,7 @@ std::vector<Preset> presets_for(std::string_view names, std::string_view effect,
     if (p.keys.contains(std::string(effect))) of_effect.push_back(p.name);
   }
   std::vector<Preset> out;
-  for (const std::string& name : names_in(names)) {
+  for (const std::string_view name : split(names, ',')) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const Preset& p) { return p.name == name; });
     if (found == all.end())
       refuse_name(fmt::format("expected one of {}, found '{}'{}", fmt::join(known, ", "), name, did_you_mean(name, known)));

@@ -131,7 +131,7 @@ TEST_F(Films, WithoutFfmpegNothingIsSimulated) {
   before = folder.names();
   // More frames than a test could wait for.
   expect_refusal({"run", "corrected.toml", "--frames", "1000000", "--film", "rain.mp4", "-o", "new/o"}, 4,
-                 "--film 'rain.mp4': ffmpeg, which makes films, is in no folder of PATH (Debian: apt-get install ffmpeg)");
+                 "film 'rain.mp4': ffmpeg, which makes films, is in no folder of PATH (Debian: apt-get install ffmpeg)");
   // One that may not be run is none.
   put(folder / "empty/ffmpeg", "#!/bin/sh\n");
   expect_refusal({"run", "corrected.toml", "--frames", "1000000", "--film", "rain.mp4", "-o", "new/o"}, 4, HasSubstr("no folder of PATH"));
@@ -142,7 +142,7 @@ TEST_F(Films, WhatCannotBeAFilmIsRefusedFirst) {
   const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& message) {
     expect_refusal(joined({"run", "corrected.toml", "--set", "run.frames=1000000", "-o", "new/o"}, more), code, HasSubstr(message));
   };
-  refused({"--film", "rain.avi"}, 2, "--film 'rain.avi': expected a name that ends in .mp4, .webm or .gif");
+  refused({"--film", "rain.avi"}, 2, "film 'rain.avi': expected a name that ends in .mp4, .webm or .gif");
   refused({"--film", "mp4"}, 2, "expected a name that ends in .mp4");
   refused({"--film", ""}, 2, "--film: expected a file");
   refused({"--film", "rain.gif"}, 2,
@@ -153,20 +153,20 @@ TEST_F(Films, WhatCannotBeAFilmIsRefusedFirst) {
           "--film: expected a frame to show, found none from 7 to 8 that 5 divides");
   fs::create_directory(folder / "rain.mp4");
   before = folder.names();
-  refused({"--film", "rain.mp4"}, 4, "--film 'rain.mp4': a folder has that name");
-  refused({"--film", "corrected.toml/rain.mp4"}, 4, "--film 'corrected.toml/rain.mp4': cannot write there: ");
+  refused({"--film", "rain.mp4"}, 4, "film 'rain.mp4': a folder has that name");
+  refused({"--film", "corrected.toml/rain.mp4"}, 4, "film 'corrected.toml/rain.mp4': cannot write there: ");
 }
 
 TEST_F(Films, AFailureShowsWhatWasPrintedAndLeavesTheOlderFile) {
   put(folder / "rain.mp4", "older");
   use_ffmpeg("for last; do :; done\nhead -c 1000 >\"${last#file:}\"\necho one; echo 'Unknown encoder libx264' >&2\nexit 3\n");
   expect_refusal({"run", "corrected.toml", "--frames", "200", "--film", "rain.mp4", "-o", "new/o", "--image", "none"}, 4,
-                 "--film 'rain.mp4': ffmpeg ended with exit code 3; it printed: one | Unknown encoder libx264");
+                 "film 'rain.mp4': ffmpeg ended with exit code 3; it printed: one | Unknown encoder libx264");
   EXPECT_EQ(contents(folder / "rain.mp4"), "older");
   // After the last picture too: and its folder goes again.
   use_ffmpeg("cat >/dev/null\necho full >&2\nexit 1\n");
   expect_refusal({"run", "corrected.toml", "--film", "made/rain.mp4", "-o", "new/o", "--image", "none"}, 4,
-                 "--film 'made/rain.mp4': ffmpeg ended with exit code 1; it printed: full");
+                 "film 'made/rain.mp4': ffmpeg ended with exit code 1; it printed: full");
   // Content with less than all.
   use_ffmpeg("exit 0\n");
   expect_refusal({"run", "corrected.toml", "--frames", "200", "--film", "rain.mp4", "-o", "new/o", "--image", "none"}, 4,
