@@ -96,5 +96,5 @@ export class Rainref {
   judge(pack: Folder, port: Folder, options?: JudgeOptions): Judged;
 }
 
-/** `judge: false` loads the simulator alone, which is a quarter smaller. */
+/** `judge: false` loads the simulator alone, which is half as large and reads no pictures in files. */
 export function loadRainref(options?: {judge?: boolean}): Promise<Rainref>;
