@@ -133,6 +133,15 @@ std::vector<std::string> called_verbs(const std::string& text) {
   return found;
 }
 
+TEST(Documents, TheCitationHasTheVersion) {
+  const std::string citation = contents(root / "CITATION.cff"), header = contents(root / "include/rainref/version.h");
+  std::string version;
+  const std::regex number("#define RAINREF_VERSION_[A-Z]+ ([0-9]+)");
+  for (std::sregex_iterator m(header.begin(), header.end(), number), end; m != end; ++m)
+    version += (version.empty() ? "" : ".") + (*m)[1].str();
+  EXPECT_TRUE(std::regex_search(citation, std::regex("\nversion: " + version + "\n"))) << version;
+}
+
 TEST(Documents, LinksResolve) {
   int checked = 0;
   for (const fs::path& document : documents()) {
