@@ -31,13 +31,15 @@ void check_pack(const capture::Pack& pack) {
     }
     if (const std::string why = capture::uniform_fault(*effect.info, c); !why.empty()) refuse(fmt::format("{}: {}", entry.id, why));
   }
+  const std::string again = fmt::format("the pack was made by rainref {}; make it again", pack.producer);
   for (const capture::PackPass& pass : pack.passes) {
-    const bool is_same = std::any_of(effect.info->passes.begin(), effect.info->passes.end(), [&](const capture::PassInfo& declared) {
-      return declared.name == pass.name && declared.variant(pack.variant) && scene::same_layout(declared.block(pack.variant), pass.block);
+    const auto declared = std::find_if(effect.info->passes.begin(), effect.info->passes.end(), [&](const capture::PassInfo& one) {
+      return one.name == pass.name && one.variant(pack.variant) && scene::same_layout(one.block(pack.variant), pass.block);
     });
-    if (!is_same)
-      refuse(fmt::format("the uniform block of pass '{}' is not that of this version: the pack was made by rainref {}; make it again",
-                         pass.name, pack.producer));
+    if (declared == effect.info->passes.end())
+      refuse(fmt::format("the uniform block of pass '{}' is not that of this version: {}", pass.name, again));
+    const std::string own = capture::formula(*effect.info, *declared, *declared->variant(pack.variant));
+    if (own != pass.formula) refuse(fmt::format("expected the formula '{}', found '{}': {}", own, pass.formula, again));
   }
 }
 

@@ -7,9 +7,9 @@
 
 namespace rainref::judge {
 
-/// Checks the uniform blocks, and each case's shapes, formats and uniforms, from the manifest alone: capture::check_case and
-/// capture::uniform_fault. Throws Error(port_files) naming the pack and the case; Error(usage) for an effect that this build does not know.
-/// A pack with its own reference is checked against that: foreign::reference_of().
+/// Checks the uniform blocks, the formulas' revisions, and each case's shapes, formats and uniforms, from the manifest alone:
+/// capture::check_case and capture::uniform_fault. Throws Error(port_files) naming the pack and the case; Error(usage) for an effect that
+/// this build does not know. A pack with its own reference is checked against that: foreign::reference_of().
 void check_pack(const capture::Pack& pack);
 
 /// Reads a case of a checked pack with its values; Error(port_files) if a float of a record is not finite.

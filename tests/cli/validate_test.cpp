@@ -154,6 +154,10 @@ TEST_F(Validate, ADamagedPackIsRefused) {
   expect_refusal({"validate", "bad", "--port", "port"}, 3, HasSubstr("version 2 is newer"));
   with("\"file\":\"puddle.shade/0011.0/out", "\"file\":\"../port/puddle.shade/0011.0/out");
   expect_refusal({"validate", "bad", "--port", "port"}, 3, HasSubstr("the path of a file below the pack's folder"));
+  with("\"formula\": \"puddle.shade.corrected/", "\"formula\": \"puddle.shade.corrected/9");
+  expect_refusal({"validate", "bad", "--port", "port"}, 3,
+                 AllOf(HasSubstr("expected the formula 'puddle.shade.corrected/"), HasSubstr("found 'puddle.shade.corrected/9"),
+                       HasSubstr("make it again")));
 }
 
 TEST_F(Validate, APortsCommandIsRunAndJudged) {
