@@ -111,8 +111,8 @@ def write_sheet(names):
 
 def write_page(names):
     page = ["# Gallery", "", "<!-- scripts/gallery writes this page. -->", "",
-            "For anyone who looks for a scene to start from. Each picture links to its scene file; below it stands the command that makes it in full size. "
-            "`--first` skips frames to save time. [gallery.toml](../gallery.toml) lists what differs from the defaults.", "", "![All of them](sheet.jpg)", ""]
+            "For anyone who looks for a scene to start from. Each picture links to its scene file; the command below it makes it in full size. "
+            "`--first` skips frames to save time. [gallery.toml](../gallery.toml) lists the keys that differ from the defaults.", "", "![All of them](sheet.jpg)", ""]
     group = ""
     for name in names:
         if name.split("/")[0] != group:
