@@ -19,7 +19,7 @@ class Items;  // src/state/items.h
 
 namespace rainref::edge_splash {
 
-/// How to read a stored depth d in [0, 1]: 1 / z is affine in d, with z along the view axis.
+/// How a stored depth d in [0, 1] gives the distance z along the view axis: 1 / z is affine in d.
 struct DepthRange {
   double near_plane = 0.3, far_plane = 1000;  ///< [m]
   bool reversed = true;                       ///< d is 1 at the near plane and 0 at the far plane; if false, the other way round
@@ -49,16 +49,16 @@ struct Settings {
   Format storage = Format::rgba16f;  ///< of colour: rgba16f, or rgba8 as the article's render feature asks for
 
   // corrected
-  double band = 0.03;                                     ///< height of the splashes beside an edge [m]
+  double band = 0.03;                                     ///< width of the splashes beside an edge [m]
   double smallest_band = 1.0 / 720, largest_band = 0.01;  ///< [picture heights]
   double edge_step = 0.15;                                ///< smallest step of distance at an edge [m]
   double edge_bend = 0.02;                                ///< smallest step, as a share of the distance
-  double softness = 0.3;                                  ///< softness of every threshold: it ends at (1 + softness) times its beginning
-  double widest_angle_deg = 62;                           ///< between the normal of an edge and up
-  std::array<double, 3> up{0, 1, 0};                      ///< against the direction of falling rain, world axes; any length
-  double noise_size = 0.3;                                ///< size of the tile [picture heights]
-  std::array<double, 2> drop_velocity{0.25, -1.0};        ///< [picture heights/s]
-  bool has_crowns = false;                                ///< crowns that rise and fall instead of scrolling noise
+  double softness = 0.3;         ///< an edge's threshold t is a ramp to (1 + softness) t; those of noise and angle, to t + softness (1 - t)
+  double widest_angle_deg = 62;  ///< largest angle between the normal of an edge and up
+  std::array<double, 3> up{0, 1, 0};                ///< opposite to the direction of the falling rain, world axes; any length
+  double noise_size = 0.3;                          ///< size of the tile [picture heights]
+  std::array<double, 2> drop_velocity{0.25, -1.0};  ///< [picture heights/s]
+  bool has_crowns = false;                          ///< crowns that rise and fall instead of scrolling noise
 
   std::array<double, 3> camera_position{0.15, 1.25, 1.2}, camera_target{-0.35, 0.75, -6}, camera_up{0, 1, 0};
   double vertical_fov_deg = 50;
@@ -81,8 +81,8 @@ struct Inputs {
 /// A picture on which rain splashes. The bits of every buffer do not depend on the number of threads or the SIMD target.
 class EdgeSplash {
  public:
-  /// Throws Error(usage) for images of different sizes, for a depth outside its range (it names the first place) and for an invalid depth
-  /// range. The picture has the size of the colour image, whatever Settings say. The executor must outlive this object.
+  /// Throws Error(usage) for images of different sizes, for an invalid depth range, and for a depth outside its range (the message names
+  /// the first place). The picture has the size of the colour image, not that of Settings. The executor must outlive this object.
   EdgeSplash(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor);
   ~EdgeSplash();
   EdgeSplash(EdgeSplash&&) noexcept;
@@ -91,14 +91,14 @@ class EdgeSplash {
   void simulate(Recorder* recorder = nullptr);
   /// Runs splash and display for the last simulated frame.
   void render(Recorder* recorder = nullptr);
-  /// Both: one call for each frame of an animation.
+  /// Does both: one call for each frame of an animation.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
   }
 
-  /// Replaces the pictures from the next render on: colour, depth and layer. The noise stays. Throws as the constructor does, and for
-  /// another size than the first colour image; the old pictures then stay.
+  /// Replaces colour, depth and layer from the next render on. The noise stays. Throws as the constructor does, and if the size differs
+  /// from that of the first colour image. The old pictures then stay.
   void show(const Inputs& inputs);
 
   /// Frames simulated so far.
@@ -107,9 +107,9 @@ class EdgeSplash {
   const Image& edge() const;  ///< r8 masks
   const Image& angle() const;
   const Image& noise() const;
-  const Image& colour() const;   ///< as published in Settings::storage, corrected rgba16f: linear radiance, alpha
+  const Image& colour() const;   ///< linear radiance, alpha; as-published in Settings::storage, corrected rgba16f
   const Image& picture() const;  ///< rgba8: display code; row 0 = bottom
-  const Image& depth() const;    ///< r32f: device depth that splash reads
+  const Image& depth() const;    ///< r32f: the device depth that splash reads
 
   /// Sentences about doubtful inputs, such as a noise map that does not tile.
   const std::vector<std::string>& warnings() const;
@@ -122,8 +122,8 @@ class EdgeSplash {
   std::unique_ptr<State> state_;
 };
 
-/// Peak memory [byte] for these settings, within 10 %: every buffer, decoded texture and scratch of src/edge_splash/memory.cpp, without the
-/// caller's images.
+/// Peak memory [byte] with these settings, within 10 %: the buffers, decoded textures and scratch in src/edge_splash/memory.cpp, without
+/// the caller's images.
 std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::edge_splash

@@ -1,4 +1,4 @@
-// Errors shown to the user: one sentence, a place, an exit code.
+// Errors for the user: one sentence, a place, an exit code.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ enum class ExitCode : int {
   fail = 1,        ///< a check failed, or something was not judged
   usage = 2,       ///< invalid command line or scene, or an input image that cannot be decoded
   port_files = 3,  ///< a port's files are missing or malformed
-  io = 4,          ///< unreadable, unwritable, disk full
+  io = 4,          ///< a file cannot be read or written, or the disk is full
   internal = 5     ///< a defect of rainref
 };
 
@@ -24,7 +24,7 @@ struct SourceLocation {
   std::string file;
   int line = 0;
   int column = 0;
-  /// "file:line:column", without the parts that are unknown.
+  /// Returns "file:line:column" without unknown parts.
   std::string text() const;
 };
 
@@ -39,11 +39,11 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// Returns the name in `names` nearest to `wrong` by edit distance, or "" if none is near enough to be a likely typo (distance above a
-/// third of the longer length, at least 1). Ties go to the earlier name.
+/// Returns the name in `names` that is nearest to `wrong` by edit distance, the earlier one in a tie. Returns "" if the distance is above 1
+/// and above a third of the longer name's length: too far for a typo.
 std::string nearest_name(std::string_view wrong, std::span<const std::string> names);
 
-/// "; did you mean 'x'?" for the nearest name, or "" if none is near.
+/// Returns "; did you mean 'x'?" for the nearest name, or "" if none is near.
 std::string did_you_mean(std::string_view wrong, std::span<const std::string> names);
 
 }  // namespace rainref

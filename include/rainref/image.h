@@ -32,16 +32,16 @@ Format format_from_name(std::string_view name);
 
 /// A two-dimensional array of texels, channels interleaved, row 0 = v 0 of the pass that writes it.
 ///
-/// Every row has left_margin texels before it and at least right_margin after it. A kernel may read a whole vector at any column, and keep
-/// ghost texels for its boundary rule there. Margins are zero until a kernel fills them. They are never hashed, captured or written to a
-/// file.
+/// Every row has a margin of left_margin texels before it and of at least right_margin after it, so a kernel may read a whole vector at any
+/// column. A kernel may also keep ghost texels for its boundary rule in the margins. Margins are zero until a kernel fills them. They are
+/// never hashed, captured or written to a file.
 class Image {
  public:
   static constexpr int left_margin = 16;
   static constexpr int right_margin = 32;
 
   Image() = default;
-  /// Zero-filled. Throws Error(usage) if a side is not in [1, 65536] or there is not enough memory.
+  /// Makes an image of zeros. Throws Error(usage) if a side is not in [1, 65536] or memory is short.
   Image(Format format, int width, int height);
 
   Format format() const { return format_; }
@@ -50,7 +50,7 @@ class Image {
   int channels() const { return info(format_).channels; }
   bool empty() const { return width_ == 0; }
 
-  /// First texel of row y. T is the storage type of one channel: float, Half, Unorm8 or std::uint32_t.
+  /// Returns the first texel of row y. T is the storage type of one channel: float, Half, Unorm8 or std::uint32_t.
   template <class T>
   T* row(int y) {
     return reinterpret_cast<T*>(row_bytes(y));
@@ -70,10 +70,10 @@ class Image {
   /// Memory of an image of this format and size [byte].
   static std::uint64_t memory_bytes(Format format, int width, int height);
 
-  /// Returns another image that shares this one's texels; the last of them frees the memory. From the first call on, the texels must not
-  /// change: asking one of these images for a writable row throws Error(internal).
+  /// Returns another image that shares this one's texels. The last image that shares them frees the memory. From the first call on, the
+  /// texels must not change: a writable row of any such image throws Error(internal).
   Image share();
-  /// The same for an image that is already shared; otherwise a copy that may be shared.
+  /// Does the same if this image is already shared. Otherwise returns a copy.
   Image shared() const;
   /// Hash of format, size and texels without margins. It is computed once for shared texels.
   Hash128 content_hash() const;
@@ -96,8 +96,8 @@ class Image {
   std::byte* origin_ = nullptr;
 };
 
-/// External view of a buffer: its channels in order, from one image or from several single-channel images of one size (`parts`). Channels
-/// without a part are zero. The canonical bytes are its rows without padding, little endian.
+/// A buffer as callers see it. Its channels, in order, are those of one image, or several single-channel images of one size (`parts`).
+/// Channels without a part are zero. The canonical bytes are the rows without padding, little endian.
 struct BufferView {
   Format format;
   std::vector<const Image*> parts;

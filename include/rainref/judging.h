@@ -1,4 +1,4 @@
-// Cases of passes, and verdicts on the results of a port, all in memory, without files.
+// Cases of passes, and verdicts on the results of a port, in memory or in files.
 #pragma once
 
 #include <array>
@@ -31,15 +31,15 @@ struct Field {
   std::size_t offset = 0;  ///< [byte] from the start of the block or record
 };
 
-/// An input or output of a pass in the layout of a GPU: rows without padding, row 0 = v 0, little endian. Valid as long as the cases.
+/// An input or output of a pass, laid out as for a GPU: rows without padding, row 0 = v 0, little endian. Valid as long as the cases.
 struct CaseArray {
   std::string name;
-  bool is_records = false;           ///< a list of records, or a uniform block, which is one record
+  bool is_records = false;           ///< a list of records; a uniform block is one record
   Format format = Format::r8;        ///< for images
   int width = 0, height = 1;         ///< texels; for records their number, and 1
   int levels = 1;                    ///< mip levels of the image
   std::size_t element_bytes = 0;     ///< distance between texels, or between records
-  std::string record;                ///< name of the records' struct in shaders: "Drop"
+  std::string record;                ///< name of the record's struct in shaders: "Drop"
   std::vector<Field> fields;         ///< for records
   std::span<const std::byte> bytes;  ///< width * height * element_bytes bytes
 
@@ -51,7 +51,7 @@ struct CaseArray {
   }
 };
 
-/// How a pass reads an input. A filter of `none` loads by integer texel; a mip filter of `none` reads level 0 only.
+/// How a pass reads an input. Without a filter (`none`) it loads by integer texel. Without a mip filter it reads level 0 only.
 struct CaseSampling {
   Filter filter = Filter::none, mip_filter = Filter::none;
   Address address_u = Address::clamp, address_v = Address::clamp;
@@ -64,7 +64,7 @@ struct CaseInfo {
   std::string effect, variant, pass;
   std::string formula;                       ///< name and revision: "puddle.wave_step.corrected/2"
   int frame = 0, step = 0;                   ///< step counts the substeps of a frame
-  int level = -1;                            ///< the mip level, if the pass runs once for each; else -1
+  int level = -1;                            ///< mip level, if the pass runs once for each level; else -1
   float time = 0, dt = 0;                    ///< [s] start of the frame, and time step of this run
   std::vector<std::string> inputs, outputs;  ///< names
 };
@@ -72,37 +72,37 @@ struct CaseInfo {
 /// A possible cause of the failures of a pass.
 struct Cause {
   std::string name, sentence;
-  std::int64_t explained = 0;  ///< failing texels or records whose bits it reproduces
+  std::int64_t explained = 0;  ///< failing texels or records whose bits the cause reproduces
   std::int64_t of = 0;         ///< failing texels or records that were examined
-  std::int64_t inside = 0;     ///< failing ones that it comes near
-  bool is_likely = false;      ///< it explains nearly all
-  /// Its lines in the port's shaders, best first: "shade.comp:57: vec3 bent = refract(view, normal, WATER_IOR);". Empty without shaders
-  /// (JudgeOptions::spirv).
+  std::int64_t inside = 0;     ///< failing texels or records that the cause comes near
+  bool is_likely = false;      ///< it explains nearly all of them
+  /// Its lines in the port's shaders, the best line first: "shade.comp:57: vec3 bent = refract(view, normal, WATER_IOR);". Empty without
+  /// shaders (JudgeOptions::spirv).
   std::vector<std::string> lines = {};
 };
 
-/// An element outside its envelope. The pass's `reason` counts missing and surplus records.
+/// An element outside its envelope. Missing and surplus records are counted in the pass's `reason` instead.
 struct Failure {
   std::string case_id, output;
   std::string field;                                ///< field of a record; "" for an image
-  int x = 0, y = 0;                                 ///< texel; for a record x is its number or id
+  int x = 0, y = 0;                                 ///< texel; for a record, x is its number or id
   int channel = 0;                                  ///< 0 to 3
   bool is_a_number = true;                          ///< false: NaN
   double got = 0, low = 0, high = 0, expected = 0;  ///< values from low to high are accepted
-  std::string text;                                 ///< place, then the value found, accepted and expected, with their bits
+  std::string text;                                 ///< place, then the values found, accepted and expected, with their bits
 };
 
-/// Verdict on a pass. Counts are of channels of texels, or of fields of records.
+/// Verdict on a pass. An element is a channel of a texel or a field of a record.
 struct PassVerdict {
   std::string pass, formula;
   std::string status;  ///< see Verdict::status
-  std::string reason;  ///< "" if the status says all
-  std::string where;   ///< common property of the failures: "only channel y of wave"; "" if none
+  std::string reason;  ///< "" if the status says it all
+  std::string where;   ///< what the failures have in common: "only channel y of wave"; "" if nothing
   std::int64_t cases = 0;
   std::int64_t elements = 0;   ///< judged elements
-  std::int64_t outside = 0;    ///< elements that the profile does not allow
-  std::int64_t differing = 0;  ///< elements that differ from the reference's bits
-  std::int64_t vacuous = 0;    ///< sampled elements with a useless, very wide envelope
+  std::int64_t outside = 0;    ///< elements whose value the profile does not allow
+  std::int64_t differing = 0;  ///< elements whose bits differ from the reference's
+  std::int64_t vacuous = 0;    ///< sampled elements whose envelope is too wide to be useful
   std::vector<Cause> causes;   ///< best first
   std::vector<Failure> worst;  ///< worst first
   std::int64_t sampled = 0;    ///< elements whose envelope was computed: all, or a sample of a large picture
@@ -111,8 +111,8 @@ struct PassVerdict {
 /// Verdict on a port.
 struct Verdict {
   std::string status;          ///< "PASS", "WARN", "FAIL" or "UNTESTED"; for a pass also "DATA" or "NOT JUDGED"
-  std::string reason;          ///< "" if the status says all
-  std::string first_bad_pass;  ///< in the order of dataflow; "" if none
+  std::string reason;          ///< "" if the status says it all
+  std::string first_bad_pass;  ///< the first FAIL in the order of dataflow; "" if none
   std::string profile;
   std::vector<PassVerdict> passes;  ///< in the order of execution
 
@@ -127,19 +127,20 @@ std::vector<std::string> profile_names();
 struct FolderOptions {
   std::string profile = "vulkan";
   std::vector<std::string> passes{};  ///< judge only these; if none is named, all are judged
-  bool partial = false;               ///< a pass without any file is NOT JUDGED; its files do not count as missing
+  bool partial = false;               ///< a pass without any file is NOT JUDGED, and its files do not count as missing
   bool strict = false;                ///< each WARN is a FAIL
   bool exhaustive = false;            ///< as in JudgeOptions
   std::filesystem::path spirv{};      ///< as in JudgeOptions
-  Progress progress{};                ///< called after each run of a pass, by the thread that judges; may be null
+  Progress progress{};                ///< called after each run of a pass, on the thread that judges; may be null
 };
 
 /// A verdict and its reports. It may outlive the cases.
 class Judgement {
  public:
-  /// Judges the files that a port wrote (docs/dumps.md) for the cases of a pack, like `rainref validate PACK --port PORT`. One case is in
-  /// memory at a time. The reports list missing and unusable files; everything else is judged. Reports with pictures read both folders
-  /// again. Throws Error(usage) for an unknown profile or pass, Error(port_files) if nothing can be judged, Error(io).
+  /// Judges the files that a port wrote (docs/dumps.md) for the cases of a pack, like `rainref validate PACK --port PORT`. Holds one case
+  /// in memory at a time. If some files are missing or unusable, the reports list them, and the other files are judged. Reports with
+  /// pictures read both folders again. Throws Error(usage) for an unknown profile or pass, Error(port_files) if nothing can be judged,
+  /// Error(io).
   static Judgement of_folder(const std::filesystem::path& pack, const std::filesystem::path& port, const parallel::Executor& executor,
                              const FolderOptions& options = {});
   ~Judgement();
@@ -162,20 +163,20 @@ class Judgement {
 
 /// Options of write_pack.
 struct PackOptions {
-  std::vector<int> frames{};          ///< none: 0, 1 and 12, and a later one for a pass that does nothing in these
+  std::vector<int> frames{};          ///< none: 0, 1 and 12, and a later frame for a pass that does nothing in these
   std::vector<std::string> passes{};  ///< none: every pass of the variant
-  std::string seed{};                 ///< "": the scene's; a whole number; "random": one that nobody can predict
-  Progress progress{};                ///< called after each frame; begins anew if the pack is written again with more frames; may be null
+  std::string seed{};                 ///< "": the scene's; else a whole number, or "random" for an unpredictable one
+  Progress progress{};                ///< called after each frame; starts over if the pack is written again with more frames; may be null
 };
 /// What write_pack wrote.
 struct PackSummary {
-  std::int64_t seed = 0;  ///< `PackOptions::seed` with it makes the pack again; the manifest has it, too
+  std::int64_t seed = 0;  ///< the same seed in PackOptions makes the same pack; the manifest records it
   int cases = 0;
   std::vector<std::string> passes{};
-  std::vector<std::string> notes{};  ///< sentences: passes left out, frames added, what the pack says nothing of
+  std::vector<std::string> notes{};  ///< sentences: passes left out, frames added, passes where even a null port is a PASS
 };
-/// Runs a scene from its first frame and writes a pack of it, like `rainref pack`. It appears whole or not at all, and replaces an older
-/// one. Throws Error(usage) for an invalid scene, an unknown pass or another seed; Error(io).
+/// Runs a scene from its first frame and writes a pack of it, like `rainref pack`. The pack appears whole or not at all, and replaces an
+/// older one. Throws Error(usage) for an invalid scene or seed or an unknown pass, Error(io).
 PackSummary write_pack(const SceneText& scene, const std::filesystem::path& folder, const parallel::Executor& executor,
                        const PackOptions& options = {});
 
@@ -183,30 +184,32 @@ PackSummary write_pack(const SceneText& scene, const std::filesystem::path& fold
 struct JudgeOptions {
   std::string profile = "vulkan";          ///< "ieee", "vulkan", "webgpu", ...: what the port's API allows
   std::string port = "outputs in memory";  ///< name of the port in reports
-  std::optional<Rounding> half{};          ///< how the port rounds stores to binary16; none: inferred from the outputs if the profile
-                                           ///< leaves it open
+  std::optional<Rounding> half{};          ///< how the port rounds stores to binary16; none: inferred if the profile leaves it open
   bool strict = false;                     ///< each WARN is a FAIL
-  bool exhaustive = false;                 ///< compute every envelope, also for statistics of widths that otherwise use a sample
-  /// Folder with bindings.json and the port's SPIR-V (docs/shader.md): causes get lines, and the reports say who is wrong. "": none.
+  bool exhaustive = false;                 ///< compute every envelope; otherwise the statistics of envelope widths may use a sample
+  /// Folder with bindings.json and the port's SPIR-V (docs/shader.md). With it causes have lines, and the reports say who is wrong. "":
+  /// none.
   std::filesystem::path spirv{};
 };
 
-/// Runs of passes with their inputs and expected outputs, in the order of execution. A port runs on them. Every function throws Error and
-/// names what was expected and found: usage for invalid arguments, port_files for a pack or outputs that cannot be judged, io for files.
+/// Runs of passes with their inputs and expected outputs, in the order of execution. A port runs on them. A function that fails throws an
+/// Error that names what was expected and what was found: usage for invalid arguments, port_files for a pack or outputs that cannot be
+/// judged, io for files.
 class Cases {
  public:
-  /// Starts empty; add_next_frame adds cases. They may outlive the simulation.
+  /// Starts without cases; add_next_frame adds them. They may outlive the simulation.
   explicit Cases(const Simulation& simulation);
-  /// Reads the cases of a pack (`rainref pack`) with all their values. If no pass is named, all are read.
+  /// Reads the cases of a pack (`rainref pack`) with all their values. If no pass is named, it reads the cases of all passes.
   explicit Cases(const std::filesystem::path& pack, const std::vector<std::string>& passes = {});
   ~Cases();
   Cases(Cases&&) noexcept;
 
   /// Simulates and renders the next frame of the simulation, which must be of the same effect and variant. Adds each run of the named
-  /// passes with copies of its inputs and outputs: some tens of MiB for a 1080p frame. If no pass is named, all are added.
+  /// passes, with copies of its inputs and outputs: some tens of MiB for a 1080p frame. If no pass is named, it adds the runs of all
+  /// passes.
   void add_next_frame(Simulation& simulation, const std::vector<std::string>& passes = {});
 
-  /// Number of cases. The other functions index them from 0.
+  /// Number of cases. Their indices begin at 0.
   std::size_t size() const;
   CaseInfo info(std::size_t index) const;
   /// The uniform block: one record.
@@ -216,9 +219,9 @@ class Cases {
   /// The reference's output.
   CaseArray expected(std::size_t index, std::string_view output) const;
 
-  /// Gives a port's result for an output; it is copied. For an image `count` is its height and `row_bytes` the distance between its rows;
-  /// for records they are their number and their size. If a scene key determines the length of the list, another number of records is a
-  /// FAIL.
+  /// Gives a port's result for an output, and copies it. For an image, `count` is its height and `row_bytes` the distance between its rows.
+  /// For records, `count` is their number and `row_bytes` the size of one. If a scene key determines the length of the list, another number
+  /// of records is a FAIL.
   void give(std::size_t index, std::string_view output, const void* data, std::size_t row_bytes, std::size_t count);
 
   /// Judges every pass that has at least one given output, and says why a pass fails. A run with a missing output is NOT JUDGED.

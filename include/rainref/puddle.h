@@ -20,13 +20,13 @@ class Items;  // src/state/items.h
 namespace rainref::puddle {
 
 enum class Boundary : std::uint8_t {
-  reflecting,  ///< edge texels repeat outside (clamp): waves reflect upright
+  reflecting,  ///< the edge texels continue outside (clamp): waves reflect upright
   periodic,    ///< opposite edges join (repeat)
   fixed        ///< the rest value lies outside: waves reflect inverted
 };
 enum class Shape : std::uint8_t {
-  natural,  ///< an irregular shore inside the rectangle, wet ground around it
-  basin     ///< water of constant depth all over
+  natural,  ///< an irregular shore inside the rectangle, with wet ground around it
+  basin     ///< water of constant depth everywhere
 };
 
 /// All parameters of a puddle except its images. Names, units and ranges: `rainref describe puddle`.
@@ -49,7 +49,7 @@ struct Settings {
   int max_steps = 256;
 
   // as-published
-  double step = 1;  ///< offset of the neighbours [texels]
+  double step = 1;  ///< distance of the four neighbours [texel]
 
   // corrected
   std::array<int, 2> grid{768, 512};
@@ -76,14 +76,14 @@ struct Surroundings {
   bool environment_is_encoded = false;  ///< display-encoded instead of linear
   Image ground;                         ///< 4 channels, a tile; empty: asphalt is generated
   bool ground_is_encoded = false;
-  Image shelter;  ///< corrected: share of the rain that falls, in the first channel, over the water's rectangle; empty: all of it
+  Image shelter;  ///< corrected: the first channel is the share of the rain that falls, over the water's rectangle; empty: all of it
 };
 
 /// A puddle and its water, advanced frame by frame. The bits of every buffer do not depend on the number of threads or the SIMD target.
 class Puddle {
  public:
-  /// Throws Error(usage) for settings that cannot run, and without an environment. For an unstable Courant number the message names the
-  /// limit; for sizes that need too much memory it names the need. The executor must outlive the puddle.
+  /// Throws Error(usage) for settings that cannot run, and without an environment. The message names the limit of the Courant number if it
+  /// is unstable, or the memory needed if the sizes need too much. The executor must outlive the puddle.
   Puddle(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor);
   ~Puddle();
   Puddle(Puddle&&) noexcept;
@@ -92,7 +92,7 @@ class Puddle {
   void simulate(Recorder* recorder = nullptr);
   /// Runs surface_hit, shade and display for the current water.
   void render(Recorder* recorder = nullptr);
-  /// Both: one call for each frame of an animation.
+  /// Does both: one call for each frame of an animation.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
@@ -102,13 +102,13 @@ class Puddle {
   int frame() const;
   /// Wave steps run so far.
   std::int64_t steps() const;
-  /// c dt / dx; for as-published sqrt(1/2) times the offset of the neighbours.
+  /// Courant number c dt / dx; as-published: sqrt(1/2) times the distance of the neighbours.
   double courant() const;
 
-  /// The newest and the previous level of the water, in the storage type; single-channel planes.
+  /// The newest and the previous level of the water: single-channel planes in the storage type.
   const Image& newest() const;
   const Image& previous() const;
-  /// The captured buffer `wave`: newest and previous level as channels of the storage format.
+  /// The buffer `wave` of captures: both levels as channels of the storage format.
   BufferView wave() const;
   /// Overwrites both levels with heights (corrected: metres; as-published: decoded units), row-major, rounded to the
   /// storage type.
@@ -127,8 +127,8 @@ class Puddle {
   std::unique_ptr<State> state_;
 };
 
-/// Peak memory [byte] of a puddle with these settings, within 10 %: every buffer, decoded texture, mip and scratch of
-/// src/puddle/memory.cpp, without the caller's images.
+/// Peak memory [byte] with these settings, within 10 %: the buffers, decoded textures, mips and scratch in src/puddle/memory.cpp, without
+/// the caller's images.
 std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::puddle

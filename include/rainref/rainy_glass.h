@@ -1,5 +1,5 @@
-// Rain streaking down glass: raindrop impacts and rivulets from two baked maps, after Toadstorm's conservatory shader, as published and
-// corrected. Mathematics, choices and the list of corrections: docs/effects/rainy_glass.md.
+// Rain that streaks down glass: impacts of raindrops and rivulets from two baked maps, after Toadstorm's conservatory shader, as published
+// and corrected. Mathematics, choices and the list of corrections: docs/effects/rainy_glass.md.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ struct Settings {
 
   // The glass.
   Shape shape = Shape::pane;
-  double distance = 0.5;                        ///< of the pane, or of the sphere's centre, along the horizontal view [m]
+  double distance = 0.5;                        ///< from the eye to the pane, or to the sphere's centre, along the horizontal view [m]
   double yaw_deg = 0;                           ///< rotation of the pane about the vertical
   double radius = 0.2;                          ///< of the sphere [m]
   double drop_tile = 0.36, rivulet_tile = 0.4;  ///< side of a map on the glass [m]
@@ -52,11 +52,11 @@ struct Settings {
   // The rain.
   double rain_amount = 0.9;
   double drop_period = 9, flow_period = 3;  ///< [s]
-  double flow_strength = 0.015;             ///< distance that a rivulet runs in a cycle at full flow [tile]
+  double flow_strength = 0.015;             ///< distance that a rivulet moves in a cycle at full flow [tile]
   bool use_probe = false;
   double probe_level = 1;
 
-  double rivulet_speed = 0.03;  ///< at which the rivulet map moves down the glass [m/s]
+  double rivulet_speed = 0.03;  ///< speed of the rivulet map down the glass [m/s]
   double rivulet_amount = 1;    ///< weight of the rivulets
 
   // as-published. The first value of each is the article's; docs/effects/rainy_glass.md has those of the shader that its author ships.
@@ -64,17 +64,17 @@ struct Settings {
   bool remap_first = false;                 ///< channels are remapped to [-1, 1] before they are masked, not after
   bool signed_offset = false;               ///< the timer takes 2 B - 1 for the time offset B
   bool squared_weight = false;              ///< the second phase of the flow weighs (1 - 2 p)^2, not |1 - 2 p|
-  std::array<double, 2> flow_across{0, 1};  ///< flow that B = 0 and B = 1 stand for; times flow_strength [tile]
-  std::array<double, 2> flow_along{0, 1};   ///< the same for A, up the glass [tile]
-  double fade_from = 0;                     ///< |n.y| of the glass from which rivulets fade, to none on level glass
+  std::array<double, 2> flow_across{0, 1};  ///< flow for B = 0 and for B = 1, times flow_strength [tile]
+  std::array<double, 2> flow_along{0, 1};   ///< the same for A, along the glass [tile]
+  double fade_from = 0;                     ///< rivulets fade above this |n.y| of the glass; level glass has none
   double map_turn_deg = 0;                  ///< rotation of both maps on the glass
   double rivulet_turn_deg = 0;              ///< rotation of the rivulet map, added to that of both
-  std::array<double, 3> tint{1, 1, 1};      ///< factor of what is seen through the glass, linear RGB
+  std::array<double, 3> tint{1, 1, 1};      ///< factor of the light through the glass, linear RGB
 
   // corrected
-  double run = 0.9;  ///< share of rivulet_speed by which rivulets slow down and speed up
+  double run = 0.9;  ///< share of rivulet_speed by which rivulets become slower and faster
   double impact = 0.04, rim = 0.06, water_ior = 1.333;
-  double wind = 6, fall_speed = 6;  ///< speed of the rain toward the glass, and down [m/s]
+  double wind = 6, fall_speed = 6;  ///< speed of the rain toward the glass, and downward [m/s]
 
   double exposure = 1;  ///< [EV]
 
@@ -91,14 +91,15 @@ struct Surroundings {
   Image colour;               ///< width x height, 4 channels
   Image depth;                ///< r32f of the same size, along the view axis [m], finite, the sky far away; only for corrected
   Image normals;              ///< for Shape::image: 4 channels of that size, world normal and coverage
-  Image raindrops, rivulets;  ///< maps that replace the baked ones, 4 channels, any size; empty: baked
+  Image raindrops, rivulets;  ///< maps instead of the baked ones, 4 channels, any size; empty: baked
   Image probe;                ///< latitude/longitude panorama, read if use_probe is set, 4 channels
 };
 
 /// Wet glass before a still scene. The bits of every buffer do not depend on the number of threads or the SIMD target.
 class RainyGlass {
  public:
-  /// Throws Error(usage) for settings or images that cannot run, and names key, expected and found. The executor must outlive this object.
+  /// Throws Error(usage) for settings or images that cannot run. The message names the key, what was expected and what was found. The
+  /// executor must outlive this object.
   RainyGlass(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor);
   ~RainyGlass();
   RainyGlass(RainyGlass&&) noexcept;
@@ -107,7 +108,7 @@ class RainyGlass {
   void simulate(Recorder* recorder = nullptr);
   /// Runs rain_on_glass and display for the last simulated frame. The first call bakes the maps.
   void render(Recorder* recorder = nullptr);
-  /// Both: one call for each frame of an animation.
+  /// Does both: one call for each frame of an animation.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
@@ -135,13 +136,13 @@ class RainyGlass {
   std::unique_ptr<State> state_;
 };
 
-/// Measures how badly a map tiles: the mean step of its channels across opposite edges over the mean step between neighbours inside. About
-/// 1 for a tile, 0 for a constant.
+/// Measures how badly a map tiles: the mean step of its channels across opposite edges, divided by the mean step between neighbours inside.
+/// It is about 1 for a tile, and 0 for a constant.
 double seam(const Image& map);
 /// A map with a larger seam() does not tile.
 inline constexpr double worst_seam = 4;
 
-/// Peak memory [byte] for these settings, within 10 %: every buffer, decoded map, mip and scratch of src/rainy_glass/memory.cpp, without
+/// Peak memory [byte] with these settings, within 10 %: the buffers, decoded maps, mips and scratch in src/rainy_glass/memory.cpp, without
 /// the caller's images.
 std::uint64_t memory_bytes(const Settings& settings);
 

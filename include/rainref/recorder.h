@@ -19,7 +19,7 @@ struct RecordView {
   std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(data), count * record_bytes}; }
 };
 
-/// How a pass reads an image; `none` loads by integer texel.
+/// How a pass reads an image. `none`: by integer texel.
 enum class Filter : std::uint8_t { none, nearest, linear };
 /// "none", "nearest" or "linear".
 constexpr const char* name(Filter filter) {
@@ -43,9 +43,9 @@ struct PassStart {
   std::string_view pass;
   std::span<const PassInput> inputs;
   std::span<const std::byte> uniforms;  ///< the uniform block in the layout of a GPU
-  float time, dt;                       ///< [s] start of the frame, and time step of this run; each rounded once
+  float time, dt;                       ///< [s] start of the frame, and time step of this run, each rounded once
   Rounding store_rounding = Rounding::rne;
-  int level = -1;  ///< the mip level, if the pass runs once for each
+  int level = -1;  ///< mip level, if the pass runs once for each level; else -1
 };
 
 /// One output of a pass.
@@ -66,12 +66,12 @@ struct PassCall {
 class Recorder {
  public:
   virtual ~Recorder() = default;
-  /// Returns whether the recorder reads the buffers of this pass in this frame. If not, an effect may pass an empty list of records,
-  /// because listing drops costs more than some passes.
+  /// Returns true if the recorder reads the buffers of this pass in this frame. If not, an effect may pass an empty list of records,
+  /// because a list of drops costs more than some passes.
   virtual bool reads(int /*frame*/, std::string_view /*pass*/) const { return true; }
-  /// Called before pass() of the same run, because a pass may overwrite its inputs. Runs on the thread of the effect.
+  /// Called before the run of a pass, which may overwrite its inputs. Runs on the thread of the effect.
   virtual void before(const PassStart&) {}
-  /// Called after each pass, on the thread of the effect. Buffers may change after it returns.
+  /// Called after the run of a pass, on the thread of the effect. Buffers may change after it returns.
   virtual void pass(const PassCall& call) = 0;
 };
 

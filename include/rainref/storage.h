@@ -1,4 +1,4 @@
-// Storage types of one channel. They are distinct types, so that an overload of load or store selects the conversion.
+// Storage types of one channel. The types are distinct, so overloads of load and store select the conversion.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 
 namespace rainref {
 
-/// How a lookup outside the image is resolved.
+/// What a lookup outside the image reads.
 enum class Address : std::uint8_t {
   clamp,   ///< the nearest texel of the edge
   repeat,  ///< the image is a tile
@@ -18,7 +18,7 @@ constexpr const char* name(Address address) {
   return names[static_cast<int>(address)];
 }
 
-/// Storage precision of the texels before they were decoded to float; a texture unit may filter at that precision.
+/// Storage precision of the texels before they were decoded to float. A texture unit may filter at that precision.
 enum class TexelPrecision : std::uint8_t { float32, float16, unorm8 };
 
 /// View of float texels with mip levels. Level l has width[l] x height[l] texels, row-major, channels interleaved, starting at texel

@@ -25,9 +25,9 @@ namespace windshield {
 
 /// The scene before the car: pictures, or a street.
 struct Surroundings {
-  Image colour;  ///< rgba16f, linear radiance, in the camera's view widened by scene.margin; row 0 = bottom
-  Image depth;   ///< r32f along the view axis [m], finite, the sky far away; of the same size
-  std::shared_ptr<const scene::Scenery> street = nullptr;  ///< if there are no pictures: street_at_night() of rainref/simulation.h
+  Image colour;  ///< rgba16f: linear radiance in the camera's view widened by scene.margin; row 0 = bottom
+  Image depth;   ///< r32f: distance along the view axis [m], finite, the sky far away; same size
+  std::shared_ptr<const scene::Scenery> street = nullptr;  ///< instead of pictures: street_at_night() of rainref/simulation.h
 };
 
 /// A drop as passes exchange it; see src/drops/records.h.
@@ -40,7 +40,7 @@ struct DropView {
 struct FallingDropView {
   std::array<double, 3> from, to;  ///< centre when the shutter opens and when it closes [m]
   double radius;                   ///< [m]
-  double time_share;               ///< share of the exposure during which it covers a point of its path: above 0, at most 1
+  double time_share;               ///< share of the exposure for which it covers a point of its path: above 0, at most 1
   std::array<double, 3> radiance;  ///< linear RGB
 };
 
@@ -57,8 +57,8 @@ class Windshield {
  public:
   /// Makes a scene of this effect; `Windshield({}, {{}, {}, street_at_night()}, executor)` makes the default one. Throws Error(usage) with
   /// place and key for an invalid scene and for one that cannot run: corners on a line, a blade longer than the glass, an invalid drive
-  /// cycle, pictures that the scene names instead of `surroundings`, neither pictures nor a street, keys of traced pictures. The executor
-  /// must outlive the windshield.
+  /// cycle, pictures that the scene names (`surroundings` must hold them), neither pictures nor a street, keys of traced pictures. The
+  /// executor must outlive the windshield.
   Windshield(const SceneText& scene, Surroundings surroundings, const parallel::Executor& executor);
   /// The same for a scene that rainref has already read and checked.
   Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor);
@@ -70,12 +70,12 @@ class Windshield {
 
   /// Runs windshield_frame to merge, from time frame / fps to (frame + 1) / fps. Frames run in the order 0, 1, 2 ...
   void simulate(Recorder* recorder = nullptr);
-  /// Runs splat to display for the last simulated frame. Call it once for each frame, because the wiped textures carry over.
+  /// Runs splat to display for the last simulated frame. Call it once for each frame, because later frames use the wiped textures.
   void render(Recorder* recorder = nullptr);
-  /// Replaces render if the picture of the frame is not wanted: runs only the passes that later frames need, splat to wipe_texture. Later
-  /// pictures are the same.
+  /// Call it instead of render for a frame whose picture is not needed. It runs only the passes that later frames need, splat to
+  /// wipe_texture, so later pictures stay the same.
   void skip(Recorder* recorder = nullptr);
-  /// Both: one call for each frame of an animation.
+  /// Does both: one call for each frame of an animation.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
@@ -83,28 +83,30 @@ class Windshield {
 
   /// Frames simulated so far.
   int frame() const;
-  /// Number of panes: the windshield, number 0, and those of windshield.panes. The functions below throw Error(usage) for another number.
+  /// Number of panes: the windshield, which is pane 0, and those of windshield.panes. The functions below throw Error(usage) for another
+  /// pane.
   int panes() const;
   /// The live drops of a pane, in slot order.
   std::vector<DropView> drops(int pane = 0) const;
   MassBalance mass_balance(int pane = 0) const;
   const Image& height(int pane = 0) const;  ///< r16f [mm]
-  const Image& mask(int pane = 0) const;    ///< r16f: 1 just wiped; 0 everywhere on a pane without wipers
+  const Image& mask(int pane = 0) const;    ///< r16f: 1 where just wiped; 0 everywhere on a pane without wipers
   const Image& film(int pane = 0) const;    ///< corrected: r32f, whole mass units per texel
-  /// corrected, with smear.on, on a pane with blades: rgba16f, x, y along the blade that left the film, z its thickness, 1 the thickest
+  /// corrected, with smear.on, on a pane with blades: rgba16f. x, y: direction of the blade that left the film; z: thickness of the film, 1
+  /// the thickest
   const Image& smear(int pane = 0) const;
-  const Image& condensation(int pane = 0) const;  ///< corrected, with condensation.on: r16f, share of the light that the mist scatters
+  const Image& condensation(int pane = 0) const;  ///< corrected, with condensation.on: r16f, the share of the light that the mist scatters
   const Image& normal(int pane = 0) const;        ///< rgba16f: normal in the axes of the glass
-  // Images of the picture:
-  /// The rain behind the glass in the last rendered frame, farthest drops first; empty if falling_rain.on is false.
+  // What the picture is made of:
+  /// The rain behind the glass in the last rendered frame, the farthest drops first; empty if falling_rain.on is false.
   std::vector<FallingDropView> falling() const;
   const Image& scene_colour() const;  ///< rgba16f: linear radiance of the scene before the car, in the widened view, without fog
   const Image& scene_depth() const;   ///< r32f: depth of that scene along the view axis [m]
   const Image& colour() const;        ///< rgba16f: linear radiance
   const Image& picture() const;       ///< rgba8: display code values; row 0 = bottom
 
-  /// colour() of the last rendered frame as it would be without drops on the windshield. Its film, mist and smear, the further panes and
-  /// the interior stay.
+  /// Returns colour() of the last rendered frame without the drops on the windshield. The windshield's film, mist and smear, the further
+  /// panes and the interior stay.
   Image without_drops() const;
 
   /// Lists the state kept between frames, for Simulation::save and load. Internal.
@@ -115,8 +117,8 @@ class Windshield {
   std::unique_ptr<State> state_;
 };
 
-/// Peak memory [byte] of this scene in run.frames frames, within 10 %: every buffer, the drops and the scratch of their passes, and the
-/// street's pictures during rendering; src/windshield/memory.cpp. Pictures given instead of the street are not counted.
+/// Peak memory [byte] of this scene in run.frames frames, within 10 % (src/windshield/memory.cpp): the buffers, the drops, the scratch of
+/// their passes, and the street's pictures during rendering. Pictures given instead of the street are not counted.
 std::uint64_t memory_bytes(const scene::Config& config);
 
 }  // namespace windshield
