@@ -7,8 +7,8 @@
 >>> picture.shape, picture.dtype
 ((18, 32, 4), dtype('uint8'))
 
-It calls librainref.so and needs NumPy, but no compiler. Failures raise `Error`, a ValueError that names place, key, what was expected,
-what was found and the nearest name.
+It calls librainref.so and needs NumPy, but no compiler. A failure raises `Error`, a ValueError. It names the place, the key, what was
+expected, what was found and the nearest valid name.
 """
 
 from ._library import golden_generation, keep_images, version

@@ -18,8 +18,8 @@ _HERE = Path(__file__).resolve().parent
 
 
 def _places() -> list[str]:
-    """Possible places of the library: the one given by the environment, this package, the unpacked archive around it, the build folder of
-    this file's clone, and the system's search path. On Windows a library lies beside the programs."""
+    """Where the library may be: the place that RAINREF_LIBRARY names, or else this package, the unpacked archive around it, the build
+    folder of this file's clone, and the system's search path. On Windows a library lies beside the programs."""
     told = os.environ.get("RAINREF_LIBRARY")
     if told:
         return [told]
@@ -110,7 +110,7 @@ for _name, (_restype, _argtypes) in _PROTOTYPES.items():
 
 
 def call(name: str, *arguments: object) -> Any:
-    """Calls rr_NAME(arguments). Raises Error if the function fails. Other threads run meanwhile."""
+    """Calls rr_NAME(arguments). Raises Error if the function fails. Other threads can run during the call."""
     result = _functions[name](*arguments)
     if _PROTOTYPES[name][0] is _result and result != 0:
         raise error_of(result, decoded(_functions["error"]()))
@@ -132,7 +132,7 @@ def text_of(name: str, *arguments: object) -> str:
 
 
 def decoded(text: bytes | None) -> str:
-    """Decodes a text. File names need not be UTF-8."""
+    """Decodes a text, which may hold a file name that is not UTF-8."""
     return (text or b"").decode("utf-8", "surrogateescape")
 
 
@@ -147,19 +147,19 @@ def texts(many: Iterable[str]) -> tuple[c.Array[c.c_char_p], int]:
 
 
 class Handle:
-    """A handle of the library. It is freed when nothing refers to it; arrays that view its memory refer to it."""
+    """A handle of the library. It is freed when nothing refers to it. Arrays that view its memory refer to it."""
 
     def __init__(self, free: str, make: str, *arguments: object) -> None:
         made = c.c_void_p()
         call(make, *arguments, c.byref(made))
         self._as_parameter_ = made
-        #: Library memory that arrays view, by the id of its owner in Python.
+        #: Memory of the library that arrays view, by the id of its Python object.
         self.looked_into: weakref.WeakValueDictionary[int, object] = weakref.WeakValueDictionary()
         self._free = weakref.finalize(self, _functions[free], made)
-        self._free.atexit = False  # at the end of the program arrays may still view it
+        self._free.atexit = False  # arrays may still view its memory at the end of the program
 
     def close(self) -> None:
-        """Frees it now, unless an array views its memory: then with the last of these."""
+        """Frees the handle. If arrays view its memory, it is freed with the last of them."""
         if not self.looked_into:
             self._free()
 
@@ -170,9 +170,9 @@ def version() -> str:
 
 
 def keep_images(folder: str | os.PathLike[str] | None) -> None:
-    """Sets the folder in which generated images that are the same in every run (such as the street around a puddle) are kept for later
-    runs. None: they are not kept. Without this call the folder is that of `rainref run`: $XDG_CACHE_HOME/rainref, or ~/.cache/rainref.
-    Does not affect results. Raises Error after a scene has been opened."""
+    """Sets the folder that keeps generated images that are the same in every run, such as the street around a puddle. None: they are not
+    kept. Without this call the folder is that of `rainref run`: $XDG_CACHE_HOME/rainref, or ~/.cache/rainref. Does not affect results.
+    Raises Error once a scene has been opened."""
     call("keep_images", None if folder is None else encoded(folder))
 
 

@@ -1,7 +1,7 @@
 """Arrays of the library as NumPy arrays.
 
-An image is (height, width) or (height, width, channels), in its storage type: float16, float32, uint32, or uint8 codes. Row 0 is the bottom
-row of a picture. Records and uniform blocks are structured arrays with the names of `rainref describe`.
+An image has the shape (height, width) or (height, width, channels) and its storage type: float16, float32, uint32, or uint8 for codes. Row
+0 is the bottom row of a picture. Records and uniform blocks are structured arrays; `rainref describe` lists the names of their fields.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _RECORDS = 7
 
 
 def dtype_of(layout: int) -> np.dtype:
-    """Returns the structured dtype of a layout. The title of each field is its unit and description."""
+    """Returns the structured dtype of a layout."""
     about = filled("get_layout", s.LayoutInfo, layout)
     fields = []
     for i in range(about.members):
@@ -38,7 +38,7 @@ def dtype_of(layout: int) -> np.dtype:
 
 @dataclasses.dataclass(frozen=True)
 class Place:
-    """Position of texels in the library's memory: `length` bytes from `address` on; the first texel is at `offset`."""
+    """Position of texels in the library's memory: `length` bytes from `address` on. The first texel is at `offset` in them."""
 
     address: int
     length: int
@@ -49,17 +49,17 @@ class Place:
     offset: int = 0
 
     def array(self) -> np.ndarray:
-        """Returns a view that is not writeable and cannot be made so. It keeps the library's memory alive."""
+        """Returns a read-only view, which cannot be made writeable. It keeps the library's memory alive."""
         memory = (c.c_char * self.length).from_address(self.address)
         memory._owner = self.owner  # type: ignore[attr-defined]
         self.owner.looked_into[id(memory)] = memory
-        # Given the memoryview itself, ndarray would take the writeable memory behind it.
+        # From the memoryview itself, ndarray would take the writeable memory behind it.
         unwriteable = np.frombuffer(memoryview(memory).toreadonly(), np.uint8)
         return np.ndarray(self.shape, self.dtype, unwriteable, self.offset, self.strides)  # type: ignore[arg-type]
 
 
 def _place_of(raw: s.Array, plane: int, owner: Handle) -> Place:
-    """Returns the position of a plane: (height, width, channels in the plane)."""
+    """Returns the position of a plane, with the shape (height, width, channels in the plane)."""
     scalar = np.dtype(_CHANNEL[raw.type])
     length = (raw.height - 1) * raw.row_bytes + raw.width * raw.texel_bytes
     shape = (raw.height, raw.width, raw.channels if raw.planes == 1 else 1)
@@ -67,7 +67,7 @@ def _place_of(raw: s.Array, plane: int, owner: Handle) -> Place:
 
 
 def copy_of(raw: s.Array, owner: Handle) -> np.ndarray:
-    """Returns a copy."""
+    """Returns a copy of an array."""
     if raw.type == _RECORDS:
         dtype = dtype_of(raw.layout)
         out = np.zeros(raw.width, dtype)
@@ -84,7 +84,7 @@ def copy_of(raw: s.Array, owner: Handle) -> np.ndarray:
 
 
 def view_of(raw: s.Array, channel: int | None, handle: Handle, now: Simulation) -> View:
-    """Returns a view that is valid until `now.changes` changes. If the channels lie in separate planes, one must be named."""
+    """Returns a view that is valid until `now.changes` changes. If the channels lie in separate planes, `channel` must name one."""
     name = decoded(raw.name)
     if raw.type == _RECORDS:
         raise Error(f"{name}: records have no view, which the next frame could move; take a copy")
@@ -103,8 +103,8 @@ _GIVEN = {np.dtype(kind): number for number, kind in _CHANNEL.items() if number 
 
 
 def image_given(array: np.ndarray, like: s.Array, place: str) -> tuple[s.Array, np.ndarray]:
-    """Returns a port's image as rr_give_image takes it, and the rows that it refers to. Surplus channels and floats are kept, because
-    the library handles them."""
+    """Returns a port's image as rr_give_image takes it, and the rows that it points to. It keeps surplus channels and floats, because the
+    library handles them."""
     rows = np.asarray(array)
     shape = (like.height, like.width) + ((like.channels,) if like.channels > 1 else ())
     texels = rows[..., np.newaxis] if rows.ndim == 2 else rows
@@ -123,7 +123,7 @@ def image_given(array: np.ndarray, like: s.Array, place: str) -> tuple[s.Array, 
 
 
 def records_given(array: np.ndarray, like: np.dtype, place: str) -> np.ndarray:
-    """Returns a port's list with its records packed one after the other."""
+    """Returns a port's list of records as contiguous memory."""
     records = np.asarray(array)
     if records.ndim != 1 or records.dtype != like:
         raise Error(f"{place}: expected a list of {like}, found the shape {records.shape} of {records.dtype}")

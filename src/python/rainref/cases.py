@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Sampling:
-    """How a pass reads an input: filters "none" (by integer texel), "nearest" or "linear", address rules in u and v."""
+    """How a pass reads an input: filters ("none": by integer texel, "nearest" or "linear"), and address rules in u and v."""
 
     filter: str
     mip_filter: str
@@ -31,7 +31,7 @@ class Sampling:
 
 
 class Inputs(SimpleNamespace):
-    """Inputs of a case by name: `inputs.wave`. For an input with mip levels this is level 0."""
+    """The inputs of a case by name: `inputs.wave`. If an input has mip levels, this is level 0."""
 
     def __getattr__(self, name: str) -> object:
         if name.startswith("_"):
@@ -40,7 +40,7 @@ class Inputs(SimpleNamespace):
 
 
 class Uniforms(np.record):
-    """The members of a uniform block by name. An error for an unknown name suggests the nearest."""
+    """The members of a uniform block by name. An unknown name is an error, which suggests the nearest name."""
 
     def __getattr__(self, name: str) -> object:
         if name.startswith("_"):
@@ -116,11 +116,11 @@ class Case:
         return {name: decoded(call("get_judge", self._handle, self._index, o)) for name, o in self._outputs.items()}
 
     def give(self, outputs: np.ndarray | dict[str, np.ndarray]) -> None:
-        """Takes a port's result: an array for a pass with one output, else a dict by name.
+        """Takes a port's result: an array if the pass has one output, else a dict by name.
 
-        As for files (docs/dumps.md), channels beyond the buffer's are ignored, and the report notes this. Floats are converted to the
-        buffer's format: rounded to nearest even; in 8 bits rint(255 x), sRGB-encoded if the buffer is sRGB. Raises Error for a shape or
-        type that cannot be stored."""
+        As in files (docs/dumps.md), surplus channels are ignored, and the report notes this. Floats are converted to the buffer's format:
+        rounded to nearest even, in 8 bits as rint(255 x), and sRGB-encoded if the buffer is sRGB. Raises Error for a shape or type that
+        cannot be stored."""
         if not isinstance(outputs, dict):
             if len(self._outputs) != 1:
                 raise Error(f"{self.id}: expected a dict with {', '.join(self._outputs)}, found {type(outputs).__name__}")
@@ -147,7 +147,7 @@ class Cases(Sequence[Case]):
 
     @classmethod
     def of_simulation(cls, simulation: Simulation) -> Cases:
-        """Starts empty."""
+        """Makes an empty set of cases."""
         return cls(Handle("free_cases", "cases_of_simulation", simulation._handle))
 
     @classmethod
@@ -157,7 +157,8 @@ class Cases(Sequence[Case]):
         return cls(Handle("free_cases", "cases_of_pack", encoded(folder), many, count))
 
     def add_next_frame(self, simulation: Simulation, passes: Sequence[str] = ()) -> None:
-        """Runs the simulation's next frame. Each run of the named passes becomes a case; if none is named, of every pass."""
+        """Runs the simulation's next frame. Each run of the named passes becomes a case. If no pass is named, each run of every pass
+        does."""
         many, count = texts(passes)
         simulation.changes += 1
         call("next_frame_cases", simulation._handle, many, count, self.handle)

@@ -1,7 +1,7 @@
-"""8-bit codes: what images of the formats r8 to rgba8_srgb hold, and the numbers that they stand for.
+"""8-bit codes, which images of the formats r8 to rgba8_srgb hold, and the numbers that they stand for.
 
-A number is first rounded to float32 and clamped to 0..1; NaN gives code 0. These are the codes that the reference stores, and that it takes
-floats of a port for.
+A number is first rounded to float32 and clamped to 0..1; NaN gives code 0. The reference stores the same codes, and converts a port's
+floats to them.
 """
 
 from __future__ import annotations
@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike
 
 
 def _decoded(encoded: np.ndarray) -> np.ndarray:
-    """IEC 61966-2-1: the light of an sRGB number from 0 to 1, in double."""
+    """Returns the light of an sRGB number from 0 to 1 by IEC 61966-2-1, in double."""
     return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
 
 
 _LIGHT = _decoded(np.arange(256) / 255).astype(np.float32)
-#: The light between two neighbouring codes, at (k + 1/2) / 255. No float32 is as near to one of these as the error of a double.
+#: The light half-way between neighbouring codes, at (k + 1/2) / 255. No float32 is so near to one of these that the error of a double
+#: matters.
 _BETWEEN = _decoded((np.arange(255) + 0.5) / 255)
 
 
@@ -25,7 +26,7 @@ def _clamped(numbers: ArrayLike) -> np.ndarray:
 
 
 def unorm8(numbers: ArrayLike) -> np.ndarray:
-    """Returns the codes of numbers from 0 to 1 in a linear format, as uint8: 255 x as a float32, rounded to nearest, a tie to even.
+    """Returns the uint8 codes of numbers from 0 to 1 in a linear format: 255 x as a float32, rounded to nearest, a tie to even.
 
     >>> unorm8([0.0, 0.5, 1.0, -3.0, np.nan])
     array([  0, 128, 255,   0,   0], dtype=uint8)
@@ -34,8 +35,8 @@ def unorm8(numbers: ArrayLike) -> np.ndarray:
 
 
 def srgb8(numbers: ArrayLike) -> np.ndarray:
-    """Returns the codes of light from 0 to 1 in an sRGB format, as uint8: 255 times the encoded number, rounded to nearest. The alpha of
-    rgba8_srgb is not encoded: use unorm8.
+    """Returns the uint8 codes of light from 0 to 1 in an sRGB format: 255 times the encoded number, rounded to nearest. For the alpha of
+    rgba8_srgb use unorm8, because it is not encoded.
 
     >>> srgb8([0.0, 0.5, 1.0])
     array([  0, 188, 255], dtype=uint8)

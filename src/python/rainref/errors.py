@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 
 class Error(ValueError):
-    """An argument, scene, file or port output cannot be used. The message is for the user.
+    """An argument, scene, file or output of a port cannot be used. The message is for the user.
 
     `code` is the exit code of the command line: 2 usage, 3 a pack or a port's outputs, 4 files, 5 a defect of rainref.
     """
@@ -25,7 +25,7 @@ class FileError(Error, OSError):
 
 
 class StaleViewError(Error):
-    """A view of a buffer was used after its simulation continued."""
+    """A view of a buffer was used after its simulation had continued."""
 
 
 def error_of(code: int, message: str) -> Error:

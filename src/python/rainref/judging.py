@@ -1,4 +1,4 @@
-"""Judging ports, which are functions that compute a pass in another way."""
+"""Judging ports: functions that compute a pass in another way."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .simulation import Simulation
 
 @dataclass(frozen=True)
 class Port:
-    """A function that computes a pass; `port` makes one. A call is passed on to the function."""
+    """A function that computes a pass; `port` makes one. A call of the Port calls the function."""
 
     effect: str
     name: str
@@ -35,7 +35,7 @@ class Port:
         return self.function(*arguments)
 
     def run(self, case: Case) -> None:
-        """Runs the port on a case, which keeps the outputs."""
+        """Runs the port on a case and gives the outputs to it."""
         takes_case = len(inspect.signature(self.function).parameters) > 2
         try:
             case.give(self.function(case.inputs, case.uniforms, *((case,) if takes_case else ())))
@@ -49,8 +49,8 @@ class Port:
 
 
 def port(what: str) -> Callable[[Callable[..., Any]], Port]:
-    """Marks a function as a port of a pass, "effect.pass". The function takes the inputs and the uniform block, both by name, and the
-    Case if it has a third parameter. It returns the output, or a dict of outputs by name.
+    """Marks a function as a port of a pass, "effect.pass". The function takes the inputs and the uniform block, whose members have names.
+    If it has a third parameter, it also takes the Case. It returns the output, or a dict of outputs by name.
 
     >>> @port("edge_splash.display")
     ... def black(inputs, uniforms):
@@ -71,16 +71,16 @@ class Cause:
 
     name: str
     sentence: str
-    explained: int  #: failing texels or records whose bits it reproduces
+    explained: int  #: failing texels or records whose bits the cause reproduces
     of: int  #: failing texels or records that were examined
-    inside: int  #: failing ones that it comes near
+    inside: int  #: failing texels or records that the cause comes near
     is_likely: bool  #: it explains nearly all of them
-    lines: tuple[str, ...]  #: of the port's shaders where it is, the best first: "shade.comp:57: vec3 bent = ..."
+    lines: tuple[str, ...]  #: its lines in the port's shaders, the best line first: "shade.comp:57: vec3 bent = ..."
 
 
 @dataclass(frozen=True)
 class Failure:
-    """An element outside its envelope; values from low to high are accepted. For a record x is its number or id."""
+    """An element outside its envelope. Values from low to high are accepted. For a record, x is its number or id."""
 
     case: str
     output: str
@@ -97,18 +97,18 @@ class Failure:
 
 @dataclass(frozen=True)
 class PassVerdict:
-    """Verdict on a pass. Counts are of channels of texels, or of fields of records."""
+    """Verdict on a pass. An element is a channel of a texel or a field of a record."""
 
     name: str
     formula: str
     status: str
     reason: str
-    where: str  #: common property of the failures: "only channel y of wave"
+    where: str  #: what the failures have in common: "only channel y of wave"
     cases: int
     elements: int
     outside: int
     differing: int
-    vacuous: int  #: sampled elements with a useless, very wide envelope
+    vacuous: int  #: sampled elements whose envelope is too wide to be useful
     causes: tuple[Cause, ...]  #: best first
     worst: tuple[Failure, ...]  #: worst first
     sampled: int  #: elements whose envelope was computed: all, or a sample of a large picture
@@ -169,13 +169,13 @@ class Verdict:
         Path(path).write_text(text_of("report_junit", self._handle), "utf-8", "surrogateescape")
 
 
-#: A port of a pass: made by @port, or a function that `Given` or its own name tells the pass of.
+#: A port of a pass: made by @port, or a function. The key in `Given`, or the function's own name, says which pass it computes.
 Function = Union[Port, Callable[..., Any]]
 Given = Union[Function, Iterable[Function], Mapping[str, Function]]
 
 
 def _ports(given: Given, effect: str, passes: Sequence[str]) -> list[Port]:
-    """The given functions as ports of these passes of an effect, one for each."""
+    """Returns the given functions as ports of these passes, at most one for each pass."""
     if isinstance(given, Mapping):
         named = list(given.items())
     else:
@@ -200,7 +200,7 @@ def _ports(given: Given, effect: str, passes: Sequence[str]) -> list[Port]:
 
 
 def _passes_of(pack: str | os.PathLike[str]) -> tuple[str, list[str]]:
-    """The effect of a pack, and its passes that have cases; the library says what is wrong with a pack that has no such manifest."""
+    """Returns the effect of a pack, and the passes that have cases. If the manifest is unusable, the library says what is wrong."""
     try:
         manifest = json.loads((Path(pack) / "manifest.json").read_text("utf-8"))
         return manifest["effect"], list(dict.fromkeys(case["pass"] for case in manifest["cases"]))
@@ -222,14 +222,14 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Given, frames: Itera
           spirv: str | os.PathLike[str] | None = None, progress: Progress = None) -> Verdict:
     """Runs ports on the cases of a simulation or of a pack's folder, and judges their outputs.
 
-    A port is made by @port, or is a plain function of the same arguments. The pass of a plain function is the key in a dict
-    ({"wave_step": function}), else its name; the only function for a pack of one pass may have any name. `progress` is called with (cases
-    run, cases in all).
+    A port is made by @port, or is a plain function of the same arguments. A plain function computes the pass that is its key in a dict
+    ({"wave_step": function}), or else its name. If a pack has one pass, a single function may have any name. `progress` is called with
+    (cases run, cases in all).
 
-    A simulation runs until the last of `frames`; none of them may already have been simulated. `half` says how the ports round stores to
+    A simulation runs until the last of `frames`, none of which may have been simulated before. `half` says how the ports round stores to
     binary16 ("rne", "rtz"); None: it is inferred from the outputs if the profile leaves it open. With `strict` each WARN is a FAIL. With
-    `exhaustive` every envelope is computed, also for statistics of widths that otherwise use a sample. `spirv` is a folder
-    with bindings.json and the ports' SPIR-V: causes get lines of it, and the report says who is wrong. Raises Error for outputs that cannot
+    `exhaustive` every envelope is computed; otherwise the statistics of envelope widths may use a sample. `spirv` is a folder with
+    bindings.json and the ports' SPIR-V. With it causes have lines, and the report says who is wrong. Raises Error for outputs that cannot
     be judged.
     """
     if isinstance(what, Simulation):
@@ -262,10 +262,9 @@ def judge_folder(pack: str | os.PathLike[str], port: str | os.PathLike[str], pro
                  spirv: str | os.PathLike[str] | None = None, progress: Progress = None) -> Verdict:
     """Judges the files that a port wrote for the cases of a pack, like `rainref validate PACK --port PORT`.
 
-    Only `passes` are judged; if none is named, all are. With `partial` a pass without any file is NOT JUDGED. With `strict` each WARN is
-    a FAIL. With `exhaustive` every envelope is computed. `spirv` is as in judge(). `progress` is
-    called with (runs of passes judged, runs in all). The verdict's `json()["files"]` lists missing and unusable files. `html` reads both
-    folders again. Raises Error if nothing can be judged.
+    Only `passes` are judged; if none is named, all are. With `partial` a pass without any file is NOT JUDGED. `strict`, `exhaustive` and
+    `spirv` are as in judge(). `progress` is called with (runs of passes judged, runs in all). The verdict's `json()["files"]` lists missing
+    and unusable files. Its `html` reads both folders again. Raises Error if nothing can be judged.
     """
     many, count = texts(passes)
     with told(progress) as callback:

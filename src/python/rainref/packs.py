@@ -1,4 +1,4 @@
-"""Packs written from Python."""
+"""Writing packs."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from .simulation import Simulation, open
 
 @dataclass(frozen=True)
 class Pack:
-    """A pack that was written. It stands for its folder where a path is taken: `rainref.judge(pack, port)`."""
+    """A pack that was written. It may be used as the path of its folder: `rainref.judge(pack, port)`."""
 
     folder: Path
     effect: str
     variant: str
-    seed: int  #: of the scene's random numbers; write_pack with it makes the same pack
-    passes: tuple[str, ...]  #: those that have cases, in the order of execution
+    seed: int  #: seed of the scene; write_pack with it makes the same pack
+    passes: tuple[str, ...]  #: passes that have cases, in the order of execution
     cases: int
-    notes: tuple[str, ...]  #: sentences: passes left out, frames added, passes of which the pack says nothing
+    notes: tuple[str, ...]  #: sentences: passes left out, frames added, passes where even a null port is a PASS
 
     def __fspath__(self) -> str:
         return str(self.folder)
@@ -38,12 +38,12 @@ class Pack:
 def write_pack(scene: Simulation | str | os.PathLike[str] | Mapping[str, object], folder: str | os.PathLike[str],
                set: Mapping[str, object] | None = None, *, frames: Iterable[int] = (), passes: Iterable[str] = (), seed: int | str | None = None,
                threads: int = 0, progress: Progress = None) -> Pack:
-    """Writes a pack: inputs, uniforms and expected outputs of passes, like `rainref pack`. `scene` and `set` are those of `open`; for a
-    simulation, which does not change, its scene runs from the first frame on.
+    """Writes a pack of inputs, uniforms and expected outputs of passes, like `rainref pack`. `scene` and `set` are those of `open`. If
+    `scene` is a simulation, its scene runs from the first frame, and the simulation does not change.
 
-    Without `frames` these are 0, 1 and 12, and a later one for a pass that does nothing in these; without `passes` all are taken. `seed`
-    is a whole number, or "random" for one that nobody can predict; the manifest has it. `progress` is called with (frames done, frames in
-    all), and begins anew if the pack is written again with more frames. A pack appears whole or not at all, and replaces an older one.
+    The default of `frames` is 0, 1 and 12, and a later frame for a pass that does nothing in these. The default of `passes` is all. `seed`
+    is a whole number, or "random" for an unpredictable one; the manifest records it. `progress` is called with (frames done, frames in
+    all). It starts over if the pack is written again with more frames. A pack appears whole or not at all, and replaces an older one.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:

@@ -19,7 +19,7 @@ class Parameter:
     """A key of a scene."""
 
     name: str
-    value: object  #: value in the scene; in `describe` the default
+    value: object  #: value in the scene
     type: str
     unit: str  #: "m/s"; "1" for a pure number, "" if a unit has no meaning
     minimum: float | None  #: inclusive, for each component; None: no bound
@@ -43,7 +43,7 @@ def effects() -> tuple[str, ...]:
 
 
 def profiles() -> tuple[str, ...]:
-    """The profiles that a port can be judged under.
+    """Returns the names of the profiles that a port can be judged under.
 
     >>> "vulkan" in profiles()
     True
@@ -66,7 +66,7 @@ def describe(effect: str) -> dict[str, Any]:
 
 
 class Parameters(Mapping[str, Parameter]):
-    """The keys of a scene. An error for an unknown key suggests the nearest."""
+    """The keys of a scene. An unknown key is an error, which suggests the nearest key."""
 
     def __init__(self, effect: str, values: Mapping[str, object]) -> None:
         self._all: dict[str, Parameter] = {}
@@ -109,7 +109,7 @@ def toml(value: object) -> str:
 
 
 def changes(values: Mapping[str, object] | None) -> list[str]:
-    """Converts {"rain.rate": 20} or {"rain": {"rate": 20}} to the form of `--set`.
+    """Converts {"rain.rate": 20} or {"rain": {"rate": 20}} to arguments of `--set`.
 
     >>> changes({"rain": {"rate": 20}, "run.size": (4, 3)})
     ['rain.rate=20', 'run.size=[4, 3]']

@@ -11,7 +11,7 @@ import numpy as np
 def shown(array: np.ndarray) -> np.ndarray:
     """Converts an image for display: uint8 (height, width) or (height, width, 3), top row first.
 
-    Display code stays as it is. Other values are scaled: the smallest becomes black, the largest white.
+    Display code stays as it is. Other values are scaled, so that the smallest is black and the largest white.
 
     >>> shown(np.array([[0.0, 1.0], [2.0, 4.0]]))
     array([[127, 255],
@@ -44,7 +44,7 @@ def png(pixels: np.ndarray) -> bytes:
 
 
 def show(array: np.ndarray, title: str = "") -> object:
-    """Shows an image in a notebook or a window; needs Matplotlib. Returns its axes."""
+    """Shows an image in a notebook or a window, with Matplotlib. Returns the axes."""
     from matplotlib import pyplot  # type: ignore[import]
 
     axes = pyplot.subplots()[1]

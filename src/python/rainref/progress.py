@@ -1,4 +1,4 @@
-"""Callables that are told how far long work is."""
+"""Callables that follow the progress of long work."""
 
 from __future__ import annotations
 
@@ -10,13 +10,15 @@ from typing import Optional
 from ._library import PROGRESS
 from .errors import Error
 
-#: Called with what is done and the total. An exception that it raises ends the work and reaches the caller; no partial file stays.
+#: Called with how much is done, and the total. If it raises an exception, the work ends, the caller gets the exception, and no partial file
+#: stays.
 Progress = Optional[Callable[[int, int], object]]
 
 
 @contextlib.contextmanager
 def told(progress: Progress) -> Iterator[c.c_void_p]:
-    """Yields the callable as rr_progress. It raises inside the block what the callable raised, because no exception passes through C."""
+    """Yields the callable as rr_progress. An exception cannot pass through C, so an exception of the callable is raised again when the
+    block ends."""
     raised: list[BaseException] = []
 
     def tell(_: object, done: int, of: int) -> int:

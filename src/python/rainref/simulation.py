@@ -24,11 +24,11 @@ from .views import View
 
 
 def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str, object] | None = None, *, threads: int = 0) -> Simulation:
-    """Opens a scene. `scene` is the path of a scene file, the name of a scene of `rainref list` ("puddle/default.toml") or of an effect
-    (all defaults), a dict of keys with values, or the text of a scene (several lines).
+    """Opens a scene. `scene` is the path of a scene file, the name of a scene in `rainref list` ("puddle/default.toml"), the name of an
+    effect (all defaults), a dict of keys and values, or the text of a scene (several lines).
 
-    `set` overrides it: {"run.size": (320, 180), "rain.rate": 20}. `threads` 0 is one for each processor; it does not affect results.
-    Raises Error for an invalid scene, FileError for files.
+    `set` overrides its keys: {"run.size": (320, 180), "rain.rate": 20}. `threads` does not affect results; 0 is one thread for each
+    processor. Raises Error for an invalid scene, FileError for files.
 
     >>> open("puddel")
     Traceback (most recent call last):
@@ -57,8 +57,8 @@ def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str,
 class Simulation:
     """A running scene; `open` makes one. The bits of every buffer do not depend on the number of threads or the machine.
 
-    One thread at a time may use it; different threads may use different simulations at once. A frame is computed without holding
-    Python's lock.
+    Only one thread at a time may use it. Different threads may use different simulations at the same time. Python's lock is free while a
+    frame is computed.
     """
 
     def __init__(self, scene: str | Path, set: list[str], threads: int = 0) -> None:
@@ -80,7 +80,7 @@ class Simulation:
         return self._open
 
     def close(self) -> None:
-        """Frees the simulation's memory. Arrays and cases taken from it stay valid; views end. `with` calls this at the end of its block.
+        """Frees the simulation's memory. Copied arrays and cases stay valid; views do not. `with` calls this at the end of its block.
 
         >>> with open("edge_splash", {"run.size": (16, 9)}) as sim:
         ...     edge = sim.step()["edge"]
@@ -116,7 +116,7 @@ class Simulation:
         return f"<rainref {self.effect} {self.variant}, {'closed' if self._open is None else f'frame {self.frame}'}>"
 
     def _repr_png_(self) -> bytes | None:
-        """The picture, which a notebook shows; before the first frame the text of repr()."""
+        """Returns the picture for a notebook. Before the first frame the notebook shows repr() instead."""
         return png(shown(self.picture)) if self._open is not None and self.frame > 0 else None
 
     @property
@@ -164,7 +164,8 @@ class Simulation:
         return self.frames()
 
     def save(self, to: str | os.PathLike[str] | BinaryIO | None = None) -> bytes:
-        """Returns the state kept between frames as bytes, or writes it to `to`, a path or a binary file. The simulation does not change.
+        """Returns the state kept between frames as bytes, and writes it to `to` if that is a path or a binary file. The simulation does not
+        change.
 
         >>> sim = open("edge_splash", {"run.size": (16, 9)})
         >>> for frame in sim.frames(2):
@@ -179,9 +180,9 @@ class Simulation:
         return state
 
     def load(self, state: bytes | bytearray | memoryview | str | os.PathLike[str] | BinaryIO) -> Simulation:
-        """Loads a state from the bytes of `save`, a path or a binary file, and returns itself. It then continues with the same bits.
-        Pictures come with the next frame. Raises Error for bytes that are no state, damaged, or of another scene (run.frames may
-        differ); the simulation is then unchanged.
+        """Loads a state from the bytes of `save`, a path or a binary file, and returns the simulation. It then continues with the same
+        bits. The next frame makes the picture. Raises Error if the bytes are not a state, are damaged, or belong to another scene
+        (run.frames may differ). The simulation is then unchanged.
 
         >>> open("edge_splash", {"run.size": (16, 9)}).load(b"no state")
         Traceback (most recent call last):
@@ -193,8 +194,8 @@ class Simulation:
         return self
 
     def set(self, key: str, value: object) -> Simulation:
-        """Sets a key of the scene to another value from the next frame on, and returns itself. Raises Error with the key if the scene
-        does not allow the value or the state does not fit it (effect, variant, sizes, storage); the simulation is then unchanged.
+        """Changes the value of a key from the next frame on, and returns the simulation. Raises Error with the key if the scene does not
+        allow the value or the state does not fit it (effect, variant, sizes, storage). The simulation is then unchanged.
 
         >>> sim = open("edge_splash", {"run.size": (16, 9)})
         >>> sim.set("display.exposure", -1).parameters["display.exposure"].value
@@ -205,7 +206,8 @@ class Simulation:
         rainref.errors.Error: --set display.exposur: unknown key; did you mean 'display.exposure'?
         """
         text = toml(value)
-        # The library rebuilds the simulation and frees the old one. If an array still views the old one, keep it and continue with a copy.
+        # The library rebuilds the simulation and frees the old one. If an array still views the old one, keep the old one and continue with
+        # a copy.
         handle = copy.copy(self)._handle if self._handle.looked_into else self._handle
         call("set", handle, encoded(key), encoded(text))
         self._open = handle
@@ -215,11 +217,11 @@ class Simulation:
         return self
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Copies and pickles open the scene again, including its files, and load the state."""
+        """Makes copy and pickle open the scene and its files again, and load the state."""
         return _opened_again, (self._scene, self._set, self._threads, self.save())
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """Returns a copy of a buffer; a structured array for a list of records. Raises Error with the nearest name.
+        """Returns a copy of a buffer. A list of records is a structured array. Raises Error with the nearest name.
 
         >>> sim = open("edge_splash", {"run.size": (16, 9)})
         >>> sim["edgs"]
@@ -230,7 +232,7 @@ class Simulation:
         return copy_of(buffer_of(self._handle, name), self._handle)
 
     def view(self, name: str, channel: int | None = None) -> View:
-        """Returns a view of an image, or of one channel, without a copy. It is valid until the simulation continues, and then raises
+        """Returns a view of an image, or of one channel, without a copy. It is valid until the simulation continues; any later use raises
         StaleViewError."""
         return view_of(buffer_of(self._handle, name), channel, self._handle, self)
 
@@ -249,10 +251,10 @@ class Simulation:
 
 
     def film(self, path: str | os.PathLike[str], frames: int = 0, *, every: int = 1, progress: Progress = None) -> None:
-        """Simulates the next `frames` frames and writes a film of those whose number `every` divides, as `rainref run --film` does: .mp4,
-        .webm or .gif, made by ffmpeg, with run.fps / every pictures a second. 0: the frames that remain of the scene. The last frame is
-        rendered in any case. `progress` is called with (frames done, frames in all). A film appears whole or not at all. Raises Error for
-        the name or the rate, FileError if ffmpeg is missing or fails."""
+        """Simulates the next `frames` frames (0: the scene's remaining frames), and writes a film of the frames whose number is a multiple
+        of `every`, like `rainref run --film`. ffmpeg makes the film: .mp4, .webm or .gif, with run.fps / every pictures a second. The last
+        frame is rendered in any case. `progress` is called with (frames done, frames in all). The film appears whole or not at all. Raises
+        Error for the name or the rate, FileError if ffmpeg is missing or fails."""
         self.changes += 1
         with told(progress) as callback:
             call("film", self._handle, encoded(path), frames, every, callback, None)
@@ -263,7 +265,7 @@ def _opened_again(scene: str | Path, set: list[str], threads: int, state: bytes)
 
 
 class Frame:
-    """A frame of a simulation. Valid until the simulation continues; any later use raises StaleViewError."""
+    """A frame of a simulation. It is valid until the simulation continues; any later use raises StaleViewError."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
@@ -279,7 +281,7 @@ class Frame:
         return f"<frame {self.index}>"
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A copy of a buffer."""
+        """Returns a copy of a buffer."""
         return self._now()[name]
 
     def view(self, name: str, channel: int | None = None) -> View:

@@ -1,5 +1,5 @@
-"""The state of a simulation as bytes (docs/notes/state.md). The callbacks of the C library only access memory, because an exception
-cannot pass through them."""
+"""The state of a simulation as bytes (docs/notes/state.md). The callbacks for the C library access only memory, because an exception cannot
+pass through C."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def saved(simulation: Handle) -> bytes:
 
 
 def load(simulation: Handle, state: bytes, file: str = "") -> None:
-    """Loads a state into a simulation. Errors name the file that it comes from."""
+    """Loads a state into a simulation. Errors name the file of the state."""
     at = 0
 
     def read(_: object, to: int, count: int) -> int:
@@ -46,7 +46,7 @@ def load(simulation: Handle, state: bytes, file: str = "") -> None:
 
 
 def read_from(source: bytes | bytearray | memoryview | str | os.PathLike[str] | BinaryIO) -> bytes:
-    """Returns the bytes of a state; from a file, all bytes that remain."""
+    """Returns the bytes of a state. From a binary file these are all remaining bytes."""
     if isinstance(source, (str, os.PathLike)):
         try:
             return Path(source).read_bytes()
@@ -57,8 +57,8 @@ def read_from(source: bytes | bytearray | memoryview | str | os.PathLike[str] | 
 
 
 def write_to(place: str | os.PathLike[str] | BinaryIO, state: bytes) -> None:
-    """Writes to a binary file, or to a path, which never holds a partial file. An existing file keeps its mode. A link is replaced by
-    the file; its target stays. A device or pipe is written directly."""
+    """Writes to a binary file or to a path, where no partial file ever appears. An existing file keeps its mode. A link is replaced by the
+    file; its target stays. A device or pipe is written directly."""
     if not isinstance(place, (str, os.PathLike)):
         place.write(state)
         return
@@ -73,7 +73,7 @@ def write_to(place: str | os.PathLike[str] | BinaryIO, state: bytes) -> None:
 
 
 def _replace(path: Path, state: bytes) -> None:
-    """Writes a temporary file of this call under an unused name, then renames it."""
+    """Writes a temporary file under an unused name, then renames it."""
     descriptor, hidden = -1, path
     while descriptor < 0:
         hidden = path.parent / f".rainref-{secrets.token_hex(8)}.part"

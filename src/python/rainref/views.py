@@ -1,4 +1,4 @@
-"""Views of buffers without a copy, each valid until its frame ends."""
+"""Views of buffers without a copy. Each is valid until its simulation continues."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ if TYPE_CHECKING:
     from .buffers import Place
     from .simulation import Simulation
 
-#: Attributes of an array whose value views its memory.
+#: Attributes of an array that expose its memory.
 _LOOKS = ("base", "data", "flat")
 
 
 class View(NDArrayOperatorsMixin):
-    """A view of a buffer without a copy, used like a read-only array. After its simulation continues, any use of it or of its slices
-    raises StaleViewError.
+    """A view of a buffer without a copy, which is used like a read-only array. Once its simulation continues, any use of the view or of its
+    slices raises StaleViewError.
 
-    It is not a `numpy.ndarray`, because that gives out its memory and cannot be invalidated. Operators and NumPy's functions compute on
-    the buffer itself. Functions that take the memory get a copy: `numpy.array`, `numpy.asarray`, `bytes`, `copy.copy`, `memoryview` (from
-    Python 3.12 on; a TypeError before), and functions that would return another view, such as `numpy.flip`. C code may use
-    `view.ctypes.data`, an address whose validity is not checked.
+    It is not a `numpy.ndarray`, because an ndarray gives out its memory and cannot be invalidated. Operators and NumPy's functions compute
+    on the buffer itself. Functions that would keep the memory get a copy: `numpy.array`, `numpy.asarray`, `bytes`, `copy.copy`,
+    `memoryview` (from Python 3.12 on; a TypeError before), and functions that would return another view, such as `numpy.flip`. C code may
+    use the address `view.ctypes.data`, whose validity is not checked.
     """
 
     def __init__(self, now: Simulation, then: int, place: Place) -> None:
         self._now, self._then, self._place = now, then, place
 
     def _plain(self) -> np.ndarray:
-        """Returns an array that views the buffer, for the duration of one operation."""
+        """Returns an array that views the buffer. Only one operation may use it."""
         if self._now.changes != self._then:
             raise StaleViewError("a view of a buffer is valid until its simulation goes on: take a copy to keep it")
         return self._place.array()
@@ -113,7 +113,8 @@ class View(NDArrayOperatorsMixin):
 
 
 def _computed(function: Callable[..., Any], arguments: Any, keywords: dict[str, Any]) -> Any:
-    """Calls function(...) with plain arrays in place of views, which are checked first. A result that views their memory is copied."""
+    """Checks the views among the arguments, and calls function(...) with plain arrays in their place. A result that views their memory is
+    copied."""
     looked: list[np.ndarray] = []
 
     def plain(value: Any) -> Any:
