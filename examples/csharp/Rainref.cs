@@ -1,7 +1,7 @@
-// rainref.h for C#: every struct and function under its name in C. The other files make objects of them.
+// rainref.h for C#: every struct and function, with its name in C. The other files of this folder make objects from them.
 //
-// C# 7, for Mono, Unity and .NET. size_t is UIntPtr; a text that is returned is an IntPtr (Text.Of). A struct begins with its size
-// (Call.SizeOf). The comments of include/rainref.h say what each function does.
+// C# 7, for Mono, Unity and .NET. size_t is UIntPtr. A function returns a text as an IntPtr, which Text.Of reads. A struct begins with its
+// size (Call.SizeOf). The comments of include/rainref.h say what each function does.
 using System;
 using System.Runtime.InteropServices;
 
@@ -126,7 +126,7 @@ public sealed class JudgementHandle : Handle {
   protected override bool ReleaseHandle() { Native.rr_free_judgement(handle); return true; }
 }
 
-/// The functions. A text that is given is a string.
+/// The functions. They take a text as a string.
 public static class Native {
   /// librainref.so on Linux, rainref.dll on Windows.
   const string Library = "rainref";
