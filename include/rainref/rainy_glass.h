@@ -44,9 +44,9 @@ struct Settings {
 
   // The glass.
   Shape shape = Shape::pane;
-  double distance = 0.5;                        ///< from the eye to the pane, or to the sphere's centre, along the horizontal view [m]
-  double yaw_deg = 0;                           ///< rotation of the pane about the vertical
-  double radius = 0.2;                          ///< of the sphere [m]
+  double distance = 0.5;  ///< from the eye to the pane along the level view, or to the sphere's centre along the view [m]
+  double yaw_deg = 0;     ///< rotation of the pane about the vertical
+  double radius = 0.2;    ///< of the sphere [m]
   double drop_tile = 0.36, rivulet_tile = 0.4;  ///< side of a map on the glass [m]
 
   // The rain.

@@ -14,38 +14,43 @@ std::vector<MemberParameter<Settings>> members(const std::string& prefix) {
   const auto key = [&](const char* name) { return prefix + "." + name; };
   return {
       integer<&Settings::capacity>(key("capacity"), "1", 1, static_cast<double>(DropArrays::most_slots),
-                                   "Most drops at a time; an arrival that finds none free is lost."),
-      real<&Settings::lifetime>(key("lifetime"), "s", 0.01, 4096, "Time after which a drop ends.").published(6.0),
-      real<&Settings::spawn_rate>(key("spawn_rate"), "1/s", 0, 1e6, "New drops in a second, all over the glass.").only(published),
+                                   "Maximum number of drops. A new drop is lost if there are already as many."),
+      real<&Settings::lifetime>(key("lifetime"), "s", 0.01, 4096, "Time after which a drop disappears.").published(6.0),
+      real<&Settings::spawn_rate>(key("spawn_rate"), "1/s", 0, 1e6, "New drops per second on the whole glass.").only(published),
       real<&Settings::mass_min>(key("mass_min"), "1", 0.01, 100, "Mass of the lightest new drop; 1 is an ordinary drop.").only(published),
       real<&Settings::mass_max>(key("mass_max"), "1", 0.01, 100, "Mass of the heaviest new drop.").only(published),
       real<&Settings::inertia_coupling>(key("inertia_coupling"), "1", 0, 100,
                                         "Share of the vehicle's acceleration that a drop feels (inertiaCoupling).")
           .only(published),
-      real<&Settings::wind_coupling>(key("wind_coupling"), "1/s", 0, 100, "Acceleration by a unit of apparent wind (windCoupling).")
+      real<&Settings::wind_coupling>(key("wind_coupling"), "1/s", 0, 100, "Acceleration per unit of apparent wind (windCoupling).")
           .only(published),
       real<&Settings::drag>(key("drag"), "1/s", 0.01, 1000, "Rate at which the glass slows a drop down (effectiveDrag).").only(published),
-      real<&Settings::rain_rate>("rain.rate", "mm/h", 0, 200, "Rain rate; drops follow Marshall and Palmer's size distribution.")
+      real<&Settings::rain_rate>("rain.rate", "mm/h", 0, 200, "Rain rate. Drops follow Marshall and Palmer's size distribution.")
           .only(correct),
       real<&Settings::smallest_drop>("rain.smallest_drop", "mm", 0.1, 5, "Drops below this diameter are left out.").only(correct),
       real<&Settings::advancing_deg>(key("advancing_angle"), "deg", 1, 150, "Contact angle of water that advances over the glass.")
           .only(correct),
       real<&Settings::receding_deg>(key("receding_angle"), "deg", 1, 150,
-                                    "Contact angle of water that recedes; the difference holds a drop.")
+                                    "Contact angle of water that recedes. Its difference from the advancing angle holds a drop.")
           .only(correct),
       real<&Settings::wind_exposure>(key("wind_exposure"), "1", 0, 2,
-                                     "Wind at the height of a drop over the apparent wind: the boundary layer.")
+                                     "Wind at the height of a drop, divided by the apparent wind: the effect of the boundary layer.")
           .only(correct),
       real<&Settings::wind_drag>(key("wind_drag"), "1", 0, 10, "Drag coefficient of a drop's front.").only(correct),
-      real<&Settings::mobility>(key("mobility"), "1", 1e-4, 1, "Capillary number over Bond number beyond the hold: how fast drops slide.")
+      real<&Settings::mobility>(
+          key("mobility"), "1", 1e-4, 1,
+          "How fast drops slide: capillary number, divided by the excess of the Bond number over the one that still holds a drop.")
           .only(correct),
       real<&Settings::humidity>(key("humidity"), "1", 0, 1, "Relative humidity of the air at the glass.").only(correct),
       real<&Settings::margin>(key("margin"), "1", 0, 1, "How far outside the glass, in u and v, a drop still lives.").only(correct),
-      real<&Settings::trail_thickness>(key("trail_thickness"), "m", 0, 1e-4, "Film that a sliding drop leaves behind, as wide as its base.")
+      real<&Settings::trail_thickness>(key("trail_thickness"), "m", 0, 1e-4,
+                                       "Thickness of the film that a sliding drop leaves behind, as wide as its base.")
           .only(correct),
-      real<&Settings::film_drying>(key("film_drying"), "m/s", 0, 1e-4, "Thickness that the film loses to the air.").only(correct),
-      real<&Settings::neck_time>(key("neck_time"), "s", 0, 3600,
-                                 "Merged drops keep the outline of both, with a neck, and are round in this time to 1 - 1/e; 0: at once.")
+      real<&Settings::film_drying>(key("film_drying"), "m/s", 0, 1e-4, "Thickness that the film loses to the air per second.")
+          .only(correct),
+      real<&Settings::neck_time>(
+          key("neck_time"), "s", 0, 3600,
+          "Merged drops keep the outline of both, with a neck. Within this time they become round to 1 - 1/e; 0: at once.")
           .only(correct),
   };
 }

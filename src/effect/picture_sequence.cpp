@@ -66,11 +66,11 @@ Parsed parsed(const std::string& name) {
 
 std::vector<scene::Parameter> sequence_parameters() {
   return {
-      scene::integer("sequence.first", "1", 0, 1e9, 0, "Number in the first file's name, where a picture's name holds one (\"%04d.png\")."),
-      scene::integer("sequence.count", "1", 0, most_pictures, 0, "Pictures of a sequence; 0: as many as there are without a gap."),
-      scene::real("sequence.rate", "1/s", 0, 10000, 0, "Pictures a second; 0: one for each frame of the run."),
+      scene::integer("sequence.first", "1", 0, 1e9, 0, "Number in the first file's name, if a picture's name holds one (\"%04d.png\")."),
+      scene::integer("sequence.count", "1", 0, most_pictures, 0, "Number of pictures in a sequence; 0: all up to the first gap."),
+      scene::real("sequence.rate", "1/s", 0, 10000, 0, "Pictures per second; 0: one for each frame of the run."),
       scene::choice("sequence.end", {"error", "hold", "loop"}, "error",
-                    "What comes after the last picture: nothing may, it stays, or the first one again."),
+                    "What comes after the last picture: an error, the last picture again, or the first one again."),
   };
 }
 

@@ -129,7 +129,8 @@ Image constant_depth(Size size, double metres) {
 }
 
 scene::Parameter depth_parameter() {
-  return scene::real("scene.depth", "m", 0, 65000, 0, "Distance of all of scene.image where no depth_image is named; 0: far, without fog.");
+  return scene::real("scene.depth", "m", 0, 65000, 0,
+                     "Distance of all of scene.image if there is no scene.depth_image; 0: far, without fog.");
 }
 bool is_picture_far(const scene::Config& config) {
   return is_named(config, "scene.image") && !is_named(config, "scene.depth_image") && config.real("scene.depth") == 0;

@@ -26,7 +26,7 @@ Parameter effect_parameter(const EffectTable& table) {
 
 Parameter variant_parameter(const Effect& effect) {
   return choice("variant", effect.variants, "",
-                "The arithmetic of the effect: its source's with all defects, or with every known defect corrected.")
+                "The arithmetic of the effect: that of its source with all defects, or with every known defect corrected.")
       .required();
 }
 
@@ -36,10 +36,10 @@ std::vector<Parameter> scene_parameters(const Effect& effect, const EffectTable&
       variant_parameter(effect),
       integer("seed", "", 0, 9223372036854775807.0, 0, "Seed of every random number of the scene."),
       integer("run.frames", "frame", 1, 1000000, 60, "Number of frames to simulate."),
-      real("run.fps", "1/s", 1, 1000, 60, "Frames in a second of simulated time."),
+      real("run.fps", "1/s", 1, 1000, 60, "Frames per second of simulated time."),
       integer2("run.size", "texel", 1, 65536, {1280, 720}, "Width and height of the picture."),
       integer("run.supersample", "1", 1, 4, 1,
-              "Passes run at this many times run.size in both directions, and the picture is the mean of theirs, weighed by a tent."),
+              "Passes run at this multiple of run.size in both directions. A tent filter reduces their picture to run.size."),
   };
   out.insert(out.end(), effect.parameters.begin(), effect.parameters.end());
   validate(out, effect.variants);

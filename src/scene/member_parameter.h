@@ -3,7 +3,7 @@
 //
 //   static const std::vector<MemberParameter<Settings>> table{
 //       real<&Settings::damping>("puddle.damping", "1", 0.5, 1, "How fast ripples fade ...").published(0.98),
-//       choice<&Settings::boundary>("puddle.boundary", {{"reflecting", Boundary::reflecting}, ...}, "What waves meet ..."),
+//       choice<&Settings::boundary>("puddle.boundary", {{"reflecting", Boundary::reflecting}, ...}, "What happens to waves ..."),
 //       text("scene.image", "", "Picture ...")};     // of no member: the caller reads it
 #pragma once
 

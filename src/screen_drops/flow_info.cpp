@@ -16,8 +16,8 @@ using namespace rainref::scene;
 const std::vector<MemberParameter<FlowSettings>>& flow_members() {
   using F = FlowSettings;
   static const std::vector<MemberParameter<F>> table{
-      integer<&F::substeps>("flow.substeps", "1", 1, 64, "Steps of the drops in a frame.").only(correct),
-      real<&F::warm_up>("flow.warm_up", "s", 0, 3600, "Time that it has rained onto the pane before frame 0.").only(correct),
+      integer<&F::substeps>("flow.substeps", "1", 1, 64, "Time steps of the drops in a frame.").only(correct),
+      real<&F::warm_up>("flow.warm_up", "s", 0, 3600, "Time for which it has rained onto the pane before frame 0.").only(correct),
       real<&F::wind>("rain.wind", "m/s", 0, 100,
                      "Wind that drives the rain onto the pane; rain that falls straight misses upright glass. 2 m/s is a light breeze.")
           .only(correct),

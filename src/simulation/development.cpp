@@ -21,16 +21,18 @@ namespace {
 const std::vector<scene::MemberParameter<Development>>& table() {
   using D = Development;
   static const std::vector<scene::MemberParameter<D>> all{
-      scene::real<&D::shoulder>("picture.shoulder", "1", 0, 1,
-                                "Light, 1 is white, from which highlights are compressed (Khronos PBR Neutral); 1: they are clipped."),
+      scene::real<&D::shoulder>(
+          "picture.shoulder", "1", 0, 1,
+          "Light from which highlights are compressed (Khronos PBR Neutral), where 1 is white. With 1 they are clipped."),
       scene::real<&D::desaturation>("picture.desaturation", "1", 0, 1, "How fast compressed highlights fade to white."),
-      scene::real<&D::bloom>("picture.bloom", "1", 0, 1, "Share of the light that the lens scatters around what is bright; 0: none."),
-      scene::real<&D::bloom_threshold>("picture.bloom_threshold", "1", 0, 1000, "Light, 1 is white, above which it is scattered."),
+      scene::real<&D::bloom>("picture.bloom", "1", 0, 1, "Share of the light that the lens scatters around bright places; 0: none."),
+      scene::real<&D::bloom_threshold>("picture.bloom_threshold", "1", 0, 1000,
+                                       "The lens scatters the light above this, where 1 is white."),
       scene::real<&D::bloom_radius>("picture.bloom_radius", "1", 0.001, 1, "Width of the widest blur, in heights of the picture."),
-      scene::boolean<&D::dither>("picture.dither", "Codes are rounded at random, so that their mean is the light: no bands."),
+      scene::boolean<&D::dither>("picture.dither", "Codes are rounded at random, so that their mean is the light and no bands appear."),
       scene::boolean<&D::has_layer>("picture.layer",
-                                    "EXR files also hold the drops by themselves: drops, premultiplied, what they cover (background), and "
-                                    "offset, whence they have their light, in widths and heights."),
+                                    "EXR files also hold layers of the drops: drops (premultiplied), background (what they cover), and "
+                                    "offset (where their light comes from, in widths and heights)."),
   };
   return all;
 }

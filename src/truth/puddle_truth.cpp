@@ -169,8 +169,8 @@ EffectTracing puddle_tracing() {
           [] {
             std::vector<scene::Parameter> all = parameters();
             all.push_back(scene::choice("compositor.surroundings", {"picture", "street"}, "picture",
-                                        "What a traced ray sees beyond the puddle: the passes' picture of the surroundings, or the street "
-                                        "made here, ray by ray.")
+                                        "What a traced ray sees beyond the puddle: the passes' picture of the surroundings, or the "
+                                        "generated street, ray by ray.")
                               .only("corrected"));
             return all;
           },

@@ -45,7 +45,7 @@ void hold_traced(effect::RunMemory& m, const scene::Config& config) {
 namespace {
 
 scene::Parameter samples_parameter() {
-  scene::Parameter p = scene::integer("compositor.samples", "1", sample_counts.front(), sample_counts.back(), 1, "Traced rays of a pixel.");
+  scene::Parameter p = scene::integer("compositor.samples", "1", sample_counts.front(), sample_counts.back(), 1, "Traced rays per pixel.");
   for (const int count : sample_counts) p.choices.push_back(fmt::format("{}", count));
   return p;
 }
@@ -55,11 +55,12 @@ scene::Parameter samples_parameter() {
 std::vector<scene::Parameter> parameters() {
   using scene::correct;
   return {
-      scene::choice("compositor.picture", {"passes", "traced"}, "passes", "What is shown: the passes' picture, or one that is traced.")
+      scene::choice("compositor.picture", {"passes", "traced"}, "passes", "The picture to show: that of the passes, or a traced one.")
           .only(correct),
       samples_parameter().only(correct),
-      scene::integer("compositor.depth", "1", 1, 64, 8, "Surfaces that a traced ray may meet one after the other.").only(correct),
-      scene::text("compositor.embree_config", "", "Configuration of Embree, such as isa=sse2; it changes no bit.").only(correct),
+      scene::integer("compositor.depth", "1", 1, 64, 8, "Maximum number of surfaces that a traced ray meets one after the other.")
+          .only(correct),
+      scene::text("compositor.embree_config", "", "Configuration of Embree, such as isa=sse2; it does not affect results.").only(correct),
   };
 }
 

@@ -78,7 +78,7 @@ EffectTracing windshield_tracing() {
             std::vector<scene::Parameter> all = parameters();
             all.push_back(pane_thickness());
             all.push_back(scene::real("compositor.glass_radius", "m", 0, 1e6, 0,
-                                      "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."));
+                                      "Radius of the bend across the car, convex outward; 0: flat. The passes' glass is flat."));
             return all;
           },
           [](const scene::Config& config, const effect::Instance& instance, const effect::Inputs& inputs,

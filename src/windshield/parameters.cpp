@@ -19,23 +19,23 @@ using namespace rainref::scene;
 const std::vector<MemberParameter<PictureSettings>>& picture_members() {
   using P = PictureSettings;
   static const std::vector<MemberParameter<P>> table{
-      real<&P::camera_position>("camera.position", "m", -100, 100, "Eye, in the car's axes: x forward, y left, z up."),
+      real<&P::camera_position>("camera.position", "m", -100, 100, "Position of the eye in the car's axes: x forward, y left, z up."),
       real<&P::camera_target>("camera.target", "m", -1000, 1000, "Point that the eye looks at."),
       real<&P::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 120, "Vertical field of view."),
       real<&P::blur_lod>("composite.blur_lod", "1", 0, 12, "Mip level of the picture behind the wet film.").published(3.0),
       real<&P::wetness>("composite.wetness", "1", 0, 1, "Weight of the blurred picture where the glass was not wiped.").published(0.6),
       real<&P::visible_from>("composite.visible_from", "mm", 0, 10, "Height at which water begins to show as a drop."),
-      real<&P::visible_to>("composite.visible_to", "mm", 1e-3, 10, "Height from which it shows fully."),
+      real<&P::visible_to>("composite.visible_to", "mm", 1e-3, 10, "Height from which water shows fully as a drop."),
       real<&P::refraction>("composite.refraction", "1", -1, 1, "Offset of the sharp picture, in pictures per unit of the normal's x and y.")
           .only(published),
       real<&P::water_ior>("composite.water_ior", "1", 1, 2, "Refractive index of water.").only(correct),
       real<&P::inner>("composite.inner", "1", 0, 1, "Share of the blurred scene that the water's surface mirrors.").only(correct),
       real<&P::shininess>("composite.shininess", "1", 1, 4096, "Power of the highlights."),
       real<&P::glint_strength>("composite.glint_strength", "1", 0, 10, "Weight of the highlights."),
-      {real3("composite.light_direction", "1", -1, 1, {}, "Toward the light that the water mirrors, in the car's axes."),
+      {real3("composite.light_direction", "1", -1, 1, {}, "Direction toward the light that the water mirrors, in the car's axes."),
        [](P& s, const Value& v) { s.lights.front().direction = std::get<Real3>(v); },
        [](const P& s) { return Value(s.lights.front().direction); }},
-      {real3("composite.light_radiance", "1", 0, 1000, {}, "Its radiance, linear RGB."),
+      {real3("composite.light_radiance", "1", 0, 1000, {}, "Radiance of the light that the water mirrors, linear RGB."),
        [](P& s, const Value& v) { s.lights.front().radiance = std::get<Real3>(v); },
        [](const P& s) { return Value(s.lights.front().radiance); }},
       real<&P::cabin>("composite.cabin", "1", 0, 100, "Radiance beside the glass, linear RGB."),
@@ -52,30 +52,34 @@ const std::vector<MemberParameter<Settings>>& scene_members() {
       // Blades and time on the wet glass, and the scene out of focus behind it.
       real<&S::surface, &W::height_tau>(
           "windshield.height_tau", "s", 0, 600,
-          "Time in which the height texture falls to 1/e where no drop stands, so that drops leave trails; 0: it is cleared each frame.")
+          "Time in which the height texture falls to 1/e where no drop is, so that drops leave trails; 0: it is cleared each frame.")
           .only(published),
-      real<&S::surface, &W::wipe_strength>("windshield.wipe_strength", "mm", 0, 1000, "What a blade takes off the height.").only(published),
+      real<&S::surface, &W::wipe_strength>("windshield.wipe_strength", "mm", 0, 1000, "Height of water that a blade wipes off.")
+          .only(published),
       real<&S::surface, &W::mask_tau>("windshield.mask_tau", "s", 0.01, 600, "Time in which the mask of freshly wiped glass falls to 1/e."),
       integer<&S::blur, &B::levels>("blur.blur_levels", "1", 1, Texture::max_levels,
-                                    "Levels of the blurred scene, the sharp one included."),
+                                    "Levels of the blurred scene, including the sharp one."),
       real<&S::blur, &B::fog_density>("blur.fog_density", "1/m", 0, 10, "Extinction of light in the air in front of the scene."),
       real<&S::blur, &B::fog_colour>("blur.fog_colour", "1", 0, 1000, "Linear radiance of the fog."),
       // The street before the car.
-      text("scene.image", "", "Picture or film of what lies before the car, of any size; empty: the street at night made here."),
-      text("scene.depth_image", "", "Its depth along the view axis, of the same shape, EXR, 16-bit PNG or NPY; empty: scene.depth."),
+      text("scene.image", "", "Picture or film of the scene before the car, of any size; empty: the generated street at night."),
+      text("scene.depth_image", "",
+           "Depth of scene.image along the view axis, of the same shape: EXR, 16-bit PNG or NPY; empty: scene.depth."),
       effect::depth_parameter(),
-      real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres)."),
+      real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres per unit of the depth image (65.535 for 16-bit millimetres)."),
       integer<&S::scene_size>("scene.size", "texel", 8, 8192,
                               "Columns and rows of the street's picture; a picture from a file is fitted to them."),
-      real<&S::picture, &PictureSettings::scene_margin>("scene.margin", "1", 1, 4, "Width of the scene's picture over that of the view."),
+      real<&S::picture, &PictureSettings::scene_margin>("scene.margin", "1", 1, 4,
+                                                        "Width of the scene's picture, divided by that of the view."),
       real<&S::street_start>("scene.start", "m", 0, 1e6, "Place on the street at time 0."),
-      boolean<&S::scene_moves>("scene.moves", "The street passes as the car drives; false: it stands still."),
-      boolean<&S::clear_lane>("scene.clear_lane", "No car of the street stands in this one's lane: a drive would go through it."),
-      boolean<&S::shows_blades>("scene.blades", "The wipers stand in the scene's picture, dark and out of focus; not in traced pictures.")
+      boolean<&S::scene_moves>("scene.moves", "The street moves past as the car drives; false: it stands still."),
+      boolean<&S::clear_lane>("scene.clear_lane",
+                              "No car of the street stands in the lane of the camera's car, which would drive through it."),
+      boolean<&S::shows_blades>("scene.blades", "The scene's picture shows the wipers, dark and out of focus. Traced pictures do not.")
           .only(correct),
       integer<&S::keyframes>("scene.keyframes", "1", 1, 24,
-                             "Pictures of the street in 12 m of way, of which the views between are made: the more, the less cars close by "
-                             "warp, and the longer it takes.")};
+                             "Pictures of the street per 12 m of way. Views between them are made from them. With more pictures, cars "
+                             "close by warp less and the run takes longer.")};
   return table;
 }
 const std::vector<MemberParameter<Settings>>& detail_members() {
@@ -86,53 +90,57 @@ const std::vector<MemberParameter<Settings>>& detail_members() {
   using I = InteriorSettings;
   static const std::vector<MemberParameter<S>> table{
       // The rain in the air behind the glass.
-      boolean<&S::falling, &F::on>("falling_rain.on", "Rain falls behind the glass too, in streaks that lamps light."),
-      real<&S::falling, &F::rate>("falling_rain.rate", "mm/h", 0, 200, "Its rate; rain.key_frames do not change it.").only(published),
+      boolean<&S::falling, &F::on>("falling_rain.on", "Rain also falls behind the glass, in streaks that lamps light up."),
+      real<&S::falling, &F::rate>("falling_rain.rate", "mm/h", 0, 200,
+                                  "Rate of the rain behind the glass; rain.key_frames do not change it.")
+          .only(published),
       real<&S::falling, &F::smallest_drop>("falling_rain.smallest_drop", "mm", 0.5, 5, "Drops below this diameter are left out."),
       real<&S::falling, &F::exposure>("falling_rain.exposure", "s", 0, 1, "Time for which the shutter is open in a frame."),
       real<&S::falling, &F::far>("falling_rain.far", "m", 1, 40, "Depth of the farthest drops."),
-      real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops over that of physics."),
+      real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops, divided by the physical value."),
       // The film that blades leave.
-      boolean<&S::smear, &M::on>("smear.on", "Blades leave a thin film in streaks, which dries behind them.").only(correct),
-      real<&S::smear, &M::wear>("smear.wear", "1", 0, 1, "Wear of the blades: 0 new; 1 ragged, with more and thicker streaks.")
+      boolean<&S::smear, &M::on>("smear.on", "Blades leave streaks of a thin film, which dries behind them.").only(correct),
+      real<&S::smear, &M::wear>("smear.wear", "1", 0, 1, "Wear of the blades. 0: new; 1: ragged, with more and thicker streaks.")
           .only(correct),
       real<&S::smear, &M::drying>("smear.drying", "s", 0.01, 60, "Time in which the thickest streak dries.").only(correct),
       real<&S::smear, &M::most>("smear.most", "1", 0, 1, "Share of the light that the thickest streak scatters.").only(correct),
-      real<&S::smear, &M::spread_deg>("smear.spread", "deg", 0.01, 20, "Largest angle by which it turns light, along the blade.")
+      real<&S::smear, &M::spread_deg>("smear.spread", "deg", 0.01, 20, "Largest angle by which the film turns light, along the blade.")
           .only(correct),
       // The mist of condensed water on the glass.
-      boolean<&S::condensation, &C::on>("condensation.on", "Mist lies on the glass; drops, their trails and blades clear it.")
+      boolean<&S::condensation, &C::on>("condensation.on", "Mist lies on the glass. Drops, their trails and blades clear it.")
           .only(correct),
-      real<&S::condensation, &C::tau>("condensation.tau", "s", 0.01, 600, "Time in which cleared glass mists over to 1 - 1/e of all.")
+      real<&S::condensation, &C::tau>("condensation.tau", "s", 0.01, 600,
+                                      "Time in which the mist on cleared glass grows to 1 - 1/e of its limit.")
           .only(correct),
-      real<&S::condensation, &C::most>("condensation.most", "1", 0, 1, "Share of the light that it scatters where nothing clears it.")
+      real<&S::condensation, &C::most>("condensation.most", "1", 0, 1, "Share of the light that the mist scatters where nothing clears it.")
           .only(correct),
-      real<&S::condensation, &C::water>("condensation.water", "mm", 1e-6, 10, "Height of water that takes all of the mist up.")
+      real<&S::condensation, &C::water>("condensation.water", "mm", 1e-6, 10, "Height of water that absorbs all of the mist.")
           .only(correct),
-      real<&S::condensation, &C::blur_lod>("condensation.blur_lod", "1", 0, 12,
-                                           "The picture behind it is blurred over a disc whose radius is a texel of this mip level.")
+      real<&S::condensation, &C::blur_lod>(
+          "condensation.blur_lod", "1", 0, 12,
+          "The picture behind the mist is blurred over a disc. The disc's radius is a texel of this mip level.")
           .only(correct),
-      real<&S::condensation, &C::veil>("condensation.veil", "1", 0, 1, "Share of the scattered light that comes from all the scene.")
+      real<&S::condensation, &C::veil>("condensation.veil", "1", 0, 1, "Share of the scattered light that comes from the whole scene.")
           .only(correct),
       // Pillar and dashboard.
       boolean<&S::interior, &I::on>("interior.on",
-                                    "Pillar and dashboard stand before the glass, dark and out of focus; not in traced pictures.")
+                                    "Pillar and dashboard stand before the glass, dark and out of focus. Traced pictures do not show them.")
           .only(correct),
       real<&S::interior, &I::pillar>("interior.pillar", "1", 0, 1,
-                                     "u of the left pillar's edge at the glass' lower and upper end; 0, 0: none.")
+                                     "u of the left pillar's edge at the lower and at the upper end of the glass; 0, 0: none.")
           .only(correct),
       real<&S::interior, &I::dashboard>("interior.dashboard", "1", 0, 1, "v of the dashboard's edge; 0: none.").only(correct),
       real<&S::interior, &I::binnacle>("interior.binnacle", "1", 0, 1,
                                        "Height of the hood over the instruments, on the image plane at distance 1.")
           .only(correct),
-      real<&S::interior, &I::light>("interior.light", "1", 0, 100, "Radiance that the lightest of it would have.").only(correct),
-      real<&S::interior, &I::reflection>("interior.reflection", "1", 0, 1, "What the glass mirrors of the dashboard, over that.")
+      real<&S::interior, &I::light>("interior.light", "1", 0, 100, "Radiance of the lightest parts of the interior.").only(correct),
+      real<&S::interior, &I::reflection>("interior.reflection", "1", 0, 1, "Share of the dashboard's light that the glass mirrors.")
           .only(correct)};
   return table;
 }
 const std::vector<MemberParameter<Settings>>& step_members() {
   static const std::vector<MemberParameter<Settings>> table{
-      integer<&Settings::substeps>("windshield.substeps", "1", 1, 64, "Steps of the drops in a frame.").only(correct)};
+      integer<&Settings::substeps>("windshield.substeps", "1", 1, 64, "Time steps of the drops in a frame.").only(correct)};
   return table;
 }
 

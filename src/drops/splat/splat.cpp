@@ -32,21 +32,23 @@ std::vector<MemberParameter<SplatKeys>> splat_members(const std::string& prefix)
                                   {"hemisphere", SplatKernel::hemisphere},
                                   {"disc", SplatKernel::disc}},
                                  "How the height of a drop falls from its centre to its rim."),
-      choice<&SplatKeys::blend>(key("blend"), {{"add", SplatBlend::add}, {"max", SplatBlend::max}}, "How drops join in a texel."),
+      choice<&SplatKeys::blend>(key("blend"), {{"add", SplatBlend::add}, {"max", SplatBlend::max}},
+                                "How the heights of several drops in a texel combine."),
       choice<&SplatKeys::half_accumulation>(
           key("accumulate"), {{"half", true}, {"float", false}},
-          "half: the sum is rounded after each drop, as a blending unit does with an r16f target; float: once.")
+          "half: the sum is rounded after each drop, as in a blending unit with an r16f target. float: the sum is rounded once.")
           .only(published),
       choice<&SplatKeys::rounding>(key("rounding"), {{"rne", Rounding::rne}, {"rtz", Rounding::rtz}},
-                                   "How results are stored: to nearest even, or toward zero as many GPUs do."),
+                                   "Rounding of stored results: to nearest even, or toward zero as many GPUs do."),
       real<&SplatKeys::drop_radius>(key("drop_radius"), "m", 1e-5, 1, "Radius of a drop of mass 1.").only(published),
       real<&SplatKeys::drop_height>(key("drop_height"), "mm", 0, 100, "Height of a drop of mass 1.").only(published),
-      real<&SplatKeys::smallest_radius>(key("smallest_radius"), "texel", 0, 16,
-                                        "A smaller drop is drawn this wide and as much lower, so that no drop falls between texels.")
+      real<&SplatKeys::smallest_radius>(
+          key("smallest_radius"), "texel", 0, 16,
+          "A smaller drop is drawn with this radius and lower by as much, so that no drop falls between texels.")
           .only(correct),
       real<&SplatKeys::lean>(key("lean"), "1", 0, 1,
-                             "Share in which drops that contact-angle hysteresis holds lean with gravity, wind and the car: longer, wider "
-                             "and steeper below; 0: all are round.")
+                             "How much drops that contact-angle hysteresis holds lean with gravity, wind and the car. They become longer, "
+                             "and wider and steeper below; 0: all are round.")
           .only(correct),
   };
 }

@@ -28,44 +28,42 @@ const std::vector<MemberParameter<MotionSettings>>& members() {
   using V = VehicleSettings;
   static const std::vector<MemberParameter<M>> table{
       // 27 degrees from the horizontal, 1.4 m x 0.8 m, its lower edge 1.9 m ahead of the rear axle and 1 m above the road.
-      corner(
-          0,
-          "Corner (0, 0) of the glass in the car's axes (x forward, y left, z up, from the middle of the rear axle); seen from inside at "
-          "the lower left."),
-      corner(1, "Corner (1, 0) of the glass; lower right."),
-      corner(2, "Corner (0, 1) of the glass; upper left: this order says which side is outside."),
+      corner(0,
+             "Corner (0, 0) of the glass in the car's axes (x forward, y left, z up, from the middle of the rear axle): the lower left "
+             "corner as seen from inside."),
+      corner(1, "Corner (1, 0) of the glass: lower right."),
+      corner(2, "Corner (0, 1) of the glass: upper left. The order of the corners says which side is outside."),
       {text("windshield.panes", "",
             "Further panes of the car: their corners in the same order, \"x y z, x y z, x y z; ...\" in m; empty: none."),
        [](M& s, const Value& v) { s.panes = parse_panes(std::get<std::string>(v)); }, [](const M&) { return Value(std::string()); }},
       real<&M::gravity>("world.gravity", "m/s^2", 0, 100, "Acceleration of gravity."),
       real<&M::weather, &WeatherSettings::wind>("world.wind", "m/s", -100, 100,
                                                 "Velocity of the wind in world axes: x is the car's forward direction at heading 0, z up."),
-      {text("world.wind_key_frames", "", "The wind by key frames, smooth between them: \"time x y z; ...\" in s and m/s; empty: none."),
+      {text("world.wind_key_frames", "",
+            "Key frames of the wind, which is smooth between them: \"time x y z; ...\" in s and m/s; empty: none."),
        [](M& s, const Value& v) { s.weather.wind_key_frames = std::get<std::string>(v); },
        [](const M& s) { return Value(s.weather.wind_key_frames); }},
       {text("rain.key_frames", "",
-            "The rain by key frames, smooth between them: \"time rate; ...\" in s and mm/h, as-published in new drops a second; empty: "
-            "none."),
+            "Key frames of the rain, which is smooth between them: \"time rate; ...\" in s and mm/h (as-published: new drops per second); "
+            "empty: none."),
        [](M& s, const Value& v) { s.weather.rain_key_frames = std::get<std::string>(v); },
        [](const M& s) { return Value(s.weather.rain_key_frames); }},
-      {text(
-           "rain.shelter", "",
-           "Bridges and tunnels, under which no rain falls: stretches of the way that the car has driven, \"from to; ...\" in m. A pane is "
-           "where its middle is; empty: "
-           "none."),
+      {text("rain.shelter", "",
+            "Bridges and tunnels, where no rain falls, as stretches of the car's way: \"from to; ...\" in m. A pane is inside while its "
+            "middle is; empty: none."),
        [](M& s, const Value& v) { s.weather.shelter = parse_shelter(std::get<std::string>(v)); },
        [](const M&) { return Value(std::string()); }},
       real<&M::vehicle, &V::speed>("vehicle.speed", "m/s", 0, largest_speed,
-                                   "Speed of the car, where neither key frames nor a drive cycle say it; 13.9 m/s are 50 km/h."),
+                                   "Speed of the car, if neither key frames nor a drive cycle give it. 13.9 m/s are 50 km/h."),
       real<&M::vehicle, &V::yaw_rate>("vehicle.yaw_rate", "rad/s", -largest_yaw_rate, largest_yaw_rate,
-                                      "Turn rate of the car, positive to the left, where neither key frames nor a drive cycle say it."),
+                                      "Turn rate of the car, positive to the left, if neither key frames nor a drive cycle give it."),
       {real("vehicle.heading", "deg", -360, 360, 0, "Direction of the car at time 0, positive to the left."),
        [](M& s, const Value& v) { s.vehicle.heading = std::get<double>(v) * degree; },
        [](const M& s) { return Value(s.vehicle.heading / degree); }},
-      real<&M::vehicle, &V::start>("vehicle.start", "s", -1e6, 1e6, "Time in the key frames or the drive cycle at time 0."),
+      real<&M::vehicle, &V::start>("vehicle.start", "s", -1e6, 1e6, "Time in the key frames or the drive cycle at which the run begins."),
       {text("vehicle.key_frames", "",
-            "Speed by key frames, smooth between them: \"time speed; time speed; ...\" in s and m/s, or \"time speed yaw_rate\" in rad/s; "
-            "empty: none."),
+            "Key frames of the speed, which is smooth between them: \"time speed; time speed; ...\" in s and m/s, or \"time speed "
+            "yaw_rate\" with rad/s; empty: none."),
        [](M& s, const Value& v) { s.vehicle.key_frames = std::get<std::string>(v); },
        [](const M& s) { return Value(s.vehicle.key_frames); }},
       text("vehicle.drive_cycle", "", "CSV file with the columns time_s, speed_mps and, optionally, yaw_rad_s; empty: none."),
@@ -138,13 +136,13 @@ std::vector<MemberParameter<WiperKeys>> blade_members(int number, std::size_t i)
         [=](const WiperKeys& s) { return Value(s.custom[i].*of / in_unit); });
   };
   return {{real2(fmt::format("{}.pivot_{}", table, i), "m", -100, 100, {},
-                 begin + "pivot, in metres in the glass from corner (0, 0), x along the edge to corner (1, 0)."),
+                 begin + "pivot in the plane of the glass, in metres from corner (0, 0), with x along the edge to corner (1, 0)."),
            [i](WiperKeys& s, const Value& v) { s.custom[i].pivot = std::get<Real2>(v); },
            [i](const WiperKeys& s) { return Value(s.custom[i].pivot); }},
           member("inner_radius", "m", 0, 100, &Blade::inner_radius, "distance of its inner end from the pivot."),
           member("outer_radius", "m", 0, 100, &Blade::outer_radius, "distance of its outer end from the pivot."),
           member("start_angle", "deg", -360, 360, &Blade::start_angle, "angle at rest, from x toward y.", degree),
-          member("sweep", "deg", -360, 360, &Blade::sweep, "angle that it turns, positive from x toward y.", degree),
+          member("sweep", "deg", -360, 360, &Blade::sweep, "angle through which it turns, positive from x toward y.", degree),
           member("phase", "1", 0, 1, &Blade::phase, "share of its cycle that is over at time 0.")};
 }
 
@@ -153,24 +151,24 @@ std::vector<MemberParameter<WiperKeys>> members(int number) {
   const std::string begin = of_pane(number);
   const auto key = [table = wiper_table(number)](const char* name) { return fmt::format("{}.{}", table, name); };
   std::vector<MemberParameter<K>> all{
-      integer(key("count"), "1", 0, most_wipers, number == 0 ? most_wipers : 0, begin + "Blades."),
-      choice(
-          key("arrangement"), {"tandem", "opposed", "custom"}, "tandem",
-          begin + "Blades that turn the same way, or toward each other, fitted to the glass; custom: as the keys ending in _0 and _1 say."),
+      integer(key("count"), "1", 0, most_wipers, number == 0 ? most_wipers : 0, begin + "Number of blades."),
+      choice(key("arrangement"), {"tandem", "opposed", "custom"}, "tandem",
+             begin + "Blades that turn the same way or toward each other, fitted to the glass. custom: the keys ending in _0 and _1 "
+                     "describe them."),
       real<&K::pane, &PaneWipers::wipers, &WiperSettings::cycles_per_minute>(
           key("cycles_per_minute"), "1/min", 0, 600,
-          begin + "Strokes forth and back in a minute; EU 1008/2010 asks for at least 45 at the highest speed; 0: at rest."),
+          begin + "Strokes back and forth per minute. EU 1008/2010 asks for at least 45 at the highest speed; 0: at rest."),
       text(key("key_frames"), "",
-           begin + "Wipers by key frames, each until the next: \"time off; time intermittent PERIOD; time slow; time fast\" in s, slow as "
-                   "cycles_per_minute says; empty: slow."),
+           begin + "Key frames of the wipers, each valid until the next: \"time off; time intermittent PERIOD; time slow; time fast\" in "
+                   "s. slow: cycles_per_minute; empty: always slow."),
       real<&K::fast_cycles_per_minute>(key("fast_cycles_per_minute"), "1/min", 0, 600,
-                                       begin + "Strokes in a minute where key frames say fast."),
+                                       begin + "Strokes per minute while key frames say fast."),
       // As published a texture is wiped only by the blade's current outline; 25 mm leave no gap at 60 frames and 45 cycles.
       real<&K::pane, &PaneWipers::wipers, &WiperSettings::half_width>(key("half_width"), "m", 1e-4, 0.2,
                                                                       begin + "Half the width that a blade wipes.")
           .published(0.025),
       real<&K::pane, &PaneWipers::capture, &Capture::follow>(
-          key("follow"), "1", 0, 1, begin + "Share of the way to the blade's leading edge that a captured drop makes in a frame.")
+          key("follow"), "1", 0, 1, begin + "Share of the way to the blade's leading edge that a captured drop moves in a frame.")
           .only(published),
       real<&K::pane, &PaneWipers::capture, &Capture::inherit>(
           key("inherit"), "1", 0, 1, begin + "Share of the blade's velocity that a captured drop takes over in a frame.")
