@@ -352,7 +352,7 @@ typedef struct rr_cause {
   size_t lines;       ///< number of its lines in the port's shaders
 } rr_cause;
 RR_API int rr_get_cause(const rr_judgement* judgement, size_t pass, size_t index, rr_cause* cause);
-/// Gets a line of a cause in the port's shaders, the best line first: "shade.comp:57: vec3 bent = refract(view, normal, WATER_IOR);".
+/// Gets a line of a cause in the port's shaders, best first: "shade.comp:57: vec3 bent = refract(view, normal, WATER_IOR);".
 RR_API int rr_get_line(const rr_judgement* judgement, size_t pass, size_t cause, size_t index, const char** line);
 
 /// An element outside its envelope. Index 0 is the worst. Missing and surplus records are counted in the pass's `reason` instead.

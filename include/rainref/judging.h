@@ -76,8 +76,8 @@ struct Cause {
   std::int64_t of = 0;         ///< failing texels or records that were examined
   std::int64_t inside = 0;     ///< failing texels or records that the cause comes near
   bool is_likely = false;      ///< it explains nearly all of them
-  /// Its lines in the port's shaders, the best line first: "shade.comp:57: vec3 bent = refract(view, normal, WATER_IOR);". Empty without
-  /// shaders (JudgeOptions::spirv).
+  /// Its lines in the port's shaders, best first: "shade.comp:57: vec3 bent = refract(view, normal, WATER_IOR);". Empty without shaders
+  /// (JudgeOptions::spirv).
   std::vector<std::string> lines = {};
 };
 

@@ -1,4 +1,4 @@
-// A buffer outside the pass that computed it; packs, captures and dumps of ports consist of these.
+// A buffer outside the pass that computed it. Packs, captures and dumps of ports consist of such arrays.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Captured images decoded to floats for passes.
+// Captured images, decoded to floats for passes.
 #pragma once
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// Bytes that copies share until they are written.
+// Bytes that copies share until one of them is written.
 #pragma once
 
 #include <cstddef>

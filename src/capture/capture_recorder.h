@@ -1,4 +1,4 @@
-// Records runs of passes as cases: their inputs and outputs, copied while they exist.
+// Records runs of passes as cases. Copies their inputs and outputs while these exist.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Checks that a captured case fits its pass as this build declares it. Packs and dumps may come from anyone; all later code relies on this
+// Checks that a captured case fits the pass that this build declares. Packs and dumps may come from anyone; all later code relies on this
 // check.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A pack once more as raw bytes and one small JSON file, for engines that read no NPY (docs/packs.md).
+// A second form of a pack: raw bytes and one small JSON file, for engines that cannot read NPY (docs/packs.md).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Values of a JSON file that is not trusted, checked one by one.
+// Checks the values of an untrusted JSON file one by one.
 #pragma once
 
 #include <cstddef>

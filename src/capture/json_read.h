@@ -1,4 +1,4 @@
-// Reads JSON that is not trusted. Size and depth are checked before it is parsed.
+// Reads untrusted JSON. Checks its size and depth before parsing it.
 #pragma once
 
 #include <cstdint>

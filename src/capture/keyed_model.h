@@ -1,4 +1,4 @@
-// The model of a pass whose output is a list of records with ids, evaluated with enclosures, for judging such a list.
+// The model of a pass that writes a list of records with ids, evaluated with enclosures to judge that list.
 #pragma once
 
 #include <cstddef>

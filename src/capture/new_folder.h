@@ -1,4 +1,4 @@
-// Folders that get their final name only when complete.
+// Folders that get their final name only when they are complete.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A pass whose angles come from asin or acos: AlternativeFormula for lookups by direction.
+// A pass that computes angles by asin or acos: an AlternativeFormula for lookups by direction.
 #pragma once
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Descriptions of passes for people, packs and reports, declared once by each effect.
+// Descriptions of passes for people, packs and reports. Each effect declares them once.
 #pragma once
 
 #include <array>

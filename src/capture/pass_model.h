@@ -1,4 +1,4 @@
-// A pass bound to one case, evaluated with every number type. Judging uses it, and knows nothing else of an effect.
+// A pass bound to one case, evaluated with every number type. It is all that judging knows of an effect.
 #pragma once
 
 #include <array>

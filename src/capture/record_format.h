@@ -1,4 +1,4 @@
-// The storage format with the same layout as the records of a list: such a list can be treated as an image of one row.
+// The storage format with the same layout as the records of a list. With it the list can be treated as an image of one row.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A port's own program, traced for one invocation: its values, instruction by instruction, and their source lines.
+// A trace of a port's own program for one invocation: the value of each instruction and its source line.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Starts writing files to disk before anyone waits for them.
+/// Starts to write files to disk before the program must wait for them.
 #pragma once
 
 namespace rainref::capture {

@@ -1,9 +1,9 @@
-// Fails values that a profile leaves without a bound but that no device computes.
+// Fails values that a profile does not bound, but that no device computes.
 //
-// If a profile promises nothing about an operation, it formally allows any stored value, and any outcome of comparisons of the result. A
-// value outside the profile `coarsest` too, in every alternative and every allowed rearrangement, cannot be explained by rounding.
-// Conforming and known devices are inside, so one such element would suffice; a share is required because a few may have another reason,
-// and a porting mistake makes many.
+// If a profile promises nothing about an operation, it formally allows any stored value, and any outcome of a comparison with the result.
+// But rounding cannot explain a value that also lies outside the profile `coarsest`, in every alternative and every allowed rearrangement.
+// Conforming and known devices lie inside it, so one such element would be enough. Still a share of the elements is required, because a few
+// may have another reason, and a porting mistake makes many.
 #pragma once
 
 #include <cstdint>

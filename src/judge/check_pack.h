@@ -1,4 +1,4 @@
-// Checks a pack against this build's declaration of its effect, before anything is evaluated.
+// Checks a pack against this build's declaration of its effect, before any pass is evaluated.
 #pragma once
 
 #include "capture/pack_read.h"

@@ -1,4 +1,4 @@
-// Counts what the runs of a pass exercise: each side of each decision, and non-special values of its inputs.
+// Counts what the runs of a pass exercise: the sides of each decision, and values of its inputs that are not special.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Judges outputs by envelope: compares each invocation with every result that the profile allows.
+// Judges outputs by envelope: compares each invocation with all results that the profile allows.
 #pragma once
 
 #include <vector>

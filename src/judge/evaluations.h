@@ -1,4 +1,4 @@
-// Evaluations that this build has of a pass, bound to a run.
+// This build's evaluations of a pass, bound to a run.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// A port that computes several passes in one shader, and so writes only what the last of them gives.
+// A port that computes several passes in one shader, so it writes only the outputs of the last of them.
 #pragma once
 
 #include <string>

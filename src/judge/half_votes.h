@@ -1,4 +1,4 @@
-// Finds how a port rounds its stores to binary16: one way for the whole port, inferred from the outputs of its passes.
+// Infers from the outputs of a port's passes how the port rounds its stores to binary16. The whole port rounds in one way.
 #pragma once
 
 #include <cstddef>

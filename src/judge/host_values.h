@@ -1,8 +1,8 @@
-// Compares the uniforms, pictures and records that a host gives a pass with the scene's.
+// Compares the uniforms, pictures and records that a port's host gives to a pass with those of the scene.
 //
-// rainref computes them in double and rounds once; a host may compute in float. A value of k operations then has an error of k 2^-24 of its
-// largest term, to first order. Sixteen operations with terms four times as large as the result give 2^-18: no uniform here needs more. A
-// buffer of fewer bits stores such a value as either neighbour.
+// rainref computes them in double and rounds once. A host may compute in float. A value of k operations then has an error of k 2^-24 of its
+// largest term, to first order. Sixteen operations with terms four times as large as the result give 2^-18, and no uniform here needs more.
+// A buffer of fewer bits stores such a value as one of its two neighbours.
 #pragma once
 
 #include <cstddef>

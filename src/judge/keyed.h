@@ -1,4 +1,4 @@
-// Judges a list of records by their ids, in any order, since parallel appends leave no order.
+// Judges a list of records by their ids. The records may have any order, because parallel appends have none.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Fields of records that are matched by id: their offsets, and counts of judged fields.
+// The fields of records that are matched by id: offsets, and counts of judged fields.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Finds the invocations of a port that have the bits of a known device.
 //
-// If a profile allows what the device does in lookups and sums of products, its envelopes hold the device's results, in one alternative for
-// all outputs together (tests: ShortCut.EveryEnvelopeHoldsTheKnownDevices).
+// If a profile allows the device's arithmetic in lookups and sums of products, its envelopes hold the device's results. One alternative
+// holds them for all outputs together (tests: ShortCut.EveryEnvelopeHoldsTheKnownDevices).
 #pragma once
 
 #include <functional>

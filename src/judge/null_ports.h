@@ -1,4 +1,4 @@
-// Null ports do nothing. If one of them passes a pack's pass, the pack does not test that pass.
+// Null ports do nothing. If one of them gets a PASS for a pass, the pack does not test that pass.
 #pragma once
 
 #include <memory>

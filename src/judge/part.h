@@ -1,4 +1,4 @@
-// Counts from judging some invocations of a case by envelope, and their sum.
+// The counts that result when some invocations of a case are judged by envelope, and the sum of such counts.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The profiles that rainref judges by: data files, built into the program.
+// The profiles that rainref judges by. They are data files that are built into the program.
 #pragma once
 
 #include <string>

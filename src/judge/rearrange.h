@@ -1,4 +1,4 @@
-// Images flipped, moved or with other channels: common errors between a port and its files.
+// Images that are flipped, moved or have their channels exchanged: common errors between a port and its files.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Finds the invocations of a port that have the reference's bits, up to the sign of a zero. They need no envelope.
 //
-// Every profile allows what the reference does. So each envelope holds the reference's values, in one alternative for all outputs together,
-// and the store's codes include the code that the reference stores.
+// Every profile allows the reference's arithmetic. So the envelopes hold the reference's values, in one alternative for all outputs
+// together. The store's codes include the code that the reference stores.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// The invocations whose envelopes are computed for statistics in a report: widths, and shares without a bound.
+// The invocations whose envelopes are computed for a report's statistics: widths, and shares of elements without a bound.
 //
-// A run is divided row by row into strata of equally many invocations, and one of each is drawn. A total over the run is estimated as the
-// strata's length times the sample's total; Hoeffding's inequality bounds the error.
+// A run is divided row by row into strata of equally many invocations, and one invocation of each stratum is drawn. A total over the run is
+// estimated as the length of a stratum times the sample's total. Hoeffding's inequality bounds the error.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Tests a few invocations of a pass that is not judged itself for the rounding of half stores.
+// Tests a few invocations of a pass for the rounding of its half stores, if the pass itself is not judged.
 #pragma once
 
 #include "judge/half_votes.h"

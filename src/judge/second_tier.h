@@ -1,4 +1,4 @@
-// Tests the rearrangements of the formula for an invocation that the formula as written does not accept.
+// If the formula as written does not accept an invocation, tests the formula's rearrangements.
 #pragma once
 
 #include <vector>

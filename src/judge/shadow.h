@@ -1,7 +1,7 @@
-// Shadow lockstep: judges each dumped run of a pass as one step from the port's own inputs.
+// Shadow lockstep judges each dumped run of a pass as one step from the port's own inputs.
 //
-// The run is recomputed from the port's own inputs and uniforms, so errors do not grow however long the port ran freely. Each input must
-// equal, bit for bit, the output of the run that it comes from. Together the steps cover the whole simulation.
+// The run is recomputed from these inputs and uniforms, so errors do not grow, however long the port ran freely. Each input must equal, bit
+// for bit, the output of the run that it comes from. So the steps together cover the whole simulation.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Checks the inputs of a port's run: they must be the outputs of the runs before it, and its uniforms must be this run's.
+// Checks the inputs of a port's run. They must be the outputs of the runs before it, and the uniforms must be those of this run.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The expected runs of a port's own simulation: which passes, and the inputs of each and their sources.
+// The runs that are expected of a port's own simulation: their passes, the inputs of each, and where the inputs come from.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Fast tests that an invocation is inside its envelopes without computing them, fastest first: it has the reference's bits, or those of a
-// known device, or it lies in a part of the envelopes that the pass finds faster.
+// Fast tests that show, without envelopes, that an invocation lies inside them. The fastest comes first: the invocation has the reference's
+// bits, or those of a known device, or it lies in a part of the envelopes that the pass finds faster.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Values stored for an invocation, by a port and by the reference.
+// The values that a port and the reference stored for an invocation.
 #pragma once
 
 #include <array>

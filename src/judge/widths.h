@@ -1,4 +1,4 @@
-// Widths of the envelopes of an output, for each quantity, in codes and in the quantity's unit.
+// The widths of an output's envelopes for each quantity, in codes and in the quantity's unit.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Cases of one scene or pack, and a port's outputs for them; rainref::Cases and the handles of rainref.h hold this.
+// The cases of one scene or pack, and a port's outputs for them. rainref::Cases and handles of rainref.h hold it.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A pack of a foreign effect: the inputs of its author's run, and the outputs of trusted shaders for them.
+// A pack of a foreign effect: the inputs of a run by its author, and the outputs that trusted shaders give for them.
 #pragma once
 
 #include <filesystem>

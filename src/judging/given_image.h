@@ -1,4 +1,4 @@
-// An image that a port passed in memory with its own texel format.
+// An image in memory that a port gave, with the port's own texel format.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Judges a port's outputs for cases in memory; rainref::Judgement and the handles of rainref.h hold the result.
+// Judges a port's outputs for cases in memory. rainref::Judgement and handles of rainref.h hold the result.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Finds out whether a failing pass was made from what the port itself gave for its inputs, as a shader does that computes two passes at
+// Finds out whether a port computed a failing pass from its own outputs of earlier passes, as a shader does that computes two passes at
 // once.
 #pragma once
 

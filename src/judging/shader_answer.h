@@ -1,4 +1,4 @@
-// Decides whether a shader or its device is wrong, by executing a port's own SPIR-V on the pack's inputs.
+// Executes a port's own SPIR-V on the pack's inputs, to decide whether the shader or its device is wrong.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The graphics and compute APIs that a port may run under.
+// The graphics and compute APIs that a port may use.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// A channel of a buffer, computed from what a port stored in another scale, in other quantities or with fewer bits.
+// Computes a channel of a buffer from values that a port stored in another scale, as other quantities or with fewer bits.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How a port keeps a buffer in its own way: what port.json says of channels, numbers, files and members of records.
+// A port's own form of a buffer: what port.json says about channels, numbers, files and members of records.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A file that an exporter wrote, read as a level of a buffer. What the file does not say is found from the values that are expected there.
+// Reads a file that an exporter wrote as a level of a buffer. The expected values show what the file does not say.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What a port's own form of a buffer (encoding.h) leaves open.
+// What is lost in a port's own form of a buffer (encoding.h).
 #pragma once
 
 #include <array>

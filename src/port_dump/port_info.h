@@ -1,4 +1,4 @@
-// Information of a port about itself: port.json beside its dumps.
+// What a port says about itself: port.json beside its dumps.
 #pragma once
 
 #include <cstdint>

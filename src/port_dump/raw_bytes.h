@@ -1,4 +1,4 @@
-// Raw bytes with the layout given by their sidecar.
+// Raw bytes whose layout is in a sidecar file.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Reads a buffer that a port dumped, in the form of the array to compare it with.
+// Reads a buffer that a port dumped, and gives it the form of the array that it is compared with.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Reads a buffer that a port keeps in its own way (encoding.h).
+// Reads a buffer that a port keeps in its own form (encoding.h).
 #pragma once
 
 #include <filesystem>

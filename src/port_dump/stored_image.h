@@ -1,4 +1,4 @@
-// A mip level as a file stores it, and the check whether its values are the buffer's.
+// A mip level as a file stores it, and a check that its values are those of the buffer.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Known failures of a port, each with its reason, so that only new ones fail a run.
+// The known failures of a port, each with its reason. Only new failures then fail a run.
 #pragma once
 
 #include <filesystem>

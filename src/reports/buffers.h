@@ -1,4 +1,4 @@
-// Additions of the page to the judgement: pictures of stored outputs, and fields of records.
+// What the page shows besides the judgement: pictures of stored outputs, and fields of records.
 #pragma once
 
 #include <cstddef>

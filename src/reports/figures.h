@@ -1,4 +1,4 @@
-// Numbers and texts of a judgement that all reports share.
+// The numbers and texts of a judgement that all reports show.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A judgement as one HTML page: no network, no other file, light and dark, keyboard and mouse.
+// A judgement as one HTML page. It needs no network and no other file, has a light and a dark form, and obeys keyboard and mouse.
 #pragma once
 
 #include <string>

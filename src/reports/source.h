@@ -1,4 +1,4 @@
-// Data of the page besides the judgement: the graph, sentences, and the values of outputs.
+// Data of the page that the judgement does not hold: the graph, sentences, and the values of outputs.
 #pragma once
 
 #include <filesystem>
