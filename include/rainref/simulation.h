@@ -43,9 +43,9 @@ struct FilmOptions {
   Progress progress{};  ///< called after each frame; may be null
 };
 
-/// Reads a scene file and adds changes to it. If no such file exists, reads the bundled scene of that name ("puddle/default.toml": `rainref
-/// list`). From a PNG or EXR that rainref wrote it reads the stored scene, up to that frame. Throws Error(io) if the file cannot be read,
-/// and Error(usage) for another picture.
+/// Reads a scene file and adds changes to it. If there is no such file, reads the bundled scene with that name (`rainref list`). From a PNG
+/// or EXR that rainref wrote it reads the stored scene, up to that frame. Throws Error(io) if the file cannot be read, and Error(usage) for
+/// another picture.
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set = {});
 
 /// Sets the folder where this process keeps generated images that are the same in every run, such as the street around a puddle. An empty
