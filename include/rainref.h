@@ -245,10 +245,10 @@ RR_API const char* rr_get_judge(const rr_cases* cases, size_t index, size_t outp
 /// For records, `count` is their number and `row_bytes` the size of one. If a scene key determines the length of the list, another number
 /// of records is a FAIL.
 RR_API int rr_give(rr_cases* cases, size_t index, size_t output, const void* data, size_t row_bytes, size_t count);
-/// Does the same for an image of another type or with more channels. It uses these members of `image`: type, channels, width, height,
-/// planes (1), texel_bytes, row_bytes and plane[0]. As in files (docs/dumps.md), surplus channels are ignored, and the report notes this.
-/// If the output has halves or 8-bit codes, floats are accepted too: they are rounded to nearest even, and sRGB-encoded if the output is
-/// sRGB. Returns RR_FILES for another size or type.
+/// Does the same for an image, which may have another type and more channels. It uses these members of `image`: type, channels, width,
+/// height, planes (1), texel_bytes, row_bytes and plane[0]. As in files (docs/dumps.md), surplus channels are ignored, and the report notes
+/// this. If the output has halves or 8-bit codes, floats are accepted too: they are rounded to nearest even, and sRGB-encoded if the output
+/// is sRGB. Returns RR_FILES for another size or type.
 RR_API int rr_give_image(rr_cases* cases, size_t index, size_t output, const rr_array* image);
 
 // ---- files of a running scene: packs and films ----
