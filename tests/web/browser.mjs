@@ -9,8 +9,8 @@ import puppeteer from "puppeteer-core";
 
 const types = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".json": "application/json", ".wasm": "application/wasm", ".svg": "image/svg+xml"};
 
-/// Serves a folder as static hosts do, compressed by gzip; {url, bytes(), requests(), close()}: bytes that were sent since they were asked
-/// for last, and the paths.
+/// Serves a folder as static hosts do, compressed by gzip; {url, bytes(), requests(), close(), drop()}: bytes that were sent since they were asked
+/// for last, and the paths; drop() ends open connections too.
 export async function serve(folder) {
   let bytes = 0, paths = [];
   const compressed = new Map();
@@ -31,7 +31,7 @@ export async function serve(folder) {
   await new Promise(done => server.listen(0, "127.0.0.1", done));
   const taken = (value, reset) => { reset(); return value; };
   return {url: `http://127.0.0.1:${server.address().port}/`, bytes: () => taken(bytes, () => { bytes = 0; }), requests: () => taken(paths, () => { paths = []; }),
-          close: () => server.close()};
+          close: () => server.close(), drop: () => server.closeAllConnections()};
 }
 
 /// Starts `rainref view ARGUMENT...`: {address, root, close()}: the address that it prints, and that address without the page.

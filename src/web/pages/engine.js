@@ -6,6 +6,7 @@
 // Several engines share one compiled module.
 
 import {Cancelled} from "./cancelled.js";
+import {publishedName} from "./names.js";
 
 const compiled = new Map();
 /// The WebAssembly module of that name, downloaded and compiled once for the page. rainref_module is the library; rainref_simulator is its
@@ -13,7 +14,7 @@ const compiled = new Map();
 export function loadLibrary(name = "rainref_module") {
   if (compiled.has(name)) return compiled.get(name);
   const loaded = (async () => {
-    const url = new URL(`${name}.wasm`, import.meta.url), answer = await fetch(url);
+    const url = new URL(publishedName(`${name}.wasm`), import.meta.url), answer = await fetch(url);
     if (!answer.ok) throw new Error(`${url.pathname}: ${answer.status} ${answer.statusText}`);
     // Works also if the server does not know the MIME type.
     if (answer.headers.get("content-type") === "application/wasm") return WebAssembly.compileStreaming(answer);
@@ -53,7 +54,7 @@ export class Engine {
       else call.resolve(data.result);
     };
     worker.onerror = event => this.#end(new Error(event.message ?? "the worker could not be started"));
-    worker.postMessage({module, glue: `${this.#library}.js`, operations: new URL(this.#operations, import.meta.url).href});
+    worker.postMessage({module, glue: publishedName(`${this.#library}.js`), operations: new URL(this.#operations, import.meta.url).href});
   }
 
   /// Calls an operation; calls run one after the other. Rejects with the operation's error (with `code` if the library gave one), or

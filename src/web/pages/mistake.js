@@ -1,0 +1,62 @@
+// judge.html?mistake: the chosen example, the puddle's shade, with one line wrong, which is run and judged at once; a button mends it. Where
+// nothing can run, the page shows what `rainref demo` judged when the site was built: the same mistake in the GLSL port.
+import {Outcome} from "./outcome.js";
+import {element} from "./report_words.js";
+
+const $ = id => document.getElementById(id);
+const lines = {right: "refract(view, normal, 1.0 / water_ior)", wrong: "refract(view, normal, water_ior)"};
+const until = async holds => { while (!holds()) await new Promise(done => setTimeout(done, 50)); };
+const notice = element("div", {class: "notice", id: "mistake-notice"}), outcome = new Outcome($("verdict"), $("outcome"), $("report"));
+
+/// Puts one of the lines into the text, in place of the other, and shows it. False if the text has neither.
+function write(port) {
+  const shader = $("shader"), old = lines[port === "right" ? "wrong" : "right"];
+  if (!shader.value.includes(old) && !shader.value.includes(lines[port])) return false;
+  if (shader.value.includes(old)) shader.value = shader.value.replace(old, lines[port]);
+  shader.dispatchEvent(new Event("input", {bubbles: true}));
+  const before = shader.value.slice(0, shader.value.indexOf(lines[port])).split("\n").length;
+  shader.scrollTop = shader.scrollHeight * (before - 6) / shader.value.split("\n").length;
+  return true;
+}
+/// Runs the text as a press of the button does. False if it could not run.
+async function runs() {
+  if ($("run").disabled) return false;
+  $("run").click();
+  await until(() => $("working").hidden);
+  return $("verdict").querySelector(".pill") !== null;
+}
+async function showRecorded(port) {
+  const [html, json, junit, text] = await Promise.all(["html", "json", "xml", "txt"].map(async ending => {
+    const answer = await fetch(`mistake/${port}.${ending}`);
+    if (!answer.ok) throw new Error(`mistake/${port}.${ending}: ${answer.status} ${answer.statusText}`);
+    return answer.text();
+  }));
+  outcome.show({html, json, junit, text}, `mistake-${port}`);
+}
+
+let isRecorded = false;
+async function judge(port) {
+  notice.replaceChildren();
+  if (!write(port)) return outcome.note("The example that is chosen above lacks the line that would be changed.");
+  try {
+    isRecorded = isRecorded || !await runs();
+    if (isRecorded) await showRecorded(port);
+  } catch (error) {
+    return outcome.fail(error.message);
+  }
+  const other = port === "wrong" ? "right" : "wrong", button = element("button", {type: "button", id: "mend", class: port === "wrong" && "primary"},
+    port === "wrong" ? "Mend the line" : "Make the mistake again");
+  button.addEventListener("click", () => judge(other));
+  notice.replaceChildren(element("p", {}, port === "wrong" ? "One line of this shader is wrong: " : "The line is right now: ", element("code", {}, lines[port]), ". ",
+    isRecorded && "Nothing can run in this browser. This was recorded when the site was built: the same in the GLSL port, whose shader names its line."), button);
+  $("result").scrollIntoView({block: "start"});
+}
+
+if (new URLSearchParams(location.search).has("mistake")) {
+  await until(() => "ready" in document.documentElement.dataset);
+  $("verdict").before(notice);
+  // A browser may know WebGPU and have no device for it.
+  isRecorded = !await navigator.gpu?.requestAdapter().catch(() => null);
+  await judge("wrong");
+  document.documentElement.dataset.mistake = isRecorded ? "recorded" : "run";  // for who drives the page
+}
