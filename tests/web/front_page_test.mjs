@@ -78,12 +78,13 @@ try {
   await step("its links lead to scenes that are there", async () => {
     const page = await open(browser, site, "", errors), links = await page.$$eval("a[href]", all => all.map(a => a.getAttribute("href")));
     const scenes = new Set(JSON.parse(fs.readFileSync(path.join(folder, "scenes/index.json"))).scenes.filter(s => !s.error).map(s => s.path));
+    assert.equal(await page.$eval("#film", film => film.parentElement.getAttribute("href")), "live.html?scene=puddle/default.toml");
     for (const link of links) {
       assert(fs.existsSync(path.join(folder, link.replace(/[?#].*/, ""))), link);
       const scene = /scene=([^&]*)/.exec(link)?.[1];
       assert(!scene || scenes.has(scene), link);
     }
-    assert.equal(links.filter(link => link.includes("scene=")).length, 6);
+    assert.equal(links.filter(link => link.includes("scene=")).length, 7);
     await page.close();
   });
 
@@ -112,12 +113,13 @@ try {
         await shot(page, isRecorded ? "recorded" : "run", false);
       }
       await click(page, "#mend");
-      await page.waitForFunction(() => /^The line is right now/.test(document.getElementById("mistake-notice").textContent), {timeout: mostMs});
+      await page.waitForFunction(() => document.getElementById("mend")?.textContent === "Make the mistake again", {timeout: mostMs});
+      assert.match(await textOf(page, "#mistake-notice"), /^The line is right now/);
       assert.match(await textOf(page, "#verdict"), good);
       assert.match(await page.$eval("#shader", e => e.value), /refract\(view, normal, 1\.0 \/ water_ior\)/);
       await shot(page, isRecorded ? "recorded-mended" : "run-mended", false);
       await click(page, "#mend");
-      await page.waitForFunction(() => /^One line/.test(document.getElementById("mistake-notice").textContent), {timeout: mostMs});
+      await page.waitForFunction(() => document.getElementById("mend")?.textContent === "Mend the line", {timeout: mostMs});
       assert.match(await textOf(page, "#verdict"), /^FAIL/);
       assert.deepEqual(others, []);
       await page.close();

@@ -18,12 +18,12 @@ function write(port) {
   shader.scrollTop = shader.scrollHeight * (before - 6) / shader.value.split("\n").length;
   return true;
 }
-/// Runs the text as a press of the button does. False if it could not run.
-async function runs() {
-  if ($("run").disabled) return false;
+/// Runs the text as a press of the button does. Returns why it could not, or null.
+async function refusal() {
+  if ($("run").disabled) return "WebGPU is not there";
   $("run").click();
   await until(() => $("working").hidden);
-  return $("verdict").querySelector(".pill") !== null;
+  return $("verdict").querySelector(".error")?.textContent ?? null;
 }
 async function showRecorded(port) {
   const [html, json, junit, text] = await Promise.all(["html", "json", "xml", "txt"].map(async ending => {
@@ -34,21 +34,23 @@ async function showRecorded(port) {
   outcome.show({html, json, junit, text}, `mistake-${port}`);
 }
 
-let isRecorded = false;
+let reason = null;  // why nothing can run here
 async function judge(port) {
-  notice.replaceChildren();
-  if (!write(port)) return outcome.note("The example that is chosen above lacks the line that would be changed.");
+  const isWrong = port === "wrong", say = (...more) => notice.replaceChildren(element("p", {}, isWrong ? "One line of this shader is wrong: " : "The line is right now: ",
+    element("code", {}, lines[port]), "."), ...more);
+  say();
+  $("result").scrollIntoView({block: "start"});
+  if (!write(port)) return notice.replaceChildren(), outcome.note("The example that is chosen above lacks the line that would be changed.");
   try {
-    isRecorded = isRecorded || !await runs();
-    if (isRecorded) await showRecorded(port);
+    reason ??= await refusal();
+    if (reason) await showRecorded(port);
   } catch (error) {
     return outcome.fail(error.message);
   }
-  const other = port === "wrong" ? "right" : "wrong", button = element("button", {type: "button", id: "mend", class: port === "wrong" && "primary"},
-    port === "wrong" ? "Mend the line" : "Make the mistake again");
-  button.addEventListener("click", () => judge(other));
-  notice.replaceChildren(element("p", {}, port === "wrong" ? "One line of this shader is wrong: " : "The line is right now: ", element("code", {}, lines[port]), ". ",
-    isRecorded && "Nothing can run in this browser. This was recorded when the site was built: the same in the GLSL port, whose shader names its line."), button);
+  const mend = element("button", {type: "button", id: "mend", class: isWrong && "primary"}, isWrong ? "Mend the line" : "Make the mistake again");
+  mend.addEventListener("click", () => judge(isWrong ? "right" : "wrong"));
+  say(mend);
+  if (reason) notice.append(element("p", {class: "dim small"}, `Nothing runs in this browser: ${reason}. What you see was recorded when the site was built, of a GLSL port with the same line.`));
   $("result").scrollIntoView({block: "start"});
 }
 
@@ -56,7 +58,7 @@ if (new URLSearchParams(location.search).has("mistake")) {
   await until(() => "ready" in document.documentElement.dataset);
   $("verdict").before(notice);
   // A browser may know WebGPU and have no device for it.
-  isRecorded = !await navigator.gpu?.requestAdapter().catch(() => null);
+  if (navigator.gpu && !await navigator.gpu.requestAdapter().catch(() => null)) reason = "WebGPU finds no device";
   await judge("wrong");
-  document.documentElement.dataset.mistake = isRecorded ? "recorded" : "run";  // for who drives the page
+  document.documentElement.dataset.mistake = reason ? "recorded" : "run";  // for who drives the page
 }
