@@ -126,6 +126,14 @@ try {
     });
   }
 
+  await step("another example has no such mistake", async () => {
+    const page = await open(browser, site, "judge.html?mistake#pack=edge_splash-corrected&pass=display", errors);
+    await page.waitForSelector("html[data-mistake]", {timeout: mostMs});
+    assert.match(await textOf(page, "#verdict"), /lacks the line/);
+    assert.equal(await page.$("#mend"), null);
+    await page.close();
+  });
+
   await step("published: names with hashes, and no file twice", async () => {
     const said = publish(folder, published), all = root => fs.readdirSync(root, {recursive: true}).filter(file => fs.statSync(path.join(root, file)).isFile());
     console.log(`${name}: ${said.trim()}`);
@@ -141,6 +149,7 @@ try {
     fs.writeFileSync(path.join(work, "other/file"), "");
     assert.throws(() => publish(folder, path.join(work, "other")), error => error.status === 2 && /other: expected a new folder/.test(error.stderr));
     assert.throws(() => publish(path.join(work, "other"), path.join(work, "new")), error => error.status === 2 && /found no rainref_module\.wasm/.test(error.stderr));
+    assert.throws(() => publish(folder, path.resolve(folder, "published")), error => error.status === 2 && /expected a folder outside the built site/.test(error.stderr));
     assert.deepEqual(fs.readdirSync(work).sort(), ["other", "published"]);
   });
 

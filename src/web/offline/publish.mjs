@@ -8,6 +8,7 @@ import zlib from "node:zlib";
 
 const [site, folder] = process.argv.slice(2).map(name => path.resolve(name)), own = path.dirname(fileURLToPath(import.meta.url)), made = `${folder}.part`;
 function fail(message) {
+  fs.rmSync(made, {recursive: true, force: true});
   process.stderr.write(`publish: ${message}\n`);
   process.exit(2);
 }
@@ -63,7 +64,7 @@ const hashed = new Set(renamed.values()), kept = before.map(url => ({url, revisi
 fs.copyFileSync(path.join(own, "service_worker.js"), at("service_worker.js"));
 rewrite("service_worker.js", "const kept = [];", `const kept = ${JSON.stringify(kept, null, 1)};`);
 
+const count = listed().length;
 fs.rmSync(folder, {recursive: true, force: true});
 fs.renameSync(made, folder);
-console.log(`${folder}: ${listedIn(folder)} files, ${size.all}; kept in a browser at the first visit: ${kept.length} files, ${size.kept}, sent as ${size.sent}`);
-function listedIn(root) { return fs.readdirSync(root, {recursive: true}).filter(name => fs.statSync(path.join(root, name)).isFile()).length; }
+console.log(`${folder}: ${count} files, ${size.all}; kept in a browser at the first visit: ${kept.length} files, ${size.kept}, sent as ${size.sent}`);
