@@ -3,20 +3,29 @@ import assert from "node:assert/strict";
 import {spawn} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
+import {createRequire} from "node:module";
 import path from "node:path";
 import zlib from "node:zlib";
 import puppeteer from "puppeteer-core";
 
 const types = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".json": "application/json", ".wasm": "application/wasm", ".svg": "image/svg+xml"};
 
-/// Serves a folder as static hosts do, compressed by gzip; {url, bytes(), requests(), close(), drop()}: bytes that were sent since they were asked
-/// for last, and the paths; drop() ends open connections too.
+/// Serves a folder as static hosts do, compressed by gzip; {url, bytes(), requests(), once(), close(), drop()}: bytes that were sent since they
+/// were asked for last, and the paths; once(path, status, body): the next request of that path gets this instead; drop() ends open
+/// connections too.
 export async function serve(folder) {
   let bytes = 0, paths = [];
+  const instead = new Map();
   const compressed = new Map();
   const server = http.createServer((request, response) => {
     const name = decodeURIComponent(new URL(request.url, "http://x").pathname), file = path.join(folder, name.endsWith("/") ? `${name}index.html` : name);
     paths.push(name);
+    if (instead.has(name)) {
+      const [status, text] = instead.get(name);
+      instead.delete(name);
+      response.writeHead(status, {"content-type": types[path.extname(name)] ?? "text/plain"});
+      return response.end(text);
+    }
     if (!file.startsWith(folder) || !fs.existsSync(file) || fs.statSync(file).isDirectory()) {
       response.writeHead(404);
       return response.end();
@@ -31,7 +40,7 @@ export async function serve(folder) {
   await new Promise(done => server.listen(0, "127.0.0.1", done));
   const taken = (value, reset) => { reset(); return value; };
   return {url: `http://127.0.0.1:${server.address().port}/`, bytes: () => taken(bytes, () => { bytes = 0; }), requests: () => taken(paths, () => { paths = []; }),
-          close: () => server.close(), drop: () => server.closeAllConnections()};
+          once: (path, status, body = "") => instead.set(path, [status, body]), close: () => server.close(), drop: () => server.closeAllConnections()};
 }
 
 /// Starts `rainref view ARGUMENT...`: {address, root, close()}: the address that it prints, and that address without the page.
@@ -84,4 +93,17 @@ export async function expectReadable(page) {
   const unnamed = await page.$$eval("select, textarea, input:not([hidden]), button", all =>
     all.filter(e => !e.labels?.length && !e.ariaLabel && !e.getAttribute("aria-label") && !e.textContent.trim()).map(e => e.id || e.outerHTML));
   assert.deepEqual(unnamed, [], "controls without a name");
+}
+
+const axe = fs.readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+/// axe-core finds nothing that shuts people out, in light and in dark.
+export async function expectAccessible(page) {
+  await page.evaluate(axe);
+  for (const scheme of page.browser().process()?.spawnfile?.includes("firefox") ? [null] : ["light", "dark"]) {
+    if (scheme) await page.emulateMediaFeatures([{name: "prefers-color-scheme", value: scheme}]);
+    const found = await page.evaluate(async () => (await globalThis.axe.run(document, {iframes: false})).violations.map(({id, help, nodes}) =>
+      `${id}: ${help}: ${nodes.map(node => node.target.join(" ")).join(", ")}`));
+    assert.deepEqual(found, [], `axe-core${scheme ? `, ${scheme}` : ""}`);
+  }
+  if (page.browser().process()?.spawnfile?.includes("firefox") !== true) await page.emulateMediaFeatures([]);
 }

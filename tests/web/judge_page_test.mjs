@@ -5,42 +5,13 @@ import {execFileSync, spawnSync} from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
-import {click, expectReadable, launch, open, serve, stepsIn, textOf} from "./browser.mjs";
+import {click, expectAccessible, expectReadable, textOf} from "./browser.mjs";
+import {after, choose, edit, mostMs, ready as readyIn, saved, started} from "./judge_page.mjs";
 
-const [folder, name, rainref, sources, shots] = process.argv.slice(2), packs = path.resolve(sources, "build/release/packs");
-const site = await serve(path.resolve(folder)), browser = await launch(name), step = stepsIn(name), errors = [];
+const test = await started(), {name, rainref, sources, shots, packs, errors, site, browser, step, good} = test;
 const work = fs.mkdtempSync(path.join(os.tmpdir(), "judge-page-"));
-const mostMs = 60000;
 
-async function ready(address, width) {
-  const page = await open(browser, site, address, errors, width);
-  await page.waitForSelector("html[data-ready]", {timeout: mostMs});
-  return page;
-}
-/// Presses a button and waits for what comes of it: the text of the verdict's line.
-async function after(page, press) {
-  await page.evaluate(() => { document.getElementById("verdict").textContent = "waiting"; });
-  await press();
-  await page.waitForFunction(() => document.getElementById("working").hidden && document.getElementById("verdict").textContent !== "waiting", {timeout: mostMs});
-  return textOf(page, "#verdict");
-}
-/// What a link of the page would save.
-const saved = (page, id) => page.$eval(id, async link => (await fetch(link.href)).text());
-async function choose(page, values) {
-  for (const [id, value] of Object.entries(values)) {
-    await page.select(`#${id}`, value);
-    await page.waitForFunction((i, v) => document.getElementById(i).value === v &&
-      document.documentElement.dataset.shown === `${document.getElementById("pack").value} ${document.getElementById("pass").value}`, {timeout: mostMs}, id, value);
-  }
-}
-async function edit(page, from, to) {
-  await page.evaluate((a, b) => {
-    const text = document.getElementById("shader");
-    if (!text.value.includes(a)) throw new Error(`the example has no ${a}`);
-    text.value = text.value.replace(a, b);
-    text.dispatchEvent(new Event("input", {bubbles: true}));
-  }, from, to);
-}
+const ready = (address) => readyIn(test, address);
 const shot = async (page, what) => shots && page.screenshot({path: path.join(shots, `judge-${what}-${page.viewport().width}-${name}.png`), fullPage: true});
 
 /// A port of a small pack: its expected outputs, with the pictures of one pass turned over and another pass left out.
@@ -80,7 +51,7 @@ function swappedPort() {
 /// What the native program says of it, where the pack lies as the page says that it lies.
 function natively(port, ...options) {
   fs.symlinkSync(packs, path.join(work, "packs"));
-  const made = spawnSync(path.resolve(rainref), ["validate", "packs/puddle-corrected", "--port", port, ...options], {cwd: work, encoding: "utf8"});
+  const made = spawnSync(rainref, ["validate", "packs/puddle-corrected", "--port", port, ...options], {cwd: work, encoding: "utf8"});
   fs.unlinkSync(path.join(work, "packs"));
   assert.equal(made.status, 1, made.stderr);
   return made.stdout;
@@ -88,7 +59,6 @@ function natively(port, ...options) {
 
 try {
   const upsideDown = /^FAILdisplay is the first bad pass: .* (Likely cause:|The cause may be) upside down, /;
-  const good = name === "firefox" ? /^(PASS|WARN)/ : /^PASS/;  // Firefox is on another device: docs/notes/devices.md
   let page, link;
   await step("first view", async () => {
     page = await ready("judge.html");
@@ -100,6 +70,7 @@ try {
       await page.setViewport({width, height: 900});
       await expectReadable(page);
     }
+    await expectAccessible(page);
     assert.equal(await page.$eval("#verdict", e => e.ariaLive ?? e.getAttribute("aria-live")), "polite");
     await shot(page, "start");
   });
@@ -113,7 +84,7 @@ try {
     const known = await page.evaluate(async () => {
       const engine = new (await import("./engine.js")).Engine("judge_operations.js"), names = await engine.run("profiles");
       engine.cancel();
-      return [names, [...document.getElementById("profile").options].map(o => o.value)];
+      return [names, [...document.getElementById("profile").options].map(o => o.value).filter(value => value !== "")];
     });
     assert.deepEqual([...known[1]].sort(), [...known[0]].sort(), "profiles of the page and of the library");
   });
@@ -151,6 +122,7 @@ try {
     assert.equal(await frame.evaluate(() => location.hash), "#pass-display", "links within the report");
     assert.equal(await frame.$eval(".banner .verdict", e => e.textContent), "FAIL");
     assert.equal(await frame.evaluate(() => { try { return parent.document.title; } catch { return "apart"; } }), "apart");
+    await expectAccessible(page);
     await shot(page, "fail");
     await page.setViewport({width: 390, height: 844});
     await shot(page, "fail");
@@ -260,7 +232,7 @@ try {
     fs.cpSync(path.join(packs, "edge_splash-corrected"), path.join(work, "mine"), {recursive: true});
     execFileSync("tar", ["-cf", path.join(work, "mine.tar"), "-C", work, "mine"]);
     await (await page.$("#archive-input")).uploadFile(path.join(work, "mine.tar"));
-    await page.waitForFunction(() => document.getElementById("pack").value === "mine", {timeout: mostMs});
+    await page.waitForFunction(() => document.getElementById("pack").value === "own:mine", {timeout: mostMs});
     await choose(page, {pass: "splash", profile: "webgpu"});
     assert.match(await after(page, () => click(page, "#run")), good);
     assert.equal(JSON.parse(await saved(page, "#save-json")).pack, "mine");

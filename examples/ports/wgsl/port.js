@@ -36,7 +36,7 @@ export async function runCase(device, manifest, oneCase, files, shader) {
     const module = await compile(device, shader);
     const binds = bind(device, manifest, oneCase, files, bound, declared, made);
     const facts = factsOf(bound), constants = {};
-    for (const name of declared.overrides) if (name in facts) constants[name] = facts[name];
+    for (const name of declared.overrides) if (Object.hasOwn(facts, name)) constants[name] = facts[name];
     const pipeline = await makePipeline(device, binds, declared, module, constants);
     const encoder = device.createCommandEncoder();
     record(device, encoder, pipeline, binds, declared);

@@ -46,14 +46,16 @@ export class Engine {
     if (this.#worker) return;
     const worker = this.#worker = new Worker(new URL("engine_worker.js", import.meta.url));
     worker.onmessage = ({data}) => {
+      if (data.failed) return this.#end(new Error(data.failed));  // the next run starts another worker
       const call = this.#waiting.get(data.call);
       if (!call) return;
       if (data.progress) return call.onProgress?.(...data.progress);
       this.#waiting.delete(data.call);
       if (data.error) call.reject(Object.assign(new Error(data.error.message), data.error));
       else call.resolve(data.result);
+      if (data.isTrap) this.#end(new Error(data.error.message));
     };
-    worker.onerror = event => this.#end(new Error(event.message ?? "the worker could not be started"));
+    worker.onerror = event => this.#end(new Error(event.message || "the worker could not be started"));
     worker.postMessage({module, glue: publishedName(`${this.#library}.js`), operations: new URL(this.#operations, import.meta.url).href});
   }
 

@@ -1,28 +1,28 @@
-// The judge page: the choice, the run, and its result.
+// The judge page: the choice, its link, and the page's controls.
 import {boundBuffers, isRecords} from "./ports/pack.js";
-import {Cancelled} from "./cancelled.js";
-import {Engine, loadLibrary} from "./engine.js";
 import {chosenFolders, droppedFolders, jsonOf} from "./files.js";
 import {Editor} from "./editor.js";
-import {runPasses} from "./gpu_run.js";
-import {hashOf, viewOf} from "./link.js";
+import {Edits} from "./judge_edits.js";
+import {kindOf, packOf, portOf} from "./judge_folders.js";
+import {Runs} from "./judge_runs.js";
+import {checkView, hashOf, mostLinkBytes, viewOf} from "./link.js";
 import {exampleOf, hasProgram, packFolder, packList} from "./packs.js";
 import {element} from "./report_words.js";
-import {filesOf, textOf} from "./shader_text.js";
+import {textOf} from "./shader_text.js";
 import {Outcome} from "./outcome.js";
 
 const $ = id => document.getElementById(id);
 const everyPass = "*";  // the choice of all passes
+const byApi = "";       // the choice of no profile: that of the API
 const profileNames = ["webgpu", "vulkan", "d3d", "metal", "cuda", "opengl", "gles", "webgl", "opencl", "ieee"];
-const engine = new Engine("judge_operations.js");
 const outcome = new Outcome($("verdict"), $("outcome"), $("report"));
+const runs = new Runs(outcome, showButtons);
 
-let packs = [];           // as packs/index.json; `folder` is there where it is one of the visitor's own
-let port = null;          // the folder that was dropped: {name, files}
-let portShaders = null;   // the one of its SPIR-V: the same
-let running = null;       // AbortController of what is under way
-let hasChosenProfile = false;
-const edits = new Map();  // formula to the text that the visitor made of it
+let packs = [];           // as packs/index.json, with `id`; `folder` and `own` are there where it is one of the visitor's own
+let port = null;          // the folder that was dropped, by portOf
+let portNote = "";        // what the page did when it came
+let portShaders = null;   // the one of its SPIR-V: {name, files}
+const edits = new Edits();
 const editor = new Editor($("shader"), $("gutter"), $("shader-errors"), () => {
   edits.set(formula(), editor.value);
   showLink();
@@ -30,210 +30,216 @@ const editor = new Editor($("shader"), $("gutter"), $("shader-errors"), () => {
 
 // ---- the choice ----
 
-const pack = () => packs.find(p => p.name === $("pack").value);
-const pass = () => pack()?.passes.find(p => p.name === $("pass").value);
-const formula = () => pass()?.formula;
+/// What the page is about: {pack, pass, passes}: pass null for all; passes for their <select>. It changes at once, with all that shows it, when
+/// what it needs was loaded; the selects may be ahead of it.
+let chosen = null;
+const formula = () => chosen.pass?.formula;
 const distinct = values => [...new Set(values)];
+const variantsOf = effect => distinct(packs.filter(p => p.effect === effect).map(p => p.variant)).sort().reverse();
 
-/// Fills a <select> with [value, text]s and keeps the current choice if it still exists.
-function fill(select, options, wanted = select.value) {
-  select.replaceChildren(...options.map(([value, text, isDisabled = false]) => Object.assign(new Option(text, value), {disabled: isDisabled})));
-  if (options.some(([value]) => value === wanted)) select.value = wanted;
-  else if (select.selectedOptions[0]?.disabled) select.value = options.find(([, , isDisabled]) => !isDisabled)?.[0] ?? "";
+/// Fills a <select> with [value, text, isDisabled]s.
+function fill(select, options, value) {
+  select.replaceChildren(...options.map(([name, text, isDisabled = false]) => Object.assign(new Option(text, name), {disabled: isDisabled})));
+  select.value = value;
   select.disabled = options.length < 2;
 }
-
-/// Fills the selects from left to right, after one of them changed or for a given view, and shows the elements for that choice.
-async function choose(wanted = {}) {
-  const values = key => distinct(packs.filter(p => key === "effect" || p.effect === $("effect").value).map(p => p[key]));
-  const named = wanted.pack && packs.find(p => p.name === wanted.pack);
-  fill($("effect"), values("effect").map(name => [name, name]), named?.effect ?? wanted.effect);
-  fill($("variant"), values("variant").sort().reverse().map(name => [name, name.replace("-", " ")]), named?.variant ?? wanted.variant);
-  const fitting = packs.filter(p => p.effect === $("effect").value && p.variant === $("variant").value);
-  fill($("pack"), fitting.map(p => [p.name, p.folder ? `${p.name} (yours)` : p.name]), wanted.pack);
-  const judged = await Promise.all(pack().passes.map(async p => [p.name, p.name, p.cases === 0 || !await hasProgram(pack().effect, p.formula)]));
-  fill($("pass"), [...judged.map(([name, text, isData]) => [name, isData ? `${text} (made by the host)` : text, isData]), [everyPass, "all passes"]], wanted.pass);
-  if (wanted.profile) fill($("profile"), profileNames.map(name => [name, name]), wanted.profile);
-  await show();
+/// Fills the selects from left to right.
+function showChoice({pack, pass, passes}) {
+  const fitting = packs.filter(p => p.effect === pack.effect && p.variant === pack.variant);
+  fill($("effect"), distinct(packs.map(p => p.effect)).map(name => [name, name]), pack.effect);
+  fill($("variant"), variantsOf(pack.effect).map(name => [name, name.replace("-", " ")]), pack.variant);
+  fill($("pack"), fitting.map(p => [p.id, p.folder ? `${p.name} (yours)` : p.name]), pack.id);
+  fill($("pass"), [...passes, [everyPass, "all passes"]], pass?.name ?? everyPass);
 }
 
-async function show() {
-  const isAll = $("pass").value === everyPass, chosen = pass();
-  $("one-pass").hidden = $("open-shader").hidden = $("reset").hidden = isAll;
-  $("all-passes").hidden = !isAll;
-  $("run").textContent = isAll ? "Run all passes on this GPU" : "Run on this GPU";
-  const cases = isAll ? pack().passes.reduce((sum, p) => sum + p.cases, 0) : chosen.cases;
-  $("sentence").textContent = `${isAll ? `Pack of ${pack().scene}.` : chosen.sentence} ${cases} case${cases === 1 ? "" : "s"}.`;
-  if (!isAll) {
-    const text = edits.get(chosen.formula) ?? textOf(await exampleOf(pack().effect, chosen.formula));
-    if (formula() === chosen.formula) editor.value = text;
+let choices = 0;
+/// Chooses what is wanted, {effect, variant, pack, pass, profile}, and for the rest what the selects say, as far as it is there.
+async function choose(wanted = {}) {
+  const turn = ++choices, value = key => wanted[key] ?? $(key).value, pick = (values, name) => values.includes(name) ? name : values[0];
+  let pack = packs.find(p => p.id === wanted.pack);
+  if (!pack) {
+    const effect = pick(packs.map(p => p.effect), value("effect")), variant = pick(variantsOf(effect), value("variant"));
+    const fitting = packs.filter(p => p.effect === effect && p.variant === variant);
+    pack = fitting.find(p => p.id === value("pack")) ?? fitting[0];
   }
-  document.documentElement.dataset.shown = `${$("pack").value} ${$("pass").value}`;  // for who drives the page
+  try {
+    const passes = await Promise.all(pack.passes.map(async p => {
+      const isData = p.cases === 0 || !await hasProgram(pack.effect, p.formula);
+      return [p.name, isData ? `${p.name} (made by the host)` : p.name, isData];
+    }));
+    const runnable = passes.filter(([, , isData]) => !isData).map(([name]) => name);
+    const name = [...runnable, everyPass].includes(value("pass")) ? value("pass") : runnable[0] ?? everyPass;
+    const pass = pack.passes.find(p => p.name === name) ?? null, example = pass && textOf(await exampleOf(pack.effect, pass.formula));
+    if (turn !== choices) return;  // another choice came meanwhile
+    chosen = {pack, pass, passes};
+    if (pass) editor.value = edits.get(pass.formula) ?? example;
+    if ("profile" in wanted) $("profile").value = wanted.profile;
+  } finally {
+    if (chosen && turn === choices) showChoice(chosen);
+  }
+  show();
+}
+const chooseHere = wanted => choose(wanted).catch(error => outcome.fail(error.message));
+
+function show() {
+  const {pack, pass} = chosen;
+  $("one-pass").hidden = $("open-shader").hidden = $("reset").hidden = !pass;
+  $("all-passes").hidden = Boolean(pass);
+  $("run").textContent = pass ? "Run on this GPU" : "Run all passes on this GPU";
+  const cases = pass ? pass.cases : pack.passes.reduce((sum, p) => sum + p.cases, 0);
+  $("sentence").textContent = `${pass ? pass.sentence : `Pack of ${pack.scene}.`} ${cases} case${cases === 1 ? "" : "s"}.`;
+  $("link-state").textContent = "";
+  showPort();
+  document.documentElement.dataset.shown = `${pack.id} ${pass?.name ?? everyPass}`;  // for who drives the page
   if ($("bindings").open) showBindings().catch(error => outcome.fail(error.message));
   showLink();
 }
 
 /// The bindings of the chosen pass, from the pack's manifest, which is loaded for this.
 async function showBindings() {
-  if (!pass()) return;
-  const chosen = pass(), manifest = await jsonOf(await folder(), "manifest.json"), oneCase = manifest.cases.find(c => c.pass === chosen.name);
-  const rows = [[0, manifest.passes.find(p => p.name === chosen.name).uniform_block.name, "uniform block"]];
+  const {pack, pass} = chosen;
+  if (!pass) return;
+  const manifest = await jsonOf(pack.folder ?? await packFolder(pack), "manifest.json"), oneCase = manifest.cases.find(c => c.pass === pass.name);
+  const rows = [[0, manifest.passes.find(p => p.name === pass.name).uniform_block.name, "uniform block"]];
   for (const {name, binding, isOutput, buffer} of boundBuffers(manifest, oneCase)) {
     const what = !buffer ? "not in this case" : isRecords(buffer) ? `records ${buffer.record}` : `${buffer.format} ${buffer.width}x${buffer.height}`;
     rows.push([binding, name, `${isOutput ? "output" : "input"}, ${what}${!isOutput && buffer && buffer.min_filter && buffer.min_filter !== "none" ? `, sampler at ${binding + 16}` : ""}`]);
   }
-  $("bindings").querySelector("tbody").replaceChildren(...rows.map(cells => element("tr", {}, cells.map(text => element("td", {}, String(text))))));
+  if (chosen.pass === pass) $("bindings").querySelector("tbody").replaceChildren(...rows.map(cells => element("tr", {}, cells.map(text => element("td", {}, String(text))))));
 }
-const folder = async () => pack().folder ?? packFolder(pack());
 
 // ---- links ----
 
-const view = () => ({effect: $("effect").value, variant: $("variant").value, pack: $("pack").value, pass: $("pass").value, profile: $("profile").value,
-                     shader: edits.get(formula())});
+/// What a link holds: the choice, and the edited texts of the passes that it shows. `own` says that the pack is the visitor's.
+function view() {
+  const {pack: {effect, variant, name, own, passes}, pass} = chosen;
+  return {effect, variant, pack: name, own: own === undefined ? "" : own || "unknown", pass: pass?.name ?? everyPass, profile: $("profile").value,
+          shader: pass && edits.get(pass.formula), shaders: pass ? null : edits.of(passes)};
+}
+/// What the link does not hold, as sentences.
+function linkNotes({pack: name, own, shader, shaders}) {
+  const notes = own ? [`Who opens it must drop the pack ${name} there first.`] : [];
+  if ((shader?.length ?? 0) > mostLinkBytes || JSON.stringify([...shaders ?? []]).length > mostLinkBytes) notes.push("The shader's text is too long: the link cannot be opened.");
+  return notes;
+}
 let links = 0;
 /// Puts the view into the address bar.
 async function showLink() {
   const number = ++links, hash = await hashOf(view());
   if (number === links) history.replaceState(null, "", hash);
 }
-async function followLink() {
-  if (location.hash.length < 2) return choose({profile: "webgpu"});
+async function copyLink() {
+  const shown = view(), address = new URL(await hashOf(shown), location.href).href;
   try {
-    const wanted = await viewOf(location.hash), unknown = [];
-    for (const [key, known] of [["effect", packs.map(p => p.effect)], ["pack", packs.map(p => p.name)], ["profile", profileNames]])
-      if (wanted[key] && !known.includes(wanted[key])) unknown.push(`${key} ${wanted[key]}`);
-    await choose({profile: "webgpu", ...wanted});
-    if (wanted.pass && $("pass").value !== wanted.pass) unknown.push(`pass ${wanted.pass}`);
-    if (unknown.length > 0) return outcome.fail(`The link names what is not here: ${unknown.join(", ")}.`);
-    if (wanted.shader && formula()) {
-      edits.set(formula(), wanted.shader);
-      await show();
+    await navigator.clipboard.writeText(address);
+    $("link-state").textContent = ["Copied.", ...linkNotes(shown)].join(" ");
+  } catch {
+    $("link-state").textContent = ["It stands in the address bar.", ...linkNotes(shown)].join(" ");
+  }
+}
+
+async function followLink() {
+  if (location.hash.length < 2) return choose({profile: byApi});
+  try {
+    const wanted = await viewOf(location.hash);
+    const named = packs.find(p => wanted.own ? p.own === wanted.own : !p.folder && p.name === wanted.pack);
+    checkView(wanted, named, packs, profileNames);
+    // The link decides over texts that were edited here, of the passes that it shows.
+    const about = named ?? packs.find(p => (!wanted.effect || p.effect === wanted.effect) && (!wanted.variant || p.variant === wanted.variant));
+    for (const {name, formula: of} of about?.passes ?? []) {
+      if (wanted.pass === everyPass) edits.set(of, wanted.shaders.get(of));
+      else if (name === wanted.pass) edits.set(of, wanted.shader);
     }
+    await choose({...wanted, pack: named?.id, profile: wanted.profile ?? byApi});
+    if (wanted.pass && (chosen.pass?.name ?? everyPass) !== wanted.pass) throw new Error(`The link's pass ${wanted.pass} is made by the host: it cannot run here.`);
   } catch (error) {
-    await choose({profile: "webgpu"});
+    await chooseHere({profile: byApi});
     outcome.fail(error.message);
   }
 }
 
 // ---- judging ----
 
-/// Shows the progress.
-function working(doing, done = null, of = null) {
-  $("working").hidden = doing === null;
-  $("doing").textContent = doing === null ? "" : of === null ? `${doing} …` : `${doing}: ${done} of ${of}`;
-  if (of === null) $("progress").removeAttribute("value");
-  else [$("progress").max, $("progress").value] = [of, done];
+function showButtons() {
+  $("run").disabled = runs.isRunning || !navigator.gpu;
+  $("judge-folder").disabled = runs.isRunning || port === null;
 }
+/// The profile of a folder is its port's, unless the visitor chose one.
+const folderProfile = () => $("profile").value || port.profile || "vulkan";
 
-/// Runs `work(signal)` with progress and Cancel; shows its error.
-async function guarded(work) {
-  if (running) return;
-  running = new AbortController();
-  $("run").disabled = $("judge-folder").disabled = true;
-  working("Preparing");
-  outcome.clear();
-  const begin = performance.now();
-  try {
-    await work(running.signal);
-    document.documentElement.dataset.tookMs = String(Math.round(performance.now() - begin));
-  } catch (error) {
-    if (error instanceof Cancelled || running.signal.aborted) outcome.note("Cancelled.");
-    else outcome.fail(error.message);
-  } finally {
-    running = null;
-    working(null);
-    $("run").disabled = !navigator.gpu;
-    $("judge-folder").disabled = port === null;
-  }
-}
-
-/// Judges a port's folder and shows the report.
-async function judged(portFolder, options) {
-  working("Loading the judge");
-  await engine.start();
-  working("Judging");
-  const ownPack = await folder(), path = pack().folder ? ownPack.name : `packs/${pack().name}`;
-  const result = await engine.run("judgeFolder", {
-    pack: {path, files: [...ownPack.files]},
-    port: {path: portFolder.name === path ? `port/${portFolder.name}` : portFolder.name, files: [...portFolder.files]},
-    profile: $("profile").value, ...options,
-  }, {onProgress: (done, of) => done < of ? working("Judging", done, of) : working("Looking for causes, and drawing")});
-  outcome.show(result, `${pack().name}-${$("pass").value === everyPass || !options.passes ? "all" : $("pass").value}-${$("profile").value}`);
-  $("result").scrollIntoView({block: "start"});
-}
-
-const runShaders = () => guarded(async signal => {
+/// What a run uses is fixed at its click.
+function runShaders() {
   editor.clearErrors();
-  const wanted = pass() ? [pass()] : pack().passes, shaders = new Map();
-  for (const p of wanted) {
-    if (p.cases === 0 || !await hasProgram(pack().effect, p.formula)) continue;
-    shaders.set(p.name, edits.has(p.formula) ? filesOf(edits.get(p.formula)) : await exampleOf(pack().effect, p.formula));
-  }
-  loadLibrary().catch(() => {});  // meanwhile; judged() says what went wrong
-  working("Loading the pack");
-  const ownPack = await folder();
-  working("Running");
-  try {
-    const ran = await runPasses(navigator.gpu, ownPack, shaders, {signal, progress: (done, of) => working("Running", done, of)});
-    await judged(ran, {passes: [...shaders.keys()]});
-  } catch (error) {
-    if (!error.pass || signal.aborted) throw error;
-    if (!pass()) await choose({...view(), pass: error.pass});
+  const {pack, pass} = chosen, texts = edits.of(pack.passes);
+  runs.runShaders(pass ? [pass] : pack.passes, pass?.name ?? "all", {pack, edits: texts, profile: $("profile").value || "webgpu"}, async error => {
+    const bad = pack.passes.find(p => p.name === error.pass);
+    // The error stands beside the text that has it, if that is still what the page is about.
+    const isShown = () => chosen.pack === pack && chosen.pass === bad && edits.get(bad.formula) === texts.get(bad.formula);
+    if (chosen.pack === pack && !chosen.pass && !pass) await choose({pack: pack.id, pass: bad.name});
+    if (!isShown()) return `${bad.name} did not run: ${error.message}`;
     editor.showError(error.message);
-    throw new Error(`${error.pass} did not run: see below its text`);
-  }
-});
-const judgeFolder = () => guarded(() => judged(port, {
-  partial: $("partial").checked, spirv: portShaders && {path: `spirv/${portShaders.name}`, files: [...portShaders.files]}}));
+    return `${bad.name} did not run: see below its text`;
+  });
+}
+function judgeFolder() {
+  const {pack} = chosen, hint = `It was judged against the pack ${pack.name}, which is ${pack.variant}. If the port ran another pack or variant, choose that above.`;
+  runs.judgeFolder(port, {pack, profile: folderProfile(), partial: $("partial").checked, spirv: portShaders}, hint);
+}
 
-/// Takes dropped or chosen folders: packs, one of a port, and one of its shaders.
-async function take(promise) {
-  try {
-    for (const one of await promise) {
-      if (one.files.has("bindings.json")) takeShaders(one);
-      else if (one.files.has("manifest.json") && !one.files.has("port.json")) await takePack(one);
-      else await takePort(one);
+/// Takes dropped or chosen folders, one after the other: packs, one of a port, and one of its shaders. Each is checked before it is taken over.
+let taking = Promise.resolve();
+function take(read) {
+  const promise = read((name, count) => say(`Reading ${name} …${count ? ` ${count} files` : ""}`));
+  taking = taking.then(async () => {
+    try {
+      for (const one of await promise) {
+        const kind = kindOf(one);
+        if (kind === "shaders") takeShaders(one);
+        else if (kind === "pack") await takePack(await packOf(one));
+        else await takePort(await portOf(one));
+      }
+    } catch (error) {
+      if (runs.isRunning) return showPort(error.message);
+      outcome.fail(error.message);
     }
-  } catch (error) {
-    outcome.fail(error.message);
-  }
+    showPort();
+  });
+  return taking;
+}
+const say = text => { $("folder-state").textContent = text; };
+function note(id, text) {
+  $(id).textContent = text;
+  $(id).hidden = false;
 }
 async function takePack(one) {
-  const manifest = await jsonOf(one, "manifest.json"), {format, effect, variant, scene, passes, cases} = manifest;
-  if (format !== "rainref.pack") throw new Error(`${one.name}/manifest.json: expected the format rainref.pack, found ${format}`);
-  const about = passes.map(({name, sentence, formula}) => ({name, sentence, formula, cases: cases.filter(c => c.pass === name).length}));
-  packs = [...packs.filter(p => p.name !== one.name), {name: one.name, effect, variant, scene, passes: about, folder: one}];
-  await choose({pack: one.name});
-  $("pack-state").textContent = `${one.name} is a pack of ${cases.length} cases: it is chosen above.`;
-  $("pack-state").hidden = false;
+  packs = [...packs.filter(p => p.id !== one.id), one];
+  await choose({pack: one.id});
+  note("pack-state", `${one.name} is a pack of ${one.passes.reduce((sum, p) => sum + p.cases, 0)} cases: it is chosen above.`);
 }
 function takeShaders(one) {
   portShaders = one;
-  $("shaders-state").textContent = `${one.name}: the port's shaders are asked too, and the line of a mistake is named.`;
-  $("shaders-state").hidden = false;
+  note("shaders-state", `${one.name}: the port's shaders are asked too, and the line of a mistake is named.`);
 }
 async function takePort(one) {
-  port = one;
-  const notes = [], effect = distinct([...one.files.keys()].map(path => /^(\w+)\.\w+\//.exec(path)?.[1])).find(name => packs.some(p => p.effect === name));
-  if (effect && effect !== pack().effect) {
-    await choose({effect});
-    notes.push(`it is of ${effect}: look whether the pack above is the one that it ran`);
+  [port, portNote] = [one, ""];
+  const other = packs.find(p => one.effects.has(p.effect));
+  if (other && !one.effects.has(chosen.pack.effect)) {
+    portNote = `it is of ${other.effect}: look whether the pack above is the one that it ran`;
+    await choose({effect: other.effect});
   }
-  const api = one.files.has("port.json") ? String((await jsonOf(one, "port.json")).api ?? "") : "";
-  const profile = [["webgpu", /webgpu/i], ["vulkan", /vulkan/i], ["d3d", /direct3d|d3d|directx/i], ["metal", /metal/i], ["cuda", /cuda/i],
-    ["webgl", /webgl/i], ["opencl", /opencl/i], ["gles", /opengl ?es|gles/i], ["opengl", /opengl/i]].find(([, word]) => word.test(api))?.[0];
-  if (!hasChosenProfile) $("profile").value = profile ?? "vulkan";
-  if (!hasChosenProfile) notes.push(`profile ${$("profile").value}${profile ? ", as its port.json says" : ""}`);
-  $("folder-state").textContent = `${one.name}: ${one.files.size} files${notes.length ? `; ${notes.join("; ")}` : ""}.`;
-  $("judge-folder").disabled = running !== null;
-  showLink();
+  showButtons();
+}
+/// The line of the port's folder, from what the page has now; `error`: what was refused instead.
+function showPort(error = null) {
+  if (!port) return say(error ?? "No folder yet.");
+  const source = $("profile").value ? ", as chosen above" : port.profile ? ", as its port.json says" : "";
+  say(`${port.name}: ${port.files.size} files; ${portNote ? `${portNote}; ` : ""}profile ${folderProfile()}${source}.${error ? ` Not taken: ${error}` : ""}`);
 }
 
 // ---- the page's controls ----
 
-for (const id of ["effect", "variant", "pack"]) $(id).addEventListener("change", () => choose());
-$("pass").addEventListener("change", show);
-$("profile").addEventListener("change", () => { hasChosenProfile = true; showLink(); });
+for (const id of ["effect", "variant", "pack", "pass"]) $(id).addEventListener("change", () => chooseHere());
+$("profile").addEventListener("change", show);
 $("bindings").addEventListener("toggle", () => $("bindings").open && showBindings().catch(error => outcome.fail(error.message)));
 $("run").addEventListener("click", runShaders);
 $("shader").addEventListener("keydown", event => {
@@ -241,28 +247,25 @@ $("shader").addEventListener("keydown", event => {
   event.preventDefault();
   runShaders();
 });
-$("reset").addEventListener("click", async () => {
-  edits.delete(formula());
-  await show();
+$("reset").addEventListener("click", () => {
+  edits.set(formula(), undefined);
+  chooseHere();
 });
 $("open-shader").addEventListener("click", () => $("shader-file").click());
 $("shader-file").addEventListener("change", async event => {
   const files = [...event.target.files];
   event.target.value = "";
   if (files.length === 0) return;
-  editor.value = textOf(await Promise.all(files.map(async file => ({name: file.name, text: await file.text()}))));
-  edits.set(formula(), editor.value);
-  showLink();
+  const {pass} = chosen, text = textOf(await Promise.all(files.map(async file => ({name: file.name, text: await file.text()}))));
+  edits.set(pass.formula, text);
+  chooseHere();
 });
 for (const [button, input] of [["choose-folder", "folder-input"], ["choose-archive", "archive-input"]]) {
   $(button).addEventListener("click", () => $(input).click());
-  $(input).addEventListener("change", () => take(chosenFolders($(input).files)).then(() => { $(input).value = ""; }));
+  $(input).addEventListener("change", () => take(progress => chosenFolders($(input).files, progress)).then(() => { $(input).value = ""; }));
 }
 $("judge-folder").addEventListener("click", judgeFolder);
-$("cancel").addEventListener("click", () => {
-  running?.abort();
-  engine.cancel();
-});
+$("cancel").addEventListener("click", () => runs.cancel());
 // The whole page accepts folders, because a folder dropped beside the box would otherwise replace the page.
 addEventListener("dragover", event => {
   event.preventDefault();
@@ -272,27 +275,19 @@ addEventListener("dragleave", event => event.relatedTarget === null && $("drop")
 addEventListener("drop", event => {
   event.preventDefault();
   $("drop").classList.remove("over");
-  take(droppedFolders(event.dataTransfer));
+  take(progress => droppedFolders(event.dataTransfer, progress));
 });
-$("copy-link").addEventListener("click", async () => {
-  await showLink();
-  try {
-    await navigator.clipboard.writeText(location.href);
-    $("link-state").textContent = "Copied.";
-  } catch {
-    $("link-state").textContent = "It stands in the address bar.";
-  }
-});
+$("copy-link").addEventListener("click", copyLink);
 addEventListener("hashchange", followLink);
 
 if (!navigator.gpu) {
   $("no-gpu").textContent = "This browser has no WebGPU, so nothing can run here. A folder is judged all the same.";
   $("no-gpu").hidden = false;
-  $("run").disabled = true;
 }
 try {
-  packs = await packList();
-  fill($("profile"), profileNames.map(name => [name, name]), "webgpu");
+  showButtons();
+  packs = (await packList()).map(p => ({...p, id: p.name}));
+  fill($("profile"), [[byApi, "of the API"], ...profileNames.map(name => [name, name])], byApi);
   await followLink();
   document.documentElement.dataset.ready = "";
 } catch (error) {

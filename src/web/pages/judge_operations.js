@@ -13,26 +13,31 @@ export function profiles(library) {
 }
 export const version = library => library.text(library.value("rr_version"));
 
-/// Makes a folder, {path, files: [[path, Blob]]}, visible to the library; returns a function that removes it. Blobs are read by
-/// FileReaderSync.
-function mounted({FS, WORKERFS}, {path, files}) {
-  const at = `/${path}`;
+/// The library works in a folder of its own for each call, because folders have names from outside: "dev" and "proc" are there already.
+function inFolder({FS}, calls) {
+  const at = `/judging/${calls}`;
   FS.mkdirTree(at);
-  FS.mount(WORKERFS, {blobs: files.map(([name, data]) => ({name, data}))}, at);
-  return () => {
-    FS.unmount(at);
-    FS.rmdir(at);
-  };
+  FS.chdir(at);
+  return at;
+}
+let calls = 0;
+
+/// Makes a folder, {path, files: [[path, Blob]]}, visible to the library; returns a function that removes it. Blobs are read by
+/// FileReaderSync. Emscripten keeps names as keys of objects, so those that each object has are left out; no port's file has one.
+function mounted({FS, WORKERFS}, root, {path, files}) {
+  const at = `${root}/${path}`, blobs = files.filter(([name]) => !name.split("/").some(part => part in Object.prototype));
+  FS.mkdirTree(at);
+  FS.mount(WORKERFS, {blobs: blobs.map(([name, data]) => ({name, data}))}, at);
+  return () => FS.unmount(at);
 }
 
 /// Judges a port's folder for a pack: {text, json, html, junit}. `spirv`: a folder of the port's shaders, which are asked who is wrong, and where.
-/// progress(done, of) after each run.
+/// Paths are relative. progress(done, of) after each run.
 export function judgeFolder(library, {pack, port, spirv = null, profile, passes = [], partial = false}, progress) {
   const {module} = library, undo = [];
+  const root = inFolder(module, ++calls);
   try {
-    undo.push(mounted(module, pack));
-    undo.push(mounted(module, port));
-    if (spirv) undo.push(mounted(module, spirv));
+    for (const folder of [pack, port, spirv]) if (folder) undo.push(mounted(module, root, folder));
     const callback = module.addFunction((user, done, of) => { progress(done, of); return 0; }, "iiii");
     undo.push(() => module.removeFunction(callback));
     const judgement = library.withTexts(passes, (names, count) => library.withStruct("rr_folder_options",
@@ -41,6 +46,11 @@ export function judgeFolder(library, {pack, port, spirv = null, profile, passes 
     undo.push(() => library.value("rr_free_judgement", judgement));
     return Object.fromEntries(["text", "json", "html", "junit"].map(kind => [kind, library.text(library.out(`rr_report_${kind}`, judgement))]));
   } finally {
-    for (const step of undo.reverse()) step();
+    module.FS.chdir("/");
+    for (const step of undo.reverse()) {
+      try {
+        step();
+      } catch {}  // what could not be removed must not hide the result, and meets no later call
+    }
   }
 }

@@ -12,11 +12,14 @@ export class Outcome {
     [this.#verdict, this.#box, this.#frame] = [verdict, box, frame];
   }
 
-  /// result: {text, json, html, junit}. `name` is the beginning of file names.
-  show(result, name) {
+  /// result: {text, json, html, junit}. `name` is the beginning of file names. `hint` stands below what is not PASS; `command` gives the same
+  /// natively, "" if none does.
+  show(result, name, {hint = "", command = ""} = {}) {
     this.clear();
     const report = JSON.parse(result.json), words = element("span", {}, summary(report)).textContent;  // its links lead into the report
-    this.#verdict.replaceChildren(element("div", {class: "line"}, pill(report.status), element("span", {}, words)));
+    this.#verdict.replaceChildren(element("div", {class: "line"}, pill(report.status), element("span", {}, words)),
+      hint && report.status !== "PASS" ? element("p", {class: "dim"}, hint) : "",
+      command ? element("p", {class: "dim"}, "The native program says the same: ", element("code", {id: "command"}, command)) : "");
     for (const [kind, ending, type] of [["html", "html", "text/html"], ["json", "json", "application/json"], ["junit", "xml", "application/xml"], ["text", "txt", "text/plain"]]) {
       const url = URL.createObjectURL(new Blob([result[kind]], {type: `${type};charset=utf-8`})), link = document.getElementById(`save-${kind}`);
       this.#urls.push(url);

@@ -29,10 +29,9 @@ const programsOf = kept(async effect => {
 });
 const portText = kept(async path => new Uint8Array(await (await fetched(`ports/${path}`)).arrayBuffer()));
 /// Whether the examples have a program for a formula; not for passes of the host.
-export const hasProgram = async (effect, formula) => formula in await programsOf(effect);
+export const hasProgram = async (effect, formula) => Object.hasOwn(await programsOf(effect), formula);  // a pack's formula may be "constructor"
 /// The example program for a formula: [{name, text}].
 export async function exampleOf(effect, formula) {
-  const names = (await programsOf(effect))[formula];
-  if (!names) throw new Error(`${formula}: the examples have no program of it`);
-  return shaderOf(names, effect, portText);
+  if (!await hasProgram(effect, formula)) throw new Error(`${formula}: the examples have no program of it`);
+  return shaderOf((await programsOf(effect))[formula], effect, portText);
 }
