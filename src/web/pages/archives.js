@@ -15,11 +15,11 @@ export function archiveName(file) {
 
 /// The files of an archive, from a path to a Blob. Hard links are files; other links are refused. progress(count) after some files.
 export async function filesOfArchive(file, progress = () => {}) {
-  const given = new Files(), magic = new Uint8Array(await file.slice(0, 4).arrayBuffer());
+  const given = new Files(progress), magic = new Uint8Array(await file.slice(0, 4).arrayBuffer());
   const isZip = magic[0] === 0x50 && magic[1] === 0x4b, isGzip = magic[0] === 0x1f && magic[1] === 0x8b;
   try {
-    if (isZip) await readZip(file, given, progress);
-    else await readTar(isGzip ? file.stream().pipeThrough(new DecompressionStream("gzip")) : file.stream(), given, progress);
+    if (isZip) await readZip(file, given);
+    else await readTar(isGzip ? file.stream().pipeThrough(new DecompressionStream("gzip")) : file.stream(), given);
     return given.finished();
   } catch (error) {
     const reason = given.refusal ?? error;  // a stream that we ended may give an error of its own
@@ -34,8 +34,13 @@ class Files {
   #files = new Map();
   #links = new Map();
   #bytes = 0;
+  #progress;
+  #shown = performance.now();
   refusal = null;
 
+  constructor(progress) {
+    this.#progress = progress;
+  }
   refuse(sentence) {
     throw this.refusal = new Refused(sentence);
   }
@@ -47,18 +52,20 @@ class Files {
       to.enqueue(chunk);
     }});
   }
-  add(path, blob) {
+  async add(path, blob) {
     this.#files.set(path, blob);
-    return this.#counted();
+    this.#checkCount();
+    if (performance.now() - this.#shown < 100) return;
+    this.#progress(this.#files.size);
+    await new Promise(next => setTimeout(next));  // a stream that is there already leaves the page no time to draw
+    this.#shown = performance.now();
   }
   link(path, target) {
     this.#links.set(path, target);
-    return this.#counted();
+    this.#checkCount();
   }
-  #counted() {
-    const count = this.#files.size + this.#links.size;
-    if (count > limits.files) this.refuse(`the archive is too large: it has more than ${limits.files} files. Unpack it, and drop the folder.`);
-    return count;
+  #checkCount() {
+    if (this.#files.size + this.#links.size > limits.files) this.refuse(`the archive is too large: it has more than ${limits.files} files. Unpack it, and drop the folder.`);
   }
   /// The path below the folder into which `tar` would unpack; null for what systems add beside a file.
   placed(path) {
@@ -82,11 +89,22 @@ class Files {
   }
 }
 
-/// As a Blob, which the browser may keep outside memory.
-const blobOf = stream => new Response(stream).blob();
+/// A stream as a Blob, which the browser may keep outside memory. Response would do, but Firefox logs each stream that ends with an error.
+async function blobOf(stream) {
+  const reader = stream.getReader(), parts = [];
+  for (let chunks = [], bytes = 0;;) {
+    const {done, value} = await reader.read();
+    if (!done) chunks.push(value);
+    bytes += value?.length ?? 0;
+    if (!done && bytes < 2 ** 24) continue;
+    parts.push(new Blob(chunks));
+    [chunks, bytes] = [[], 0];
+    if (done) return parts.length === 1 ? parts[0] : new Blob(parts);
+  }
+}
 const kinds = {symlink: "a symbolic link: pack the file that it leads to (tar -h)", fifo: "a pipe", "character-device": "a device", "block-device": "a device"};
 
-async function readTar(stream, given, progress) {
+async function readTar(stream, given) {
   const {createTarDecoder} = await import("./libraries/tar.js");
   const reader = stream.pipeThrough(given.counting()).pipeThrough(createTarDecoder({strict: true})).getReader();
   for (;;) {
@@ -98,11 +116,11 @@ async function readTar(stream, given, progress) {
     const path = type === "directory" ? null : given.placed(name);
     if (path === null) await body.cancel();
     else if (type === "link") given.link(path, given.placed(linkname));
-    else progress(given.add(path, await blobOf(body)));
+    else await given.add(path, await blobOf(body));
   }
 }
 
-async function readZip(file, given, progress) {
+async function readZip(file, given) {
   const {ZipReader} = await import("./libraries/zip.js");
   const part = (at, size) => file.slice(at, at + size);
   const source = {size: file.size, createReadable: ({offset, size}) => part(offset, size).stream(), readUint8Array: async (at, size) => new Uint8Array(await part(at, size).arrayBuffer())};
@@ -115,6 +133,6 @@ async function readZip(file, given, progress) {
     const path = given.placed(name);
     if (path === null) continue;
     const {readable, writable} = given.counting(), [blob] = await Promise.all([blobOf(readable), entry.getData(writable)]);
-    progress(given.add(path, blob));
+    await given.add(path, blob);
   }
 }

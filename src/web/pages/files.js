@@ -48,12 +48,7 @@ async function folderOfEntry(folder) {
 export async function folderOfArchive(file, progress = () => {}) {
   const name = archiveName(file);
   progress(file.name, 0);
-  let shown = performance.now();
-  const files = await filesOfArchive(file, count => {
-    if (performance.now() - shown < 200) return;
-    shown = performance.now();
-    progress(file.name, count);
-  });
+  const files = await filesOfArchive(file, count => progress(file.name, count));
   // Most archives hold one folder, which is not that of the only pass.
   const tops = new Set([...files.keys()].map(path => path.split("/")[0])), [top] = tops;
   const isFolder = tops.size === 1 && !files.has(top) && ![...files.keys()].some(path => isOutput(path));

@@ -52,23 +52,25 @@ function showChoice({pack, pass, passes}) {
   fill($("pass"), [...passes, [everyPass, "all passes"]], pass?.name ?? everyPass);
 }
 
+/// The pack that is wanted, {effect, variant, pack}, and for the rest what the selects say, as far as it is there.
+function packOfChoice(wanted) {
+  const named = packs.find(p => p.id === wanted.pack), value = key => wanted[key] ?? $(key).value, pick = (values, name) => values.includes(name) ? name : values[0];
+  if (named) return named;
+  const effect = pick(packs.map(p => p.effect), value("effect")), variant = pick(variantsOf(effect), value("variant"));
+  const fitting = packs.filter(p => p.effect === effect && p.variant === variant);
+  return fitting.find(p => p.id === value("pack")) ?? fitting[0];
+}
 let choices = 0;
-/// Chooses what is wanted, {effect, variant, pack, pass, profile}, and for the rest what the selects say, as far as it is there.
+/// Chooses what is wanted: also {pass, profile}.
 async function choose(wanted = {}) {
-  const turn = ++choices, value = key => wanted[key] ?? $(key).value, pick = (values, name) => values.includes(name) ? name : values[0];
-  let pack = packs.find(p => p.id === wanted.pack);
-  if (!pack) {
-    const effect = pick(packs.map(p => p.effect), value("effect")), variant = pick(variantsOf(effect), value("variant"));
-    const fitting = packs.filter(p => p.effect === effect && p.variant === variant);
-    pack = fitting.find(p => p.id === value("pack")) ?? fitting[0];
-  }
+  const turn = ++choices, pack = packOfChoice(wanted), passWanted = wanted.pass ?? $("pass").value;
   try {
     const passes = await Promise.all(pack.passes.map(async p => {
       const isData = p.cases === 0 || !await hasProgram(pack.effect, p.formula);
       return [p.name, isData ? `${p.name} (made by the host)` : p.name, isData];
     }));
     const runnable = passes.filter(([, , isData]) => !isData).map(([name]) => name);
-    const name = [...runnable, everyPass].includes(value("pass")) ? value("pass") : runnable[0] ?? everyPass;
+    const name = [...runnable, everyPass].includes(passWanted) ? passWanted : runnable[0] ?? everyPass;
     const pass = pack.passes.find(p => p.name === name) ?? null, example = pass && textOf(await exampleOf(pack.effect, pass.formula));
     if (turn !== choices) return;  // another choice came meanwhile
     chosen = {pack, pass, passes};
@@ -144,13 +146,13 @@ async function followLink() {
     const wanted = await viewOf(location.hash);
     const named = packs.find(p => wanted.own ? p.own === wanted.own : !p.folder && p.name === wanted.pack);
     checkView(wanted, named, packs, profileNames);
+    const view = {...wanted, pack: named?.id, profile: wanted.profile ?? byApi};
     // The link decides over texts that were edited here, of the passes that it shows.
-    const about = named ?? packs.find(p => (!wanted.effect || p.effect === wanted.effect) && (!wanted.variant || p.variant === wanted.variant));
-    for (const {name, formula: of} of about?.passes ?? []) {
+    for (const {name, formula: of} of packOfChoice(view).passes) {
       if (wanted.pass === everyPass) edits.set(of, wanted.shaders.get(of));
       else if (name === wanted.pass) edits.set(of, wanted.shader);
     }
-    await choose({...wanted, pack: named?.id, profile: wanted.profile ?? byApi});
+    await choose(view);
     if (wanted.pass && (chosen.pass?.name ?? everyPass) !== wanted.pass) throw new Error(`The link's pass ${wanted.pass} is made by the host: it cannot run here.`);
   } catch (error) {
     await chooseHere({profile: byApi});
