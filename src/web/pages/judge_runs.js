@@ -74,7 +74,8 @@ export class Runs {
     const given = {pack: at(packPath, folder), port: at([packPath, "packs", "spirv"].includes(port.name) ? `port/${port.name}` : port.name, port),
                    spirv: spirv && at(`spirv/${spirv.name}`, spirv)};
     const result = await until(signal, this.#engine.run("judgeFolder", {...given, ...options}, {onProgress: (done, of) => done < of ? this.#working("Judging", done, of) : this.#working("Looking for causes, and drawing")}));
-    this.#outcome.show(result, `${pack.name}-${name}-${options.profile}`, {hint, command: options.passes ? "" : commandOf(given, options)});
+    const command = options.passes ? "" : commandOf(given, options);
+    this.#outcome.show(withCommand(result, command), `${pack.name}-${name}-${options.profile}`, {hint, command});
     $("result").scrollIntoView({block: "start"});
   }
 
@@ -126,4 +127,11 @@ export class Runs {
 /// What judges the same natively, where packs/ holds the site's packs.
 function commandOf({pack, port, spirv}, {profile, partial}) {
   return ["rainref", "validate", pack.path, "--port", port.path, "--profile", profile, ...(partial ? ["--partial"] : []), ...(spirv ? ["--spirv", spirv.path] : [])].map(shellWord).join(" ");
+}
+/// The reports with the command, for which the C library has no option: it leaves the text "" of JSON and of the page, and JUnit's property out.
+function withCommand({text, json, html, junit}, command) {
+  if (command === "") return {text, json, html, junit};
+  const marked = command.replace(/[&<>"']/g, c => `&#${c.charCodeAt(0)};`), quoted = JSON.stringify(command).replaceAll("<", "\\u003c");
+  const given = page => page.replace('"command": ""', () => `"command": ${quoted}`);
+  return {text, json: given(json), html: given(html), junit: junit.replaceAll("    </properties>\n", () => `      <property name="command" value="${marked}"/>\n    </properties>\n`)};
 }
