@@ -4,7 +4,7 @@ import assert from "node:assert";
 import fs from "node:fs";
 import {checkCensus} from "../../examples/ports/wgsl/census/check.js";
 import {habitRows} from "../../examples/ports/wgsl/census/words.js";
-import {launch, serve, textOf} from "./browser.mjs";
+import {expectAccessible, launch, serve, textOf} from "./browser.mjs";
 
 const [folder, browserName, , root] = process.argv.slice(2);
 const packs = ["edge_splash-corrected", "rainy_glass-corrected"];
@@ -79,6 +79,7 @@ try {
   });
   assert.strictEqual(downloaded, await page.$eval("#json", area => area.value));
 
+  await expectAccessible(page);
   // Nothing is cut off on a narrow screen.
   await page.setViewport({width: 390, height: 800});
   assert(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), "the page is wider than the screen");

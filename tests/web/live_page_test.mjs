@@ -5,7 +5,7 @@ import {spawnSync} from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
-import {click, expectReadable, launch, open, serve, stepsIn, textOf} from "./browser.mjs";
+import {click, expectAccessible, expectReadable, launch, open, serve, stepsIn, textOf} from "./browser.mjs";
 
 const [folder, name, rainref, sources, shots] = process.argv.slice(2);
 const site = await serve(path.resolve(folder)), browser = await launch(name), step = stepsIn(name), errors = [];
@@ -288,6 +288,7 @@ try {
       const other = await ready("rainy_glass/default.toml", "320x180", width);
       await other.waitForSelector("#gallery img");
       await expectReadable(other);
+      await expectAccessible(other);
       await shot(other, "start");
       await other.close();
     }

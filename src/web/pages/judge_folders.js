@@ -19,11 +19,13 @@ export async function packOf(folder) {
   expect(isObject(manifest), at, "an object", manifest);
   const {format, effect, variant, scene, passes, cases} = manifest;
   expect(format === "rainref.pack", `${at}: format`, '"rainref.pack"', format);
-  for (const [key, value] of Object.entries({effect, variant, scene})) expect(isName(value), `${at}: ${key}`, "a name", value);
+  expect(isName(effect), `${at}: effect`, "a name", effect);
+  for (const [key, value] of Object.entries({variant, scene})) expect(typeof value === "string", `${at}: ${key}`, "a text", value);
   for (const [key, value] of Object.entries({passes, cases})) expect(Array.isArray(value) && value.length > 0, `${at}: ${key}`, "a list that is not empty", value);
   passes.forEach((pass, k) => {
     expect(isObject(pass), `${at}: passes[${k}]`, "an object", pass);
-    for (const key of ["name", "sentence", "formula"]) expect(isName(pass[key]), `${at}: passes[${k}].${key}`, "a text", pass[key]);
+    expect(isName(pass.name), `${at}: passes[${k}].name`, "a name", pass.name);
+    for (const key of ["sentence", "formula"]) expect(typeof pass[key] === "string", `${at}: passes[${k}].${key}`, "a text", pass[key]);
   });
   cases.forEach((oneCase, k) => {
     expect(isObject(oneCase), `${at}: cases[${k}]`, "an object", oneCase);
