@@ -91,6 +91,7 @@ function show() {
   const cases = pass ? pass.cases : pack.passes.reduce((sum, p) => sum + p.cases, 0);
   $("sentence").textContent = `${pass ? pass.sentence : `Pack of ${pack.scene}.`} ${cases} case${cases === 1 ? "" : "s"}.`;
   $("link-state").textContent = "";
+  showButtons();
   showPort();
   document.documentElement.dataset.shown = `${pack.id} ${pass?.name ?? everyPass}`;  // for who drives the page
   if ($("bindings").open) showBindings().catch(error => outcome.fail(error.message));
@@ -163,8 +164,9 @@ async function followLink() {
 // ---- judging ----
 
 function showButtons() {
-  $("run").disabled = runs.isRunning || !navigator.gpu;
-  $("judge-folder").disabled = runs.isRunning || port === null;
+  $("run").disabled = runs.isRunning || !chosen || !navigator.gpu;
+  $("judge-folder").disabled = runs.isRunning || !chosen || port === null;
+  $("copy-link").disabled = !chosen;
 }
 /// The profile of a folder is its port's, unless the visitor chose one.
 const folderProfile = () => $("profile").value || port.profile || "vulkan";
