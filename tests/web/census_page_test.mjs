@@ -85,6 +85,15 @@ try {
   assert(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), "the page is wider than the screen");
   await page.close();
 
+  // Each page that needs JavaScript says so without it: what DOMParser makes runs no script.
+  const words = await browser.newPage();
+  await words.goto(`${site.url}index.html`);
+  for (const name of ["census", "judge", "live"]) {
+    const said = await words.evaluate(async path => new DOMParser().parseFromString(await (await fetch(path)).text(), "text/html").querySelector("noscript p")?.textContent, `${name}.html`);
+    assert.strictEqual(said, "This page needs JavaScript.", name);
+  }
+  await words.close();
+
   // A port that is wrong FAILs; one that does not compile is NOT RUN, with the line; the other passes are judged.
   const wrong = async (...change) => {
     const page = await open({before: changedShader, given: change, only: [packs[0]]});

@@ -2,7 +2,7 @@
 import path from "node:path";
 import {launch, open, serve, stepsIn, textOf} from "./browser.mjs";
 
-export const mostMs = 60000;
+export const mostMs = 120000;
 
 /// The arguments of a test of this page, SITE chromium|firefox RAINREF SOURCES [SHOTS], with the page's site served and the browser started.
 export async function started() {
