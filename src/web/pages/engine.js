@@ -9,16 +9,18 @@ import {Cancelled} from "./cancelled.js";
 import {publishedName} from "./names.js";
 
 const compiled = new Map();
-/// The WebAssembly module of that name, downloaded and compiled once for the page. rainref_module is the library; rainref_simulator is its
-/// simulating part, which is smaller.
+/// {module, identity}: the WebAssembly module of that name, downloaded and compiled once for the page, and the hash of its bytes; null where the
+/// browser computes none. rainref_module is the library; rainref_simulator is its simulating part, which is smaller.
 export function loadLibrary(name = "rainref_module") {
   if (compiled.has(name)) return compiled.get(name);
   const loaded = (async () => {
     const url = new URL(publishedName(`${name}.wasm`), import.meta.url), answer = await fetch(url);
     if (!answer.ok) throw new Error(`${url.pathname}: ${answer.status} ${answer.statusText}`);
+    const bytes = answer.clone().arrayBuffer();
     // Works also if the server does not know the MIME type.
-    if (answer.headers.get("content-type") === "application/wasm") return WebAssembly.compileStreaming(answer);
-    return WebAssembly.compile(await answer.arrayBuffer());
+    const compiling = answer.headers.get("content-type") === "application/wasm" ? WebAssembly.compileStreaming(answer) : bytes.then(WebAssembly.compile);
+    const [module, hash] = await Promise.all([compiling, bytes.then(all => globalThis.crypto?.subtle?.digest("SHA-256", all) ?? null)]);
+    return {module, identity: hash && Array.from(new Uint8Array(hash), byte => byte.toString(16).padStart(2, "0")).join("")};
   })();
   compiled.set(name, loaded);
   loaded.catch(() => compiled.delete(name));  // the next call tries again
@@ -39,10 +41,12 @@ export class Engine {
     this.#library = library;
   }
   get library() { return this.#library; }
+  /// How often the worker ended, and with it all that it held.
+  get ended() { return this.#ended; }
 
   /// Loads the library; the first run does so too.
   async start() {
-    const module = await loadLibrary(this.#library);
+    const {module, identity} = await loadLibrary(this.#library);
     if (this.#worker) return;
     const worker = this.#worker = new Worker(new URL("engine_worker.js", import.meta.url));
     worker.onmessage = ({data}) => {
@@ -51,12 +55,14 @@ export class Engine {
       if (!call) return;
       if (data.progress) return call.onProgress?.(...data.progress);
       this.#waiting.delete(data.call);
-      if (data.error) call.reject(Object.assign(new Error(data.error.message), data.error));
-      else call.resolve(data.result);
-      if (data.isTrap) this.#end(new Error(data.error.message));
+      if (!data.error) return call.resolve(data.result);
+      const error = Object.assign(new Error(data.error.message), data.error);
+      // What a defect left in the library's memory is not to be trusted.
+      if (error.name === "Defect") this.#end(error);
+      call.reject(error);
     };
     worker.onerror = event => this.#end(new Error(event.message || "the worker could not be started"));
-    worker.postMessage({module, glue: publishedName(`${this.#library}.js`), operations: new URL(this.#operations, import.meta.url).href});
+    worker.postMessage({module, identity, glue: publishedName(`${this.#library}.js`), operations: new URL(this.#operations, import.meta.url).href});
   }
 
   /// Calls an operation; calls run one after the other. Rejects with the operation's error (with `code` if the library gave one), or

@@ -1,10 +1,14 @@
 // The live page: a scene that the reference simulates, its controls, and the lines that the native program prints for the same frame.
-// live.html?scene=puddle/default.toml&size=640x360&set=rain.rate=20 opens that scene, with values of keys. A preset is such values.
+// live.html?scene=puddle/default.toml&size=640x360&set=rain.rate=20&frame=100 opens that scene, with values of keys, and simulates up to that frame.
+import {Busy} from "./live_busy.js";
 import {FilmRow} from "./live_film.js";
+import {shownGallery} from "./live_gallery.js";
+import {copied, edited, Lines, saveAs} from "./live_lines.js";
+import {addressOf, wantedBy} from "./live_link.js";
 import {LiveRun} from "./live_run.js";
 import {SceneList, sceneOfFiles} from "./live_scenes.js";
+import {FullScreen} from "./live_screen.js";
 import {Parameters} from "./parameters.js";
-import {shownGallery} from "./live_gallery.js";
 import {element} from "./report_words.js";
 import {tomlOf} from "./scene_values.js";
 
@@ -13,60 +17,36 @@ const option = (text, value = text) => element("option", {value}, text);
 const kinds = ["weather", "light"];  // of presets
 const fileSizes = ["1280x720", "960x540", "640x360", "480x270", "320x180", "160x90"];
 
-const run = new LiveRun(), scenes = new SceneList(), parameters = new Parameters(part("parameters"), changeParameter);
+const run = new LiveRun(), scenes = new SceneList(), busy = new Busy(), lines = new Lines(run), parameters = new Parameters(part("parameters"), changeParameter);
 let playing = false, shownTimes = [], stopped = Promise.resolve();
 let comparison = null;  // promise of it, where ports run beside the scene
+let film = null;
 let begun = 0;          // how often a scene began, or began again
+let tried = null;       // the scene that was to be opened last
 
 function showError(id, error) {
   part(id).textContent = error?.message ?? "";
   part(id).hidden = !error;
 }
-function setBusy(text) {
-  part("busy").textContent = text;
-  part("busy").hidden = text === "";
-}
-/// Shows a message only for noticeable delays, so that a fast frame does not flicker.
-async function whileBusy(text, work, delay = 250) {
-  const timer = setTimeout(() => setBusy(text), delay);
-  try {
-    return await work();
-  } finally {
-    clearTimeout(timer);
-    setBusy("");
-  }
-}
+const leave = () => run.cancel();
 
 // ---- frames ----
 
-function showPicture({width, height, picture}) {
-  const canvas = part("picture");
+function showFrame(shown) {
+  const {width, height, picture} = shown, canvas = part("picture");
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
   canvas.getContext("2d").putImageData(new ImageData(picture, width, height), 0, 0);
-}
-function showFrame(shown) {
-  showPicture(shown);
-  const [width, height] = run.pictureSize;
+  busy.showFrames();
   const perSecond = Math.min(1000 / shown.milliseconds, framesPerSecond());
   const rate = playing && shownTimes.length > 2 ? `, ${perSecond.toFixed(perSecond < 10 ? 1 : 0)} frames a second` : "";
   part("state").textContent = `frame ${run.frame}, ${width} x ${height}, ${shown.milliseconds.toFixed(0)} ms${rate}`;
-  const hasLines = shown.lines !== undefined;
-  part("no-hashes").hidden = hasLines;
-  part("hashes").hidden = !hasLines;
-  part("no-hashes").textContent = hasLines ? "" : "This frame's buffers went to the port and were not hashed. The next step has its lines again.";
-  const rows = (shown.lines ?? []).map(line => element("tr", {}, line.split(" ").slice(1).map(text => element("td", {}, text))));
-  part("hashes").tBodies[0].replaceChildren(...rows);
-  showCommand();
+  lines.show(shown.lines);
 }
 /// The preset of each kind, as the keys say now.
 function showPresets() {
   for (const kind of kinds) scenes.presets.show(part(kind), kind, opened(), run.info.variant);
 }
 const opened = () => ({effect: run.info.effect, sets: run.sets});
-function showCommand() {
-  part("command").textContent = run.command();
-  part("changed").hidden = !run.changedLate;
-}
 /// For the last frames shown.
 function framesPerSecond() {
   const span = shownTimes[shownTimes.length - 1] - shownTimes[0];
@@ -75,12 +55,19 @@ function framesPerSecond() {
 
 /// The next frame; null if it failed, after showing the error.
 async function computed() {
+  const isFirst = run.frame < 0;
   try {
-    return await whileBusy("Computing a frame…", () => run.step());
+    return await busy.during(isFirst ? "Computing the first frame…" : "Computing a frame…", () => run.step(),
+      {cancel: leave, delay: playing ? 700 : 250, as: isFirst ? workOf("frame", run.scene, run.sets, run.size) : null});
   } catch (error) {
-    if (error.name !== "Cancelled") showError("run-error", error);
+    if (error.name === "Cancelled") showLeft();
+    else showError("run-error", error);
     return null;
   }
+}
+/// After Cancel, or a newer wish.
+function showLeft() {
+  if (run.info !== null && run.frame < 0) part("state").textContent = "Cancelled. Play or Step begins the scene again.";
 }
 function showNext(shown) {
   shownTimes = [...shownTimes.slice(-19), performance.now()];
@@ -116,25 +103,72 @@ function setPlaying(now) {
   part("step").disabled = now;
   if (now) stopped = play();
 }
+/// Simulates up to a frame, shows each, and stays at the one where it was cancelled.
+async function runTo(last) {
+  const mine = begun;
+  let isLeft = false;
+  while (!isLeft && mine === begun && run.frame < last) {
+    busy.counted("Simulating: frame", run.frame + 1, last + 1, () => { isLeft = true; });
+    try {
+      const shown = await run.step();
+      if (mine === begun) showNext(shown);
+    } catch (error) {
+      if (error.name !== "Cancelled") showError("run-error", error);
+      isLeft = true;
+    }
+  }
+  if (mine === begun) busy.hide();
+}
 
 // ---- scenes ----
+
+/// A name for work that takes as long each time.
+const workOf = (what, scene, sets, size) => `${what} ${scene?.path ?? "own"} ${size} ${sets?.get("variant") ?? ""}`;
+/// The scene as it runs: its controls say what holds, also after another was refused.
+function showOpened() {
+  const {scene} = run, known = scenes.entry(scene.path);
+  part("variant").value = run.info.variant;
+  part("size").value = run.size;
+  part("scene").value = known?.path ?? "";
+  showPresets();
+}
+/// The page's address leads to the scene with its keys.
+function showAddress() {
+  history.replaceState(null, "", addressOf({scene: scenes.entry(run.scene.path)?.path ?? null, size: run.size, sets: run.sets}));
+}
 
 /// Opens a scene and shows frame 0, replacing the running one; false if it is refused, after showing the error, or another was opened.
 async function open(scene, options) {
   const mine = ++begun;
   setPlaying(false);
+  film?.abort();
   showError("scene-error", null);
-  const effect = run.info?.effect, variant = run.info?.variant, isFirst = run.info === null;
+  showError("run-error", null);
+  tried = scene;
+  const effect = run.info?.effect, variant = run.info?.variant, isFirst = run.info === null, sets = options?.sets ?? new Map();
+  // Of another scene, its picture is shown until its first frame.
+  if (scene.path !== run.scene?.path || isFirst) busy.standIn(scenes.entry(scene.path)?.picture ?? null);
   try {
-    const whole = await scenes.withPresets(scene, options?.sets ?? new Map());
+    const whole = await scenes.withPresets(scene, sets);
     if (mine !== begun) return false;
-    await whileBusy("Opening the scene…", () => run.open(whole, options), 100);
+    await busy.during("Opening the scene…", () => run.open(whole, options), {cancel: leave, delay: 100, as: workOf("open", scene, sets, options?.size ?? run.size)});
   } catch (error) {
-    showError("scene-error", error);
-    if (run.frame < 0 && run.info) await step();  // the scene that stays showed no frame yet
+    if (mine !== begun) return false;
+    if (run.info !== null) {
+      busy.showFrames();
+      showOpened();
+    }
+    if (error.name === "Cancelled") {
+      if (run.info === null) part("state").textContent = "Cancelled. Choose a scene.";
+      showLeft();
+    } else {
+      showError("scene-error", error);
+      if (run.frame < 0 && run.info) await step();  // the scene that stays showed no frame yet
+    }
     return false;
   }
   await stopped;
+  if (mine !== begun) return false;
   part("state").textContent = "";
   const {description} = run;
   if (isFirst || effect !== run.info.effect || variant !== run.info.variant) {
@@ -144,23 +178,19 @@ async function open(scene, options) {
     part("pass").value = passes[passes.length - 1].name;
     parameters.build(description, run.values, run.info.variant);
     parameters.find(part("find").value);
+    part("slow-note").hidden = !parameters.hasSlow;
   }
   parameters.update(run.values);
-  part("variant").value = run.info.variant;
-  part("size").value = run.size;
   part("text").value = scene.text;
-  const known = scenes.entry(scene.path);
-  part("scene").value = known?.path ?? "";
-  const said = kinds.map(kind => scenes.presets.chosen(kind, opened())?.sentence).filter(Boolean);
+  showOpened();
+  const known = scenes.entry(scene.path), said = kinds.map(kind => scenes.presets.chosen(kind, opened())?.sentence).filter(Boolean);
   part("about").textContent = [known?.sentence ?? `${scene.file}: a scene of yours.`, ...said.map(text => `${text}.`)].join(" ");
-  showPresets();
   part("warnings").replaceChildren(...run.info.warnings.map(text => element("li", {}, text)));
   part("warnings").hidden = run.info.warnings.length === 0;
-  for (const id of ["scene", "variant", "save", "play", "step", "reset"]) part(id).disabled = false;
+  for (const id of ["scene", "variant", "save", "play", "step", "reset", "copy-link"]) part(id).disabled = false;
+  part("link-state").textContent = "";
   (await comparison)?.ready();
-  const address = new URL(location), sets = [...run.sets].map(([key, toml]) => ["set", `${key}=${toml}`]);
-  address.search = known ? new URLSearchParams([["scene", known.path], ...(run.size === "automatic" ? [] : [["size", run.size]]), ...sets]) : "";
-  history.replaceState(null, "", address);
+  showAddress();
   if (mine === begun) await step();
   return true;
 }
@@ -182,11 +212,10 @@ async function openFiles(list) {
 }
 async function changeVariant(variant) {
   const {scene} = run, {effect} = run.info, sets = new Map([...run.sets, ["variant", JSON.stringify(variant)]]);
-  if (await open(scene, {sets})) return;
+  if (await open(scene, {sets}) || part("scene-error").hidden) return;
   // Most scenes have keys that only one variant has.
   const path = `${effect}/${variant === "corrected" ? "default" : "as_published"}.toml`;
   if (await openListed(path)) part("about").textContent = `${scene.file} says keys that ${variant} does not have, so this is ${path}: ${part("about").textContent}`;
-  else part("variant").value = run.info.variant;
 }
 
 // ---- parameters ----
@@ -203,13 +232,18 @@ async function changeParameter(key, toml) {
   try {
     for (let value = null; value !== waiting.get(key);) {
       value = waiting.get(key);
-      await run.set(key, value);
-      showCommand();
+      await busy.during("Setting the key…", () => run.set(key, value), {cancel: leave});
+      lines.showCommand();
       showPresets();
       if (value === waiting.get(key)) parameters.update(run.values);
       if (!playing && scene === begun) await step();
     }
+    showAddress();
   } catch (error) {
+    if (error.name === "Cancelled") {
+      parameters.update(run.values);
+      return showLeft();
+    }
     const value = waiting.get(key);
     error.restart = async () => {
       ++begun;
@@ -218,6 +252,7 @@ async function changeParameter(key, toml) {
       await run.restartWith(key, value);
       parameters.update(run.values);
       showPresets();
+      showAddress();
       await step();
     };
     throw error;
@@ -242,51 +277,60 @@ async function newComparison() {
 async function reset() {
   const mine = ++begun;
   setPlaying(false);
+  film?.abort();
   showError("run-error", null);
   part("state").textContent = "";
   try {
-    await whileBusy("Starting again…", () => run.reset(), 100);
+    await busy.during("Starting again…", () => run.reset(), {cancel: leave, delay: 100});
   } catch (error) {
-    return showError("run-error", error);
+    if (mine !== begun) return;
+    return error.name === "Cancelled" ? showLeft() : showError("run-error", error);
   }
   await stopped;
   if (mine === begun) await step();
 }
-part("play").onclick = () => setPlaying(!playing);
-part("step").onclick = () => step();
+async function copyLink() {
+  const known = scenes.entry(run.scene.path);
+  if (!known) return void (part("link-state").textContent = "A link cannot hold a scene of yours: save it as TOML.");
+  const address = addressOf({scene: known.path, size: run.size, sets: run.sets, frame: run.frame}).href;
+  const late = run.changedLate && run.frame > 0 ? " Parameters were changed while the scene ran; the link has them from the first frame on." : "";
+  part("link-state").textContent = (await copied(address) ? `Copied: scene, keys, size and frame ${Math.max(0, run.frame)}.` : address) + late;
+}
+part("play").onclick = () => {
+  film?.abort();
+  setPlaying(!playing);
+};
+part("step").onclick = () => {
+  film?.abort();
+  step();
+};
 part("reset").onclick = () => reset();
+part("copy-link").onclick = () => copyLink();
+new FullScreen(part("full-screen"), part("stage"));
 document.addEventListener("keydown", event => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, textarea, summary, [contenteditable]")) return;
-  const button = {" ": "play", ".": "step", r: "reset", R: "reset"}[event.key];
+  const button = {" ": "play", ".": "step", r: "reset", R: "reset", f: "full-screen", F: "full-screen"}[event.key];
   if (!button || (event.key === " " && event.target.closest("button, a"))) return;
   event.preventDefault();
-  if (!part(button).disabled) part(button).click();
+  if (!part(button).disabled && !part(button).hidden) part(button).click();
 });
+part("more").onclick = () => {
+  const isShown = part("more-choices").classList.toggle("shown");
+  part("more").setAttribute("aria-expanded", String(isShown));
+};
 part("scene").onchange = () => {
   const {effect, variant} = scenes.entry(part("scene").value);
-  openListed(part("scene").value, {sets: variant === "corrected" ? scenes.presets.carried(opened(), effect) : new Map()});
+  openListed(part("scene").value, {sets: variant === "corrected" && run.info ? scenes.presets.carried(opened(), effect) : new Map()});
 };
 for (const kind of kinds) part(kind).onchange = () => open(run.scene, {sets: scenes.presets.replaced(kind, part(kind).value, opened())});
 part("variant").onchange = () => changeVariant(part("variant").value);
-part("size").onchange = () => open(run.scene, {sets: run.sets, size: part("size").value});
+// A scene that could not be opened with the size before is tried again.
+part("size").onchange = () => { if (tried) open(run.scene ?? tried, {sets: run.scene ? run.sets : wanted.sets, size: part("size").value}); };
 part("choose").onclick = () => part("files").click();
 part("files").onchange = () => openFiles(part("files").files).then(() => { part("files").value = ""; });
-part("open-text").onclick = () => open({...run.scene, path: null, text: part("text").value});
+part("open-text").onclick = () => open(part("text").value === run.scene.text ? run.scene : edited(run.scene, part("text").value));
 part("find").oninput = () => parameters.find(part("find").value);
-part("save").onclick = () => {
-  const address = URL.createObjectURL(new Blob([tomlOf(run.values, run.description)], {type: "application/toml"}));
-  element("a", {href: address, download: `${run.info.effect}.toml`}).click();
-  URL.revokeObjectURL(address);
-};
-part("copy").onclick = async () => {
-  try {
-    await navigator.clipboard.writeText(part("command").textContent);
-    part("copied").textContent = "copied";
-  } catch {
-    getSelection().selectAllChildren(part("command"));
-    part("copied").textContent = "selected: this browser leaves copying to you";
-  }
-};
+part("save").onclick = () => saveAs(tomlOf(run.values, run.description), "application/toml", `${run.info.effect}.toml`);
 addEventListener("dragover", event => event.preventDefault());
 addEventListener("drop", event => {
   event.preventDefault();
@@ -297,32 +341,42 @@ addEventListener("drop", event => {
 function showOffers() {
   const offers = what => run.offers.includes(what);
   if (run.where) part("where").textContent = run.where;
-  if (offers("film")) new FilmRow(run, {before: () => setPlaying(false)});
+  film = new FilmRow(run, {before: () => setPlaying(false), shown: showNext});
   if (offers("ports")) comparison = newComparison();
   part("ports").hidden = !offers("ports");
-  part("pages").hidden = !offers("site");
+  // The address of `rainref view` is its user's secret: no link to pass on.
+  part("pages").hidden = part("copy-link").hidden = !offers("site");
   part("read-files").hidden = offers("pictures");
 }
+const wanted = wantedBy(location.search);
 async function start() {
   part("size").append(option("automatic"), ...fileSizes.map(size => option(size.replace("x", " x "), size)), option("as the scene says", "scene"));
-  const wanted = new URLSearchParams(location.search);
   try {
-    await Promise.all([scenes.load(), run.start()]);
+    await busy.during("Loading the library…", async () => {
+      const loading = run.start();
+      loading.catch(() => {});
+      await scenes.load();
+      busy.standIn(scenes.entry(wanted.scene)?.picture ?? null);
+      await loading;
+    }, {cancel: leave, delay: 0, as: "library"});
     showOffers();
   } catch (error) {
-    setBusy("");
-    return showError("run-error", error);
+    return showError("run-error", error.name === "Cancelled" ? new Error("Cancelled. Load the page again to start.") : error);
   }
   scenes.show(part("scene"));
-  const size = wanted.get("size") ?? "automatic", sets = new Map(wanted.getAll("set").map(text => [text.slice(0, text.indexOf("=")), text.slice(text.indexOf("=") + 1)]));
-  if (![...part("size").options].some(o => o.value === size)) part("size").append(option(size));
+  if (![...part("size").options].some(o => o.value === wanted.size)) part("size").append(option(wanted.size));
+  part("size").value = wanted.size;
+  part("scene").value = scenes.entry(wanted.scene)?.path ?? "";
   part("scene").disabled = false;
-  await openListed(wanted.get("scene") ?? "puddle/default.toml", {size, sets});
+  if (await openListed(wanted.scene, wanted)) {
+    if (wanted.error) showError("scene-error", wanted.error);
+    else if (wanted.frame > 0) await runTo(wanted.frame);
+  }
   // Its pictures load after the frame that the visitor waits for.
   part("gallery-section").hidden = !scenes.all.some(({picture}) => picture);
   shownGallery(part("gallery"), scenes.all, path => {
     openListed(path);
-    part("scene-title").scrollIntoView();
+    part("stage").scrollIntoView();
   });
 }
 start();

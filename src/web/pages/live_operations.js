@@ -1,6 +1,7 @@
 // Operations of the live page on the library: a running scene, its picture, its lines of hashes, and cases of a pass for a port. engine.js
 // says how they are called. Names and bytes only: the page draws, and runs ports.
 import {structs} from "./c_library.js";
+import {KeptImages} from "./kept_images.js";
 import {addCases, judgeCases} from "./live_cases.js";
 
 Object.assign(structs, {
@@ -17,7 +18,7 @@ Object.assign(structs, {
                     ["sampled", "i64"]],
 });
 
-let simulation = 0;
+let simulation = 0, kept = null, keptFor = null;
 const opened = library => {
   if (simulation === 0) throw new Error("no scene is open");
   return simulation;
@@ -33,7 +34,10 @@ export function describe(library) {
 
 /// Opens the scene `text` in place of the running one, which stays if the new one is refused. `sets`: ["key=value", ...]. `file`: its name
 /// in errors. `files`: [{path, bytes}] that it may name, relative to the folder of `file`.
-export function open(library, {text, file, sets = [], files = []}) {
+export async function open(library, {text, file, sets = [], files = []}) {
+  kept ??= new KeptImages(library);
+  keptFor = [file, ...sets.filter(set => /^run\.(size|supersample)=/.test(set))].join(" ");
+  await kept.bring(keptFor);
   const {FS} = library.module, folder = "/scenes";
   for (const {path, bytes} of files) {
     const to = `${folder}/${path}`;
@@ -102,6 +106,9 @@ export function step(library) {
   const begin = performance.now();
   const lines = library.text(library.out("rr_next_frame_hashes", opened(library))).trimEnd().split("\n");
   const milliseconds = performance.now() - begin, shown = picture(library);
+  // What the first frame needed has been made. The answer goes first.
+  if (keptFor !== null) setTimeout(kept.keep.bind(kept, keptFor));
+  keptFor = null;
   return {result: {lines, milliseconds, ...shown}, transfer: [shown.picture.buffer]};
 }
 

@@ -5,6 +5,8 @@ import {shownValue, tomlValue} from "./scene_values.js";
 // These have controls of their own.
 const elsewhere = new Set(["effect", "variant", "run.size", "run.frames"]);
 const sliderSteps = 1000;
+/// A change makes things anew that other frames share: rr_describe lists them.
+const isSlow = ({makes}) => makes?.length > 0;
 
 /// What a slider shows: value = low + (high - low) t^power, where t runs from 0 to 1. Ranges say what is allowed, which is often far more than is
 /// of use; the power puts the default at a third where it would lie near the lower end.
@@ -40,18 +42,21 @@ export class Parameters {
       if (!groups.has(section)) groups.set(section, []);
       groups.get(section).push(this.#row(parameter, variant));
     }
-    // What the effect is about comes first, how it is run and seen last.
-    const order = [description.effect, "rain", "drops", "flow"], last = ["camera", "display", "compositor", "sequence", "run"];
+    // The rain comes first, then what the effect is about; how it is run and seen comes last.
+    const order = ["rain", description.effect, "drops", "flow"], last = ["camera", "display", "compositor", "sequence", "run"];
     const place = section => order.includes(section) ? order.indexOf(section) - order.length : 1 + last.indexOf(section);
     const sorted = [...groups].sort(([a], [b]) => place(a) - place(b));
     this.#root.replaceChildren(...sorted.map(([section, rows], k) => {
       const details = element("details", {}, element("summary", {}, section.replaceAll("_", " ")), rows);
-      details.open = k === 0 && rows.length < 24 || section === "rain";
+      details.open = k === 0 || section === description.effect && rows.length < 24;
       details.dataset.section = section;
       return details;
     }));
     this.update(values);
   }
+
+  /// A key is marked as slow.
+  get hasSlow() { return [...this.#rows.values()].some(({parameter}) => isSlow(parameter)); }
 
   /// Shows the values that the scene has now.
   update(values) {
@@ -94,7 +99,8 @@ export class Parameters {
     const show = this.#inputs(parameter, standard, id, inputs, change);
     const shownUnit = unit === "" || unit === "1" ? "" : unit;
     const row = element("div", {class: "parameter", title: tip, "data-key": name},
-      element("div", {class: "top-line"}, element("label", {for: id, class: "name"}, name.slice(name.indexOf(".") + 1).replaceAll("_", " ")), element("span", {class: "unit"}, shownUnit)),
+      element("div", {class: "top-line"}, element("label", {for: id, class: "name"}, name.slice(name.indexOf(".") + 1).replaceAll("_", " ")), element("span", {class: "unit"}, shownUnit,
+        isSlow(parameter) && element("span", {class: "slow", title: `A change makes again: ${parameter.makes.join(", ")}.`}, "slow"))),
       inputs, error, element("p", {class: "sentence"}, sentence));
     const showAll = toml => {
       show(toml);

@@ -38,11 +38,14 @@ async function* messagesOf(answer) {
 export class Engine {
   #session = newSession();
   #running = new Set();  // to abort
+  #ended = 0;
 
   constructor() {
     addEventListener("pagehide", ({persisted}) => { if (!persisted) this.#close(); });
   }
   get library() { return "program"; }
+  /// How often the session was left.
+  get ended() { return this.#ended; }
 
   async start() {}
 
@@ -73,6 +76,7 @@ export class Engine {
 
   /// Leaves the running operations and their scene; the next run begins a new one.
   cancel() {
+    ++this.#ended;
     for (const aborting of this.#running) aborting.abort();
     this.#close();
     this.#session = newSession();

@@ -1,0 +1,88 @@
+// Images that the library makes slowly and keeps (rr_keep_images: the street around a puddle), in the browser's storage until the next visit. They are
+// never required: a browser without storage makes them again. It runs in the worker, whose file system in memory holds the library's folder.
+
+const folder = "/kept", code = "/rainref.wasm";  // where the library expects its own file, by which it knows images of another build
+const mostBytes = 256e6;
+
+const done = request => new Promise((resolve, reject) => {
+  request.onsuccess = () => resolve(request.result);
+  request.onerror = () => reject(request.error);
+});
+
+export class KeptImages {
+  #fs;
+  #store = null;   // promise of the database; null: nothing is kept
+  #index = null;   // {identity, images: {name: {bytes, used}}, scenes: {scene: [name, ...]}}
+
+  /// Before the library opens its first scene.
+  constructor(library) {
+    this.#fs = library.module.FS;
+    if (!library.identity || typeof indexedDB === "undefined") return;
+    this.#fs.writeFile(code, library.identity);
+    this.#fs.mkdirTree(folder);
+    library.call("rr_keep_images", folder);
+    this.#store = this.#opened(library.identity);
+    this.#store.catch(() => { this.#store = null; });
+  }
+
+  /// Gives the library what `scene`, any name, used when it ran before.
+  async bring(scene) {
+    try {
+      const {images = {}, scenes = {}} = await this.#store && this.#index || {};
+      for (const name of scenes[scene] ?? []) {
+        const bytes = await this.#in("readonly", store => store.get(name));
+        if (!bytes) continue;
+        this.#fs.writeFile(`${folder}/${name}`, bytes);
+        this.#fs.chmod(`${folder}/${name}`, 0o600);
+        images[name].used = Date.now();
+      }
+    } catch {
+      // They are made again.
+    }
+  }
+
+  /// Keeps what lies in the folder for `scene`, and gives up the least recently used beyond mostBytes. The memory of the files is freed: the library
+  /// holds what it uses.
+  async keep(scene) {
+    if (!this.#store) return;
+    const files = this.#fs.readdir(folder).filter(name => name.endsWith(".images")).map(name => ({name, bytes: this.#fs.readFile(`${folder}/${name}`)}));
+    for (const {name} of files) this.#fs.unlink(`${folder}/${name}`);
+    try {
+      await this.#store;
+      const {images, scenes} = this.#index, fresh = files.filter(({name}) => !images[name]), dropped = [];
+      for (const {name, bytes} of files) images[name] = {bytes: bytes.length, used: Date.now()};
+      scenes[scene] = [...new Set([...files.map(({name}) => name), ...scenes[scene] ?? []])].slice(0, 8);
+      let total = Object.values(images).reduce((sum, {bytes}) => sum + bytes, 0);
+      for (const [name, {bytes}] of Object.entries(images).sort(([, a], [, b]) => a.used - b.used)) {
+        if (total <= mostBytes) break;
+        total -= bytes;
+        delete images[name];
+        dropped.push(name);
+      }
+      for (const [name, used] of Object.entries(scenes)) if (!used.some(image => images[image])) delete scenes[name];
+      await this.#in("readwrite", store => {
+        for (const {name, bytes} of fresh) if (images[name]) store.put(bytes, name);
+        for (const name of dropped) store.delete(name);
+        return store.put(this.#index, "index");
+      });
+    } catch {
+      // No room: they are made again.
+    }
+  }
+
+  async #opened(identity) {
+    const request = indexedDB.open("rainref.kept", 1);
+    request.onupgradeneeded = () => request.result.createObjectStore("images");
+    const store = this.#database = await done(request);
+    this.#index = await this.#in("readonly", all => all.get("index"));
+    if (this.#index?.identity === identity) return store;
+    this.#index = {identity, images: {}, scenes: {}};
+    await this.#in("readwrite", all => all.clear());  // of another build: of no use any more
+    return store;
+  }
+  #database = null;
+  /// The result of the request that `action` makes of the store.
+  async #in(mode, action) {
+    return done(action(this.#database.transaction("images", mode).objectStore("images")));
+  }
+}
