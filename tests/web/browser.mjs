@@ -12,8 +12,8 @@ const types = {".html": "text/html", ".css": "text/css", ".js": "text/javascript
 
 /// Serves a folder as static hosts do, compressed by gzip; {url, bytes(), requests(), once(), close(), drop()}: bytes that were sent since they
 /// were asked for last, and the paths; once(path, status, body): the next request of that path gets this instead; drop() ends open
-/// connections too.
-export async function serve(folder) {
+/// connections too. `changed`: {path: changed(text)}: files that are served otherwise than they are.
+export async function serve(folder, changed = {}) {
   let bytes = 0, paths = [];
   const instead = new Map();
   const compressed = new Map();
@@ -31,7 +31,8 @@ export async function serve(folder) {
       return response.end();
     }
     const type = types[path.extname(file)];
-    if (!compressed.has(file)) compressed.set(file, type ? zlib.gzipSync(fs.readFileSync(file), {level: 6}) : fs.readFileSync(file));
+    const content = () => changed[name] ? Buffer.from(changed[name](fs.readFileSync(file, "utf8"))) : fs.readFileSync(file);
+    if (!compressed.has(file)) compressed.set(file, type ? zlib.gzipSync(content(), {level: 6}) : content());
     const body = compressed.get(file);
     bytes += body.length;
     response.writeHead(200, {"content-type": type ?? "application/octet-stream", ...(type ? {"content-encoding": "gzip"} : {})});

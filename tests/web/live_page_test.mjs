@@ -48,6 +48,17 @@ async function type(page, key, value) {
     field.dispatchEvent(new Event("change", {bubbles: true}));
   }, key, value);
 }
+/// What the page saves next, by this button: bytes.
+const savedBy = async (page, button) => Buffer.from(await page.evaluate(id => new Promise((done, failed) => {
+  const real = URL.createObjectURL;
+  URL.createObjectURL = blob => {
+    URL.createObjectURL = real;
+    blob.arrayBuffer().then(bytes => done([...new Uint8Array(bytes)]));
+    return real.call(URL, blob);
+  };
+  if (id === "film") new MutationObserver(() => failed(new Error(document.getElementById("film-error").textContent))).observe(document.getElementById("film-error"), {childList: true});
+  document.getElementById(id).click();
+}), button));
 const shot = async (page, what) => shots && page.screenshot({path: path.join(shots, `live-${what}-${page.viewport().width}-${name}.png`), fullPage: true});
 
 try {
@@ -133,7 +144,7 @@ try {
     const lines = await linesOf(page);
     await page.$eval("#text", e => { e.value = 'effect = "puddle"\nvariant = "corrected"\n[rain]\nrat = 4\n'; });
     await click(page, "#open-text");
-    assert.match(await shownError(page, "#scene-error"), /scenes\/puddle\/default\.toml:4:1.*rat.*rate/s);
+    assert.match(await shownError(page, "#scene-error"), /edited\.toml:4:1.*rat.*rate/s);
     assert.deepEqual(await linesOf(page), lines);
     await click(page, "#step");
     await atFrame(page, 1);
@@ -281,6 +292,302 @@ try {
     assert.match(await textOf(other, "#no-gpu"), /no WebGPU/);
     assert.equal(await other.$eval("#compare", e => e.disabled), true);
     await other.close();
+  });
+
+  await step("picture, buttons and knobs are on the first screen, the rest is folded", async () => {
+    for (const [width, height] of [[1280, 800], [390, 844]]) {
+      const other = await ready("puddle/default.toml", "320x180", width);
+      await other.setViewport({width, height});
+      const boxes = await other.evaluate(() => ["#scene", "#weather", "#light", "#picture", "#play", "#step", "#reset", '[data-key="rain.rate"]', '[data-key="rain.smallest_drop"] input']
+        .map(s => [s, document.querySelector(s).getBoundingClientRect()]).map(([s, {left, top, right, bottom}]) => ({s, left, top, right, bottom})));
+      for (const {s, left, top, right, bottom} of boxes)
+        assert(left >= 0 && top >= 0 && right <= width && bottom <= height && right > left, `${s} at ${width} x ${height}: ${[left, top, right, bottom]}`);
+      const picture = boxes.find(({s}) => s === "#picture"), share = (picture.right - picture.left) * (picture.bottom - picture.top) / (width * height);
+      assert(share > (width > 600 ? 0.35 : 0.2), `the picture takes ${share} of ${width} x ${height}`);
+      assert.deepEqual(await other.$$eval("#text-details, #hash-details, #ports, #film-row", all => all.map(e => e.open)), [false, false, false, false]);
+      // On a phone, what is chosen seldom is behind a button.
+      assert.equal(await other.$eval("#size", e => e.getBoundingClientRect().width > 0), width > 600);
+      if (width < 600) await other.click("#more");
+      assert.equal(await other.$eval("#size", e => e.getBoundingClientRect().width > 0), true);
+      await expectReadable(other);
+      await other.close();
+    }
+  });
+
+  await step("the scene's picture stands in until frame 0, and Cancel leaves the opening", async () => {
+    const other = await open(browser, site, "live.html?scene=windshield/default.toml&size=960x540", errors);
+    await other.waitForFunction(() => /Opening|Computing/.test(document.getElementById("busy-text").textContent) && !document.getElementById("busy").hidden, {timeout, polling: 20});
+    assert.match(await other.$eval("#stand-in", e => e.hidden ? "" : e.src), /gallery\/windshield_default\.jpg$/);
+    await click(other, "#cancel");
+    await other.waitForFunction(() => document.getElementById("state").textContent.startsWith("Cancelled."), {timeout});
+    assert.equal(await other.$eval("#busy", e => e.hidden), true);
+    // The page goes on: another scene, without the load of the first.
+    await other.select("#size", "160x90");
+    await other.select("#scene", "edge_splash/default.toml");
+    await other.waitForFunction(() => document.getElementById("command").textContent.includes("edge_splash"), {timeout, polling: 50});
+    await atFrame(other, 0);
+    assert.equal(await other.$eval("#stand-in", e => e.hidden), true);
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command")));
+    // A scene that is open and then left is begun again.
+    await other.evaluate(() => {
+      const wait = setInterval(() => {
+        const busy = document.getElementById("busy");
+        if (!busy.hidden && !document.getElementById("cancel").hidden) document.getElementById("cancel").click(), clearInterval(wait);
+      }, 10);
+    });
+    await other.select("#scene", "windshield/default.toml");
+    await other.waitForFunction(() => document.getElementById("state").textContent.startsWith("Cancelled."), {timeout});
+    const runs = await other.$eval("#scene", e => e.value);
+    await click(other, "#step");
+    await atFrame(other, 0);
+    assert(["edge_splash/default.toml", "windshield/default.toml"].includes(runs));
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command")));
+    await other.close();
+  });
+
+  await step("a link holds scene, keys, size and frame", async () => {
+    const native = natively("scenes/puddle/default.toml", "--size", "64x36", "--frames", "6", "--set", "rain.rate=60");
+    const other = await open(browser, site, "live.html?scene=puddle/default.toml&size=64x36&set=rain.rate=60&frame=5", errors);
+    await atFrame(other, 5);
+    assert.deepEqual(await linesOf(other), native[5]);
+    await other.evaluate(() => { navigator.clipboard.writeText = async text => { window.link = text; }; });
+    const copy = async () => {
+      await other.evaluate(() => { window.link = null; });
+      await click(other, "#copy-link");
+      return new URL(await (await other.waitForFunction(() => window.link, {timeout})).jsonValue()).search;
+    };
+    assert.equal(await copy(), "?scene=puddle%2Fdefault.toml&size=64x36&set=rain.rate%3D60&frame=5");
+    assert.match(await textOf(other, "#link-state"), /frame 5\.$/);
+    // A slider's value is in the address at once, and in the link, which says what it means.
+    await type(other, "rain.rate", "30");
+    await atFrame(other, 6);
+    await other.waitForFunction(() => location.search.endsWith("set=rain.rate%3D30"), {timeout});
+    assert.match(await copy(), /set=rain\.rate%3D30&frame=6$/);
+    assert.match(await textOf(other, "#link-state"), /changed while the scene ran/);
+    await other.close();
+    const cut = await open(browser, site, "live.html?scene=puddle/default.toml&size=64x36&frame=x1", errors);
+    assert.match(await shownError(cut, "#scene-error"), /frame: expected a whole number from 0 to 999999, found 'x1'/);
+    await atFrame(cut, 0);
+    await cut.close();
+    // A far frame: with progress, and left where Cancel finds it.
+    const far = await open(browser, site, "live.html?scene=puddle/default.toml&size=64x36&frame=90000", errors);
+    await far.waitForFunction(() => /^Simulating: frame \d+ of 90001, 0 %$/.test(document.getElementById("busy-text").textContent), {timeout, polling: 20});
+    await click(far, "#cancel");
+    await far.waitForFunction(() => document.getElementById("busy").hidden, {timeout});
+    const left = await frameOf(far);
+    await click(far, "#step");
+    await atFrame(far, left + 1);
+    await far.close();
+  });
+
+  await step("keys are marked as slow that the native program says make things again", async () => {
+    const other = await ready("puddle/default.toml");
+    const described = JSON.parse(spawnSync(path.resolve(rainref), ["describe", "puddle", "--json"], {encoding: "utf8"}).stdout);
+    const slow = described.parameters.filter(({makes}) => makes.length > 0).map(({name}) => name);
+    const shown = await other.$$eval(".parameter", all => all.map(row => [row.dataset.key, row.querySelector(".slow") !== null]));
+    assert(shown.some(([, isSlow]) => isSlow) && shown.some(([, isSlow]) => !isSlow));
+    for (const [key, isSlow] of shown) assert.equal(isSlow, slow.includes(key), key);
+    await other.close();
+  });
+
+  await step("a film is saved, one frame for each simulated one", async () => {
+    const other = await ready("edge_splash/default.toml", "160x90"), frames = 7;
+    await other.$eval("#film-frames", (e, n) => { e.value = n; }, frames);
+    const bytes = await savedBy(other, "film"), file = path.join(work, "film.webm");
+    fs.writeFileSync(file, bytes);
+    await atFrame(other, frames - 1);
+    assert.match(await textOf(other, "#film-state"), /^saved: edge_splash\.webm, 7 frames.*rainref run scenes\/edge_splash\/default\.toml --frames 7 --film edge_splash\.webm/);
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command")));
+    // It plays as long as the frames take, and its last picture is the page's.
+    const picture = await other.$eval("#picture", c => [...c.getContext("2d").getImageData(0, 0, c.width, c.height).data]);
+    const player = await browser.newPage();  // the page's own policy lets no film in
+    const {duration, width, height, apart} = await player.evaluate(async (data, picture) => {
+      const film = document.createElement("video");
+      film.muted = true;
+      film.src = `data:video/webm;base64,${data}`;
+      await new Promise((done, failed) => { film.onloadeddata = done; film.onerror = () => failed(new Error(film.error.message)); });
+      const {duration, videoWidth: width, videoHeight: height} = film;
+      film.currentTime = duration - 0.005;
+      await new Promise(done => { film.onseeked = done; });
+      const canvas = Object.assign(document.createElement("canvas"), {width, height}), context = canvas.getContext("2d");
+      context.drawImage(film, 0, 0);
+      const shown = context.getImageData(0, 0, width, height).data;
+      return {duration, width, height, apart: shown.reduce((sum, code, k) => sum + Math.abs(code - picture[k]), 0) / shown.length};
+    }, bytes.toString("base64"), picture);
+    await player.close();
+    const fps = Number(/^fps *= *(\d+)/m.exec(fs.readFileSync(path.join(sources, "scenes/edge_splash/default.toml"), "utf8"))?.[1] ?? 60);
+    assert.deepEqual([width, height], [160, 90]);
+    assert(Math.abs(duration - frames / fps) < 0.002, `${duration} s at ${fps} frames a second`);
+    assert(apart < 6, `codes apart: ${apart}`);
+    const probed = spawnSync("ffprobe", ["-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames,r_frame_rate", "-of", "csv=p=0", file], {encoding: "utf8"});
+    if (probed.status !== null) assert.equal(probed.stdout.trim(), `${fps}/1,${frames}`, probed.stderr);
+    // Cancelled, it saves nothing.
+    await other.$eval("#film-frames", e => { e.value = "100000"; });
+    await click(other, "#film");
+    await other.waitForFunction(() => / of 100000$/.test(document.getElementById("film-state").textContent), {timeout});
+    await click(other, "#film");
+    await other.waitForFunction(() => document.getElementById("film").textContent === "Make a film", {timeout});
+    assert.equal(await textOf(other, "#film-state"), "");
+    await other.$eval("#film-frames", e => { e.value = "0"; });
+    await click(other, "#film");
+    assert.match(await shownError(other, "#film-error"), /frames: expected 1 to 1000000, found '0'/);
+    await other.close();
+  });
+
+  await step("the picture fills the screen and leaves it", async () => {
+    const other = await ready("edge_splash/default.toml");
+    await other.bringToFront();
+    await other.click("#full-screen");
+    await other.waitForFunction(() => document.fullscreenElement?.id === "stage" && document.getElementById("full-screen").textContent === "Leave full screen", {timeout});
+    await shot(other, "full");
+    await click(other, "#full-screen");
+    await other.waitForFunction(() => !document.fullscreenElement && document.getElementById("full-screen").textContent === "Full screen", {timeout});
+    await other.close();
+  });
+
+  await step("the command of an edited text names a file that the page saves", async () => {
+    const other = await ready("edge_splash/default.toml"), file = path.join(sources, "scenes/edge_splash/default.toml");
+    assert.equal(await other.$eval("#save-text", e => e.hidden), true);
+    const text = fs.readFileSync(file, "utf8").replace(/^seed = .*$/m, "");
+    await other.$eval("#text", (e, t) => { e.value = t; }, `seed = 8\n${text}`);
+    await click(other, "#open-text");
+    await other.waitForFunction(() => document.getElementById("command").textContent.includes("edited.toml"), {timeout, polling: 50});
+    await atFrame(other, 0);
+    assert.equal(await textOf(other, "#command"), "rainref hash edited.toml --frames 1 --size 64x36");
+    assert.match(await textOf(other, "#edited"), /Save it as edited\.toml/);
+    assert.equal(await textOf(other, "#save-text"), "Save edited.toml");
+    fs.writeFileSync(path.join(work, "edited.toml"), await savedBy(other, "save-text"));
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command"), work));
+    assert.notDeepEqual(await linesOf(other), natively("scenes/edge_splash/default.toml", "--size", "64x36", "--frames", "1")[0]);
+    await click(other, "#copy-link");
+    await other.waitForFunction(() => /save it as TOML/.test(document.getElementById("link-state").textContent), {timeout});
+    // The scene of the list again.
+    await other.select("#scene", "edge_splash/default.toml");
+    await other.waitForFunction(() => document.getElementById("edited").hidden, {timeout});
+    await other.close();
+  });
+
+  await step("a scene without a variant has a command that names it", async () => {
+    const file = path.join(work, "without.toml");
+    fs.writeFileSync(file, 'effect = "edge_splash"\n[run]\nsize = [64, 36]\n[display]\n# variant = "as-published" is a comment in another table\n');
+    const other = await ready("edge_splash/default.toml");
+    await (await other.$("#files")).uploadFile(file);
+    await other.waitForFunction(() => document.getElementById("command").textContent.includes("without.toml"), {timeout, polling: 50});
+    await atFrame(other, 0);
+    assert.match(await textOf(other, "#command"), /--set variant=corrected/);
+    assert.deepEqual(await linesOf(other), asCommanded(await textOf(other, "#command"), work));
+    await other.close();
+  });
+
+  await step("a size that is refused leaves a page that takes another", async () => {
+    for (const size of ["65536x65536", "0x0", "axb"]) {
+      const other = await open(browser, site, `live.html?scene=edge_splash/default.toml&size=${size}&set=display.exposure=2`, errors);
+      assert.notEqual(await shownError(other, "#scene-error"), "");
+      await other.select("#size", "160x90");
+      await atFrame(other, 0);
+      assert.equal(await other.$eval("#scene-error", e => e.hidden), true);
+      assert.equal(await textOf(other, "#command"), "rainref hash scenes/edge_splash/default.toml --frames 1 --size 160x90 --set display.exposure=2");
+      await other.close();
+    }
+  });
+
+  await step("a trap in the library is called a defect, and the next try begins anew", async () => {
+    // Steps trap from the second one on in the first worker; "unreachable" is a whole module's only function.
+    const trap = "const bytes = new Uint8Array([0,97,115,109,1,0,0,0,1,4,1,96,0,0,3,2,1,0,7,5,1,1,116,0,0,10,5,1,3,0,0,11]);\n";
+    const trapped = await serve(path.resolve(folder), {"/live_operations.js": text => `let steps = 0;\n${trap}${text.replace("export function step(library) {",
+      "export function step(library) {\n  if (++steps === 2) new WebAssembly.Instance(new WebAssembly.Module(bytes)).exports.t();")}`});
+    const other = await open(browser, trapped, "live.html?scene=edge_splash/default.toml&size=64x36", errors);
+    await atFrame(other, 0);
+    const first = await linesOf(other);
+    await click(other, "#step");
+    assert.match(await shownError(other, "#run-error"), /rainref failed inside \(a defect.*unreachable/);
+    await click(other, "#step");
+    await atFrame(other, 0);
+    assert.deepEqual(await linesOf(other), first);
+    assert.equal(await other.$eval("#run-error", e => e.hidden), true);
+    await other.close();
+    trapped.close();
+  });
+
+  await step("automatic opens once, with a size that the browser keeps", async () => {
+    const sizeWith = async kept => {
+      const other = await browser.newPage();
+      await other.evaluateOnNewDocument(speeds => {
+        if (speeds) localStorage.setItem("rainref.milliseconds_per_megapixel", speeds);
+        else localStorage.clear();
+        window.opened = 0;
+        const post = Worker.prototype.postMessage;
+        Worker.prototype.postMessage = function (message, ...more) {
+          window.opened += message.operation === "open";
+          return post.call(this, message, ...more);
+        };
+      }, kept);
+      await other.goto(`${site.url}live.html?scene=edge_splash/default.toml`);
+      await atFrame(other, 0);
+      await click(other, "#step");
+      await atFrame(other, 1);
+      const found = {opened: await other.evaluate(() => window.opened), size: /--size (\S+)/.exec(await textOf(other, "#command"))[1],
+                     speed: await other.evaluate(() => JSON.parse(localStorage.getItem("rainref.milliseconds_per_megapixel")).edge_splash)};
+      await other.close();
+      return found;
+    };
+    const first = await sizeWith(null);
+    assert.deepEqual([first.opened, first.size], [1, "320x180"]);
+    assert(first.speed > 0, `${first.speed}`);
+    assert.deepEqual(await sizeWith('{"edge_splash": 1}').then(({opened, size}) => [opened, size]), [1, "960x540"]);
+    assert.deepEqual(await sizeWith('{"edge_splash": 400}').then(({size}) => size), "640x360");
+    assert.deepEqual(await sizeWith('{"edge_splash": 90000}').then(({size}) => size), "320x180");
+    assert.deepEqual(await sizeWith("nonsense").then(({size}) => size), "320x180");
+  });
+
+  await step("what the library prepared is kept for the next visit, and made again where it is damaged", async () => {
+    const native = natively("scenes/rainy_glass/default.toml", "--size", "96x54", "--frames", "1")[0];
+    /// The images that the browser keeps for the scene: [{name, bytes, used, last}], last: the last byte, which `damage` then changes.
+    const kept = (page, damage = false) => page.evaluate(damage => new Promise(done => {
+      indexedDB.open("rainref.kept", 1).onsuccess = ({target: {result: database}}) => {
+        const transaction = database.transaction("images", "readwrite"), store = transaction.objectStore("images"), found = [];
+        store.get("index").onsuccess = ({target: {result}}) => {
+          const names = Object.entries(result?.scenes ?? {}).find(([scene]) => /rainy_glass.*96, 54/.test(scene))?.[1] ?? [];
+          for (const name of names) store.get(name).onsuccess = ({target: {result: bytes}}) => {
+            found.push({name, ...result.images[name], last: bytes.at(-1)});
+            bytes[bytes.length - 1] ^= 1;
+            if (damage) store.put(bytes, name);
+          };
+        };
+        transaction.oncomplete = () => {
+          database.close();
+          done(found);
+        };
+      };
+    }), damage);
+    const visited = async () => {
+      const other = await ready("rainy_glass/default.toml", "96x54");
+      assert.deepEqual(await linesOf(other), native);
+      return other;
+    };
+    const untilKept = async (page, since) => {
+      for (const end = Date.now() + timeout; Date.now() < end;) {
+        const images = await kept(page);
+        if (images.some(({used}) => used > since)) return images;
+        await new Promise(done => setTimeout(done, 100));
+      }
+      throw new Error("nothing is kept");
+    };
+    let page = await visited();
+    const first = await untilKept(page, 0);
+    assert(first.every(({bytes}) => bytes > 1000));
+    await page.close();
+    // The library marks what it reads; a mark is proof that it was used.
+    let since = Date.now();
+    page = await visited();
+    const sorted = images => images.map(({name, bytes, last}) => ({name, bytes, last})).sort((a, b) => a.name.localeCompare(b.name));
+    assert.deepEqual(sorted(await untilKept(page, since)), sorted(first));
+    await kept(page, true);
+    await page.close();
+    since = Date.now();
+    page = await visited();
+    assert.deepEqual(sorted(await untilKept(page, since)), sorted(first));
+    await page.close();
   });
 
   await step("no page is wider than its window, and controls have names", async () => {

@@ -12,6 +12,7 @@ const done = request => new Promise((resolve, reject) => {
 export class KeptImages {
   #fs;
   #store = null;   // promise of the database; null: nothing is kept
+  #brought = new Map();  // name of a file to its node, which another one has that the library made in place of a damaged one
   #index = null;   // {identity, images: {name: {bytes, used}}, scenes: {scene: [name, ...]}}
 
   /// Before the library opens its first scene.
@@ -28,13 +29,16 @@ export class KeptImages {
   /// Gives the library what `scene`, any name, used when it ran before.
   async bring(scene) {
     try {
-      const {images = {}, scenes = {}} = await this.#store && this.#index || {};
+      if (!this.#store) return;
+      await this.#store;
+      const {scenes} = this.#index;
       for (const name of scenes[scene] ?? []) {
         const bytes = await this.#in("readonly", store => store.get(name));
         if (!bytes) continue;
         this.#fs.writeFile(`${folder}/${name}`, bytes);
         this.#fs.chmod(`${folder}/${name}`, 0o600);
-        images[name].used = Date.now();
+        this.#fs.utime(`${folder}/${name}`, 0, 0);  // the library sets the time of what it uses
+        this.#brought.set(name, this.#fs.stat(`${folder}/${name}`).ino);
       }
     } catch {
       // They are made again.
@@ -45,13 +49,15 @@ export class KeptImages {
   /// holds what it uses.
   async keep(scene) {
     if (!this.#store) return;
-    const files = this.#fs.readdir(folder).filter(name => name.endsWith(".images")).map(name => ({name, bytes: this.#fs.readFile(`${folder}/${name}`)}));
+    const files = this.#fs.readdir(folder).filter(name => name.endsWith(".images"))
+      .map(name => ({name, ...this.#fs.stat(`${folder}/${name}`), bytes: this.#fs.readFile(`${folder}/${name}`)}))
+      .map(({name, ino, mtime, bytes}) => ({name, isMade: ino !== this.#brought.get(name), isUsed: Number(mtime) > 0, bytes}));
     for (const {name} of files) this.#fs.unlink(`${folder}/${name}`);
     try {
       await this.#store;
-      const {images, scenes} = this.#index, fresh = files.filter(({name}) => !images[name]), dropped = [];
-      for (const {name, bytes} of files) images[name] = {bytes: bytes.length, used: Date.now()};
-      scenes[scene] = [...new Set([...files.map(({name}) => name), ...scenes[scene] ?? []])].slice(0, 8);
+      const {images, scenes} = this.#index, dropped = [];
+      for (const {name, isUsed, bytes} of files) images[name] = {bytes: bytes.length, used: isUsed ? Date.now() : images[name].used};
+      scenes[scene] = [...new Set([...files.filter(file => file.isUsed).map(({name}) => name), ...scenes[scene] ?? []])].slice(0, 8);
       let total = Object.values(images).reduce((sum, {bytes}) => sum + bytes, 0);
       for (const [name, {bytes}] of Object.entries(images).sort(([, a], [, b]) => a.used - b.used)) {
         if (total <= mostBytes) break;
@@ -61,7 +67,7 @@ export class KeptImages {
       }
       for (const [name, used] of Object.entries(scenes)) if (!used.some(image => images[image])) delete scenes[name];
       await this.#in("readwrite", store => {
-        for (const {name, bytes} of fresh) if (images[name]) store.put(bytes, name);
+        for (const {name, isMade, bytes} of files) if (isMade && images[name]) store.put(bytes, name);
         for (const name of dropped) store.delete(name);
         return store.put(this.#index, "index");
       });
