@@ -63,7 +63,8 @@ export class LiveRun {
   /// scene: {text, file, files}; sets: null: as they are when its turn comes; size: "automatic", "scene" (its own) or "640x360". The running
   /// scene stays if the new one is refused.
   async open(scene, {sets = new Map(), size = this.#size} = {}) {
-    if (this.#began !== null && performance.now() - this.#began > patience) this.cancel();
+    const running = this.#began;
+    if (running !== null) setTimeout(() => { if (this.#began === running) this.cancel(); }, running + patience - performance.now());
     return this.#inTurn(() => this.#open(scene, sets ?? new Map(this.sets), size));
   }
   /// Leaves what runs now: it rejects with Cancelled.
