@@ -1,7 +1,7 @@
 # The page of `rainref view`: the site's own files, beside the scenes. Its engine is the program.
 set(pages)
-foreach(name cancelled.js live.html live.css live.js live_busy.js live_film.js live_gallery.js live_lines.js live_link.js live_presets.js live_run.js live_scenes.js
-             live_screen.js live_speed.js parameters.js scene_values.js style.css webm.js)
+foreach(name cancelled.js live.html live.css live.js live_busy.js live_film.js live_gallery.js live_lines.js live_link.js live_player.js live_presets.js live_run.js
+             live_scenes.js live_screen.js live_speed.js parameters.js scene_values.js style.css webm.js)
   list(APPEND pages ${CMAKE_CURRENT_SOURCE_DIR}/web/pages/${name})
 endforeach()
 list(APPEND pages ${CMAKE_CURRENT_SOURCE_DIR}/web/program/engine.js ${CMAKE_CURRENT_SOURCE_DIR}/reports/assets/common.css

@@ -8,6 +8,7 @@ import {addressOf, wantedBy} from "./live_link.js";
 import {LiveRun} from "./live_run.js";
 import {SceneList, sceneOfFiles} from "./live_scenes.js";
 import {FullScreen} from "./live_screen.js";
+import {Player, showError, workOf} from "./live_player.js";
 import {Parameters} from "./parameters.js";
 import {element} from "./report_words.js";
 import {tomlOf} from "./scene_values.js";
@@ -18,112 +19,19 @@ const kinds = ["weather", "light"];  // of presets
 const fileSizes = ["1280x720", "960x540", "640x360", "480x270", "320x180", "160x90"];
 
 const run = new LiveRun(), scenes = new SceneList(), busy = new Busy(), lines = new Lines(run), parameters = new Parameters(part("parameters"), changeParameter);
-let playing = false, shownTimes = [], stopped = Promise.resolve();
+const player = new Player(run, busy, lines);
 let comparison = null;  // promise of it, where ports run beside the scene
 let film = null;
-let begun = 0;          // how often a scene began, or began again
 let tried = null;       // the scene that was to be opened last
-
-function showError(id, error) {
-  part(id).textContent = error?.message ?? "";
-  part(id).hidden = !error;
-}
 const leave = () => run.cancel();
 
-// ---- frames ----
+// ---- scenes ----
 
-function showFrame(shown) {
-  const {width, height, picture} = shown, canvas = part("picture");
-  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
-  canvas.getContext("2d").putImageData(new ImageData(picture, width, height), 0, 0);
-  busy.showFrames();
-  const perSecond = Math.min(1000 / shown.milliseconds, framesPerSecond());
-  const rate = playing && shownTimes.length > 2 ? `, ${perSecond.toFixed(perSecond < 10 ? 1 : 0)} frames a second` : "";
-  part("state").textContent = `frame ${run.frame}, ${width} x ${height}, ${shown.milliseconds.toFixed(0)} ms${rate}`;
-  lines.show(shown.lines);
-}
 /// The preset of each kind, as the keys say now.
 function showPresets() {
   for (const kind of kinds) scenes.presets.show(part(kind), kind, opened(), run.info.variant);
 }
 const opened = () => ({effect: run.info.effect, sets: run.sets});
-/// For the last frames shown.
-function framesPerSecond() {
-  const span = shownTimes[shownTimes.length - 1] - shownTimes[0];
-  return span > 0 ? 1000 * (shownTimes.length - 1) / span : Infinity;
-}
-
-/// The next frame; null if it failed, after showing the error.
-async function computed() {
-  const isFirst = run.frame < 0;
-  try {
-    return await busy.during(isFirst ? "Computing the first frame…" : "Computing a frame…", () => run.step(),
-      {cancel: leave, delay: playing ? 700 : 250, as: isFirst ? workOf("frame", run.scene, run.sets, run.size) : null});
-  } catch (error) {
-    if (error.name === "Cancelled") showLeft();
-    else showError("run-error", error);
-    return null;
-  }
-}
-/// After Cancel, or a newer wish.
-function showLeft() {
-  if (run.info !== null && run.frame < 0) part("state").textContent = "Cancelled. Play or Step begins the scene again.";
-}
-function showNext(shown) {
-  shownTimes = [...shownTimes.slice(-19), performance.now()];
-  showFrame(shown);
-}
-async function step() {
-  showError("run-error", null);
-  const shown = await computed();
-  if (shown) showNext(shown);
-  return shown !== null;
-}
-/// The worker makes the next frame while this one is drawn, unless that would exceed the scene's frame rate.
-async function play() {
-  showError("run-error", null);
-  shownTimes = [];
-  const period = 1000 / Number(run.values.get("run.fps") ?? 60);
-  let due = performance.now(), coming = computed();
-  for (let shown; coming && (shown = await coming);) {
-    due = Math.max(due + period, performance.now());
-    const left = document.hidden ? 500 : due - performance.now();
-    coming = playing && left < 1 ? computed() : null;
-    showNext(shown);
-    if (coming || !playing) continue;
-    await new Promise(done => setTimeout(done, left));
-    if (playing) coming = computed();
-  }
-  setPlaying(false);
-}
-function setPlaying(now) {
-  if (now === playing) return;
-  playing = now;
-  part("play").textContent = now ? "Pause" : "Play";
-  part("step").disabled = now;
-  if (now) stopped = play();
-}
-/// Simulates up to a frame, shows each, and stays at the one where it was cancelled.
-async function runTo(last) {
-  const mine = begun;
-  let isLeft = false;
-  while (!isLeft && mine === begun && run.frame < last) {
-    busy.counted("Simulating: frame", run.frame + 1, last + 1, () => { isLeft = true; });
-    try {
-      const shown = await run.step();
-      if (mine === begun) showNext(shown);
-    } catch (error) {
-      if (error.name !== "Cancelled") showError("run-error", error);
-      isLeft = true;
-    }
-  }
-  if (mine === begun) busy.hide();
-}
-
-// ---- scenes ----
-
-/// A name for work that takes as long each time.
-const workOf = (what, scene, sets, size) => `${what} ${scene?.path ?? "own"} ${size} ${sets?.get("variant") ?? ""}`;
 /// The scene as it runs: its controls say what holds, also after another was refused.
 function showOpened() {
   const {scene} = run, known = scenes.entry(scene.path);
@@ -139,36 +47,34 @@ function showAddress() {
 
 /// Opens a scene and shows frame 0, replacing the running one; false if it is refused, after showing the error, or another was opened.
 async function open(scene, options) {
-  const mine = ++begun;
-  setPlaying(false);
+  const mine = player.begin();
   film?.abort();
   showError("scene-error", null);
-  showError("run-error", null);
   tried = scene;
   const effect = run.info?.effect, variant = run.info?.variant, isFirst = run.info === null, sets = options?.sets ?? new Map();
   // Of another scene, its picture is shown until its first frame.
   if (scene.path !== run.scene?.path || isFirst) busy.standIn(scenes.entry(scene.path)?.picture ?? null);
   try {
     const whole = await scenes.withPresets(scene, sets);
-    if (mine !== begun) return false;
+    if (mine !== player.begun) return false;
     await busy.during("Opening the scene…", () => run.open(whole, options), {cancel: leave, delay: 100, as: workOf("open", scene, sets, options?.size ?? run.size)});
   } catch (error) {
-    if (mine !== begun) return false;
+    if (mine !== player.begun) return false;
     if (run.info !== null) {
       busy.showFrames();
       showOpened();
     }
     if (error.name === "Cancelled") {
       if (run.info === null) part("state").textContent = "Cancelled. Choose a scene.";
-      showLeft();
+      player.showLeft();
     } else {
       showError("scene-error", error);
-      if (run.frame < 0 && run.info) await step();  // the scene that stays showed no frame yet
+      if (run.frame < 0 && run.info) await player.step();  // the scene that stays showed no frame yet
     }
     return false;
   }
-  await stopped;
-  if (mine !== begun) return false;
+  await player.stopped;
+  if (mine !== player.begun) return false;
   part("state").textContent = "";
   const {description} = run;
   if (isFirst || effect !== run.info.effect || variant !== run.info.variant) {
@@ -191,7 +97,7 @@ async function open(scene, options) {
   part("link-state").textContent = "";
   (await comparison)?.ready();
   showAddress();
-  if (mine === begun) await step();
+  if (mine === player.begun) await player.step();
   return true;
 }
 /// Opens a listed scene, by its path.
@@ -228,7 +134,7 @@ async function changeParameter(key, toml) {
     return;
   }
   waiting.set(key, toml);
-  const scene = begun;
+  const scene = player.begun;
   try {
     for (let value = null; value !== waiting.get(key);) {
       value = waiting.get(key);
@@ -236,24 +142,23 @@ async function changeParameter(key, toml) {
       lines.showCommand();
       showPresets();
       if (value === waiting.get(key)) parameters.update(run.values);
-      if (!playing && scene === begun) await step();
+      if (!player.playing && scene === player.begun) await player.step();
     }
     showAddress();
   } catch (error) {
     if (error.name === "Cancelled") {
       parameters.update(run.values);
-      return showLeft();
+      return player.showLeft();
     }
     const value = waiting.get(key);
     error.restart = async () => {
-      ++begun;
-      setPlaying(false);
+      player.begin();
       part("state").textContent = "";
       await run.restartWith(key, value);
       parameters.update(run.values);
       showPresets();
       showAddress();
-      await step();
+      await player.step();
     };
     throw error;
   } finally {
@@ -266,28 +171,23 @@ async function changeParameter(key, toml) {
 async function newComparison() {
   const {Comparison} = await import("./live_compare.js");
   return new Comparison(run, {
-    before: () => setPlaying(false),
-    shown: shown => {
-      shownTimes = [];
-      showFrame(shown);
-    },
+    before: () => player.setPlaying(false),
+    shown: shown => player.showSingle(shown),
   });
 }
 
 async function reset() {
-  const mine = ++begun;
-  setPlaying(false);
+  const mine = player.begin();
   film?.abort();
-  showError("run-error", null);
   part("state").textContent = "";
   try {
     await busy.during("Starting again…", () => run.reset(), {cancel: leave, delay: 100});
   } catch (error) {
-    if (mine !== begun) return;
-    return error.name === "Cancelled" ? showLeft() : showError("run-error", error);
+    if (mine !== player.begun) return;
+    return error.name === "Cancelled" ? player.showLeft() : showError("run-error", error);
   }
-  await stopped;
-  if (mine === begun) await step();
+  await player.stopped;
+  if (mine === player.begun) await player.step();
 }
 async function copyLink() {
   const known = scenes.entry(run.scene.path);
@@ -298,13 +198,14 @@ async function copyLink() {
 }
 part("play").onclick = () => {
   film?.abort();
-  setPlaying(!playing);
+  player.setPlaying(!player.playing);
 };
 part("step").onclick = () => {
   film?.abort();
-  step();
+  player.step();
 };
 part("reset").onclick = () => reset();
+part("larger").onclick = () => open(run.scene, {sets: run.sets});
 part("copy-link").onclick = () => copyLink();
 new FullScreen(part("full-screen"), part("stage"));
 document.addEventListener("keydown", event => {
@@ -341,7 +242,7 @@ addEventListener("drop", event => {
 function showOffers() {
   const offers = what => run.offers.includes(what);
   if (run.where) part("where").textContent = run.where;
-  film = new FilmRow(run, {before: () => setPlaying(false), shown: showNext});
+  film = new FilmRow(run, {before: () => player.setPlaying(false), shown: shown => player.showNext(shown)});
   if (offers("ports")) comparison = newComparison();
   part("ports").hidden = !offers("ports");
   // The address of `rainref view` is its user's secret: no link to pass on.
@@ -370,7 +271,7 @@ async function start() {
   part("scene").disabled = false;
   if (await openListed(wanted.scene, wanted)) {
     if (wanted.error) showError("scene-error", wanted.error);
-    else if (wanted.frame > 0) await runTo(wanted.frame);
+    else if (wanted.frame > 0) await player.runTo(wanted.frame);
   }
   // Its pictures load after the frame that the visitor waits for.
   part("gallery-section").hidden = !scenes.all.some(({picture}) => picture);

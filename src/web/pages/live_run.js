@@ -50,6 +50,12 @@ export class LiveRun {
   get frame() { return this.#isOpen ? this.#frame : -1; }
   get #isOpen() { return this.#scene !== null && this.#openIn === this.#engine.ended; }
   get size() { return this.#size; }
+  /// A larger size that this machine computes in time, where the size is automatic and the first one was chosen without knowing; else null.
+  get largerSize() {
+    if (this.#size !== "automatic") return null;
+    const [width, height] = this.#speeds.sizeFor(this.info.effect, this.where !== null);
+    return width > this.#pixels[0] ? [width, height] : null;
+  }
   get pictureSize() { return JSON.parse(this.values.get("run.size") ?? "[640, 360]"); }
 
   /// The result of rr_describe for the open scene's effect.
