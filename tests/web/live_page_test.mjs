@@ -81,12 +81,14 @@ try {
   });
 
   await step("the automatic size does not antialias, and the command says so", async () => {
-    const page = await open(browser, site, "live.html?scene=edge_splash/default.toml", errors);
-    await atFrame(page, 0);
-    const command = await textOf(page, "#command");
-    assert.match(command, /^rainref hash scenes\/edge_splash\/default\.toml --frames 1 --size \d+x\d+ --set run\.supersample=1$/);
-    assert.deepEqual(await linesOf(page), asCommanded(command));
-    await page.close();
+    for (const [effect, more] of [["edge_splash", ""], ["windshield", " --set 'scene.size=[640, 360]'"]]) {
+      const page = await open(browser, site, `live.html?scene=${effect}/default.toml`, errors);
+      await atFrame(page, 0);
+      const command = await textOf(page, "#command");
+      assert.equal(command, `rainref hash scenes/${effect}/default.toml --frames 1 --size 320x180 --set run.supersample=1${more}`);
+      assert.deepEqual(await linesOf(page), asCommanded(command));
+      await page.close();
+    }
   });
 
   const page = await ready("puddle/default.toml");

@@ -36,7 +36,7 @@ export function describe(library) {
 /// in errors. `files`: [{path, bytes}] that it may name, relative to the folder of `file`.
 export async function open(library, {text, file, sets = [], files = []}) {
   kept ??= new KeptImages(library);
-  keptFor = [file, ...sets.filter(set => /^run\.(size|supersample)=/.test(set))].join(" ");
+  keptFor = [file, ...sets.filter(set => /^(run\.size|run\.supersample|scene\.size)=/.test(set))].join(" ");
   await kept.bring(keptFor);
   const {FS} = library.module, folder = "/scenes";
   for (const {path, bytes} of files) {

@@ -6,15 +6,21 @@ import {shellWord, valuesOf} from "./scene_values.js";
 /// What takes longer is aborted if another scene is wanted [ms].
 const patience = 700;
 
-/// "automatic" picks what the machine can handle; it turns antialiasing off, which takes four times as long, unless the key was set.
-const antialiases = (sets, size) => size !== "automatic" || sets.has("run.supersample");
 /// The text of a scene names its variant, which the native program wants.
 const saysVariant = text => /^[ \t]*["']?variant["']?[ \t]*=/m.test(text.split(/^[ \t]*\[/m)[0]);
 const effectOf = text => /^[ \t]*effect[ \t]*=[ \t]*["'](\w+)/m.exec(text)?.[1];
+/// "automatic" picks what the machine can handle. It turns antialiasing off, which takes four times as long, and of a small picture it draws the
+/// street before a windshield at twice its size only; unless scene or keys say so. key=value, ...
+function economies({text}, sets, size, pixels) {
+  if (size !== "automatic") return [];
+  const [width, height] = pixels.map(length => 2 * length), saysStreet = sets.has("scene.size") || /^[ \t]*\[scene\][^[]*^[ \t]*size[ \t]*=/m.test(text);
+  return [...(sets.has("run.supersample") ? [] : ["run.supersample=1"]),
+          ...(effectOf(text) === "windshield" && !saysStreet && width < 1280 ? [`scene.size=[${width}, ${height}]`] : [])];
+}
 /// A scene in the form of live_operations.js.
 const asOpened = (scene, sets, size, pixels) => (
   {...scene, sets: [...[...sets].map(([name, toml]) => `${name}=${toml}`), ...(pixels ? [`run.size=[${pixels.join(", ")}]`] : []),
-    ...(antialiases(sets, size) ? [] : ["run.supersample=1"])]});
+    ...economies(scene, sets, size, pixels)]});
 
 /// The smaller library reads no pictures in files, whose formats would double it.
 const namesPictures = ({files}) => files.some(({path}) => !/\.(csv|npy)$/i.test(path));
@@ -96,7 +102,7 @@ export class LiveRun {
       if (pass !== null) await this.#takeJudge();
       const shown = pass === null ? await this.#engine.run("step") : await this.#engine.run("stepWithCases", {pass});
       // Frame 0 makes things that later frames reuse.
-      if (++this.#frame > 0 && pass === null && !antialiases(this.sets, this.#size)) this.#speeds.measured(this.info.effect, shown);
+      if (++this.#frame > 0 && pass === null && this.#size === "automatic" && !this.sets.has("run.supersample")) this.#speeds.measured(this.info.effect, shown);
       return shown;
     });
   }
@@ -112,7 +118,7 @@ export class LiveRun {
     const [width, height] = this.pictureSize, words = ["rainref", verb, this.#scene.file, "--frames", String(frames), ...more];
     if (!saysVariant(this.#scene.text) && !this.sets.has("variant")) words.push("--set", `variant=${this.info.variant}`);
     if (this.#size !== "scene") words.push("--size", `${width}x${height}`);
-    if (!antialiases(this.sets, this.#size)) words.push("--set", "run.supersample=1");
+    for (const word of economies(this.#scene, this.sets, this.#size, this.#pixels)) words.push("--set", word);
     for (const [key, toml] of this.sets) words.push("--set", `${key}=${toml}`);
     return words.map(shellWord).join(" ");
   }
