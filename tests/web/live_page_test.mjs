@@ -306,6 +306,10 @@ try {
         assert(left >= 0 && top >= 0 && right <= width && bottom <= height && right > left, `${s} at ${width} x ${height}: ${[left, top, right, bottom]}`);
       const picture = boxes.find(({s}) => s === "#picture"), share = (picture.right - picture.left) * (picture.bottom - picture.top) / (width * height);
       assert(share > (width > 600 ? 0.35 : 0.2), `the picture takes ${share} of ${width} x ${height}`);
+      // What is moved comes before what is typed.
+      const typed = await other.$$eval('[data-section="rain"] .parameter', all => all.map(row => row.querySelector(".whole") !== null));
+      assert(typed.includes(true) && typed.includes(false));
+      assert.deepEqual(typed, [...typed].sort());
       assert.deepEqual(await other.$$eval("#text-details, #hash-details, #ports, #film-row", all => all.map(e => e.open)), [false, false, false, false]);
       // On a phone, what is chosen seldom is behind a button.
       assert.equal(await other.$eval("#size", e => e.getBoundingClientRect().width > 0), width > 600);

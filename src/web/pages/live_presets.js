@@ -34,7 +34,7 @@ export class Presets {
   /// Offers those of a kind; presets describe the variant "corrected" alone.
   show(select, kind, open, variant) {
     const offered = variant === "corrected" ? this.of(kind, open.effect) : [];
-    select.replaceChildren(element("option", {value: ""}, "the scene's own"),
+    select.replaceChildren(element("option", {value: ""}, "scene's own"),
       ...offered.map(({name, sentence}) => element("option", {value: name, title: sentence}, name.replaceAll("_", " "))));
     select.value = variant === "corrected" ? this.chosen(kind, open)?.name ?? "" : "";
     select.disabled = offered.length === 0;

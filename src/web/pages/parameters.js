@@ -42,6 +42,8 @@ export class Parameters {
       if (!groups.has(section)) groups.set(section, []);
       groups.get(section).push(this.#row(parameter, variant));
     }
+    // What is typed comes after what is moved.
+    for (const rows of groups.values()) rows.sort((a, b) => (a.querySelector(".whole") !== null) - (b.querySelector(".whole") !== null));
     // The rain comes first, then what the effect is about; how it is run and seen comes last.
     const order = ["rain", description.effect, "drops", "flow"], last = ["camera", "display", "compositor", "sequence", "run"];
     const place = section => order.includes(section) ? order.indexOf(section) - order.length : 1 + last.indexOf(section);
