@@ -305,7 +305,7 @@ try {
       for (const {s, left, top, right, bottom} of boxes)
         assert(left >= 0 && top >= 0 && right <= width && bottom <= height && right > left, `${s} at ${width} x ${height}: ${[left, top, right, bottom]}`);
       const picture = boxes.find(({s}) => s === "#picture"), share = (picture.right - picture.left) * (picture.bottom - picture.top) / (width * height);
-      assert(share > (width > 600 ? 0.35 : 0.2), `the picture takes ${share} of ${width} x ${height}`);
+      assert(share > (width > 600 ? 0.35 : 0.18), `the picture takes ${share} of ${width} x ${height}`);
       // What is moved comes before what is typed.
       const typed = await other.$$eval('[data-section="rain"] .parameter', all => all.map(row => row.querySelector(".whole") !== null));
       assert(typed.includes(true) && typed.includes(false));
