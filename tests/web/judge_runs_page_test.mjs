@@ -115,7 +115,7 @@ try {
   await step("a library that stops is a defect, and is started again", async () => {
     const page = await ready(test, small);
     site.once("/judge_operations.js", 200, 'export const judgeFolder = () => { throw new WebAssembly.RuntimeError("unreachable"); };');
-    assert.equal(await after(page, () => click(page, "#run")), "rainref failed inside (a defect): unreachable");
+    assert.match(await after(page, () => click(page, "#run")), /rainref failed inside \(a defect.*unreachable/);
     // Errors of Emscripten's files have no message.
     site.once("/judge_operations.js", 200, 'export const judgeFolder = () => { throw {name: "ErrnoError", errno: 44}; };');
     assert.equal(await after(page, () => click(page, "#run")), "ErrnoError 44");

@@ -146,10 +146,12 @@ export class LiveRun {
 
   async #open(scene, sets, size) {
     const pixels = size === "automatic" ? this.#speeds.sizeFor(effectOf(scene.text), this.where !== null) : size === "scene" ? null : size.split("x").map(Number);
-    const engine = this.#engine.library === "rainref_simulator" && namesPictures(scene) ? new Engine("live_operations.js") : this.#engine;
-    const info = await this.#timed(() => engine.run("open", asOpened(scene, sets, size, pixels)));
-    if (engine !== this.#engine) this.#engine.cancel();
-    this.#engine = engine;
+    if (this.#engine.library === "rainref_simulator" && namesPictures(scene)) {
+      this.#engine.cancel();
+      this.#engine = new Engine("live_operations.js");
+      this.#openIn = -1;
+    }
+    const info = await this.#timed(() => this.#engine.run("open", asOpened(scene, sets, size, pixels)));
     Object.assign(this, {sets, changedLate: false});
     this.#frame = -1;
     this.#openIn = this.#engine.ended;
