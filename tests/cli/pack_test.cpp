@@ -205,9 +205,8 @@ TEST_F(PackVerb, BadArguments) {
     expect_refusal({"pack", "corrected.toml", "-o", "p", "--at", at}, 2,
                    fmt::format("--at: expected a whole number from 0 to 1000000, found '{}'", found));
   }
-  expect_refusal(
-      {"pack", "corrected.toml", "-o", "p", "--passes", "wave_stp"}, 2,
-      "passes: expected some of raindrops, wave_step, surface_hit, shade, display, found 'wave_stp'; did you mean 'wave_step'?");
+  expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", "wave_stp"}, 2,
+                 "passes: expected some of raindrops, wave_step, surface_hit, shade, display, found 'wave_stp'; did you mean 'wave_step'?");
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", "ground_noise"}, 2,
                  HasSubstr("found 'ground_noise'"));  // as-published only
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", ""}, 2, EndsWith("found ''"));

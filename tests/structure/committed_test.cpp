@@ -17,7 +17,7 @@ TEST(Committed, TheTopLevelHoldsFoldersDocumentsAndPresets) {
   const auto [text, status] = output_of("git -C '" RAINREF_SOURCE_DIR "' ls-tree --name-only HEAD");
   if (status != 0) GTEST_SKIP() << "not a checkout: " << text;
   const std::set<std::string> folders{"src", "include", "tests", "bench", "scenes", "presets", "scripts", "docs", "examples"};
-  const std::regex files("\\..+|CMakeLists\\.txt|CMakePresets\\.json|pyproject\\.toml|LICENSE|[A-Z]+\\.md");
+  const std::regex files("\\..+|CMakeLists\\.txt|CMakePresets\\.json|pyproject\\.toml|LICENSE|CITATION\\.cff|[A-Z]+\\.md");
   std::istringstream names(text);
   std::size_t found = 0;
   for (std::string name; std::getline(names, name);) {
