@@ -49,10 +49,10 @@ fs.copyFileSync(path.join(own, "node_modules/workbox-core/LICENSE"), at("workbox
 fs.copyFileSync(path.join(own, "offline.js"), at("offline.js"));
 for (const name of listed().filter(file => /^\w+\.html$/.test(file))) rewrite(name, "</head>", '<script type="module" src="offline.js"></script>\n</head>');
 
-// Kept at the first visit: all that a page may load, but for pictures of the gallery that the front page does not show, what is for
+// Kept at the first visit: all that a page may load, but for most pictures of the gallery (the front page shows some, the live page others before a frame), what is for
 // Node, and the film for browsers that cannot show WebM.
 const front = textOf("index.html");
-const keeps = name => !/^workbox\/|\.mjs$|^film\/.*\.mp4$|package(-lock)?\.json$|README\.md$/.test(name) && (!name.startsWith("gallery/") || front.includes(`"${name}"`));
+const keeps = name => !/^workbox\/|\.mjs$|^film\/.*\.mp4$|package(-lock)?\.json$|README\.md$/.test(name) && (!name.startsWith("gallery/") || front.includes(`"${name}"`) || /_default\.jpg$/.test(name));
 const transferred = bytes => Math.min(bytes.length, zlib.gzipSync(bytes, {level: 6}).length), sum = (names, size) => names.reduce((total, name) => total + size(read(name)), 0);
 const megabytes = count => `${(count / 1e6).toFixed(1)} MB`;
 const before = listed().filter(keeps), size = {
