@@ -66,8 +66,9 @@ CONFIGURATION
   for package in "$@"; do
     for version in $(apt-cache showsrc --only-source "$package" | sed -n "s/^Version: //p" | sort -urV); do
       ! apt-get source -qq "$package=$version" || break
+      rm -rf "$package"-*/
     done
-    [ -d "$package"-* ] || return 1
+    compgen -G "$package-*/debian" >/dev/null || return 1
   done
 }
 

@@ -129,8 +129,19 @@ try {
   await step("another example has no such mistake", async () => {
     const page = await open(browser, site, "judge.html?mistake#pack=edge_splash-corrected&pass=display", errors);
     await page.waitForSelector("html[data-mistake]", {timeout: mostMs});
-    assert.match(await textOf(page, "#verdict"), /lacks the line/);
+    assert.match(await textOf(page, "#verdict"), /neither changed nor run/);
     assert.equal(await page.$("#mend"), null);
+    // Nor has the text of a link, although it has the line.
+    await page.goto(`${site.url}judge.html#pack=puddle-corrected&pass=shade&profile=webgpu`);
+    await page.waitForSelector("html[data-ready]", {timeout: mostMs});
+    await page.$eval("#shader", e => { e.value += "// a stranger's\n"; e.dispatchEvent(new Event("input", {bubbles: true})); });
+    await page.waitForFunction(() => /shader=/.test(location.hash), {timeout: mostMs});
+    const hash = await page.evaluate(() => location.hash);
+    await page.evaluate(() => sessionStorage.clear());
+    await page.goto(`${site.url}judge.html?mistake${hash}`);
+    await page.waitForSelector("html[data-mistake]", {timeout: mostMs});
+    assert.match(await page.$eval("#shader", e => e.value), /a stranger's/);
+    assert.match(await textOf(page, "#verdict"), /neither changed nor run/);
     await page.close();
   });
 

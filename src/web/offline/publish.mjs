@@ -52,7 +52,7 @@ for (const name of listed().filter(file => /^\w+\.html$/.test(file))) rewrite(na
 // Kept at the first visit: all that a page may load, but for most pictures of the gallery (the front page shows some, the live page others before a frame), what is for
 // Node, and the film for browsers that cannot show WebM.
 const front = textOf("index.html");
-const keeps = name => !/^workbox\/|\.mjs$|^film\/.*\.mp4$|package(-lock)?\.json$|README\.md$/.test(name) && (!name.startsWith("gallery/") || front.includes(`"${name}"`) || /_default\.jpg$/.test(name));
+const keeps = name => !/^(workbox|licences)\/|\.mjs$|^film\/.*\.mp4$|package(-lock)?\.json$|README\.md$/.test(name) && (!name.startsWith("gallery/") || front.includes(`"${name}"`) || /_default\.jpg$/.test(name));
 const transferred = bytes => Math.min(bytes.length, zlib.gzipSync(bytes, {level: 6}).length), sum = (names, size) => names.reduce((total, name) => total + size(read(name)), 0);
 const megabytes = count => `${(count / 1e6).toFixed(1)} MB`;
 const before = listed().filter(keeps), size = {

@@ -13,7 +13,8 @@ export class KeptImages {
   #fs;
   #store = null;   // promise of the database; null: nothing is kept
   #brought = new Map();  // name of a file to its node, which another one has that the library made in place of a damaged one
-  #index = null;   // {identity, images: {name: {bytes, used}}, scenes: {scene: [name, ...]}}
+  #index = null;   // {images: {name: {bytes, used}}, scenes: {scene: [name, ...]}}
+  #identity;       // of the library: each one keeps its own
 
   /// Before the library opens its first scene.
   constructor(library) {
@@ -22,7 +23,8 @@ export class KeptImages {
     this.#fs.writeFile(code, library.identity);
     this.#fs.mkdirTree(folder);
     library.call("rr_keep_images", folder);
-    this.#store = this.#opened(library.identity);
+    this.#identity = library.identity;
+    this.#store = this.#opened();
     this.#store.catch(() => { this.#store = null; });
   }
 
@@ -31,8 +33,7 @@ export class KeptImages {
     try {
       if (!this.#store) return;
       await this.#store;
-      const {scenes} = this.#index;
-      for (const name of scenes[scene] ?? []) {
+      for (const name of this.#index.scenes[`${this.#identity} ${scene}`] ?? []) {
         const bytes = await this.#in("readonly", store => store.get(name));
         if (!bytes) continue;
         this.#fs.writeFile(`${folder}/${name}`, bytes);
@@ -57,7 +58,8 @@ export class KeptImages {
       await this.#store;
       const {images, scenes} = this.#index, dropped = [];
       for (const {name, isUsed, bytes} of files) images[name] = {bytes: bytes.length, used: isUsed ? Date.now() : images[name].used};
-      scenes[scene] = [...new Set([...files.filter(file => file.isUsed).map(({name}) => name), ...scenes[scene] ?? []])].slice(0, 8);
+      const own = `${this.#identity} ${scene}`;
+      scenes[own] = [...new Set([...files.filter(file => file.isUsed).map(({name}) => name), ...scenes[own] ?? []])].slice(0, 8);
       let total = Object.values(images).reduce((sum, {bytes}) => sum + bytes, 0);
       for (const [name, {bytes}] of Object.entries(images).sort(([, a], [, b]) => a.used - b.used)) {
         if (total <= mostBytes) break;
@@ -76,14 +78,11 @@ export class KeptImages {
     }
   }
 
-  async #opened(identity) {
+  async #opened() {
     const request = indexedDB.open("rainref.kept", 1);
     request.onupgradeneeded = () => request.result.createObjectStore("images");
     const store = this.#database = await done(request);
-    this.#index = await this.#in("readonly", all => all.get("index"));
-    if (this.#index?.identity === identity) return store;
-    this.#index = {identity, images: {}, scenes: {}};
-    await this.#in("readwrite", all => all.clear());  // of another build: of no use any more
+    this.#index = await this.#in("readonly", all => all.get("index")) ?? {images: {}, scenes: {}};
     return store;
   }
   #database = null;

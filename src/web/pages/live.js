@@ -134,6 +134,7 @@ async function changeParameter(key, toml) {
     return;
   }
   waiting.set(key, toml);
+  film?.abort();
   const scene = player.begun;
   try {
     for (let value = null; value !== waiting.get(key);) {
@@ -153,6 +154,7 @@ async function changeParameter(key, toml) {
     const value = waiting.get(key);
     error.restart = async () => {
       player.begin();
+      film?.abort();
       part("state").textContent = "";
       await run.restartWith(key, value);
       parameters.update(run.values);
@@ -171,7 +173,10 @@ async function changeParameter(key, toml) {
 async function newComparison() {
   const {Comparison} = await import("./live_compare.js");
   return new Comparison(run, {
-    before: () => player.setPlaying(false),
+    before: () => {
+      player.setPlaying(false);
+      film?.abort();
+    },
     shown: shown => player.showSingle(shown),
   });
 }
@@ -242,7 +247,7 @@ addEventListener("drop", event => {
 function showOffers() {
   const offers = what => run.offers.includes(what);
   if (run.where) part("where").textContent = run.where;
-  film = new FilmRow(run, {before: () => player.setPlaying(false), shown: shown => player.showNext(shown)});
+  film = new FilmRow(run, {before: () => player.begin(), shown: shown => player.showNext(shown)});
   if (offers("ports")) comparison = newComparison();
   part("ports").hidden = !offers("ports");
   // The address of `rainref view` is its user's secret: no link to pass on.

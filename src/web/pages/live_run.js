@@ -27,6 +27,7 @@ const namesPictures = ({files}) => files.some(({path}) => !/\.(csv|npy)$/i.test(
 
 export class LiveRun {
   #engine = new Engine("live_operations.js", "rainref_simulator");
+  #coming = null;  // the larger engine, while it opens its scene
   #pixels = null;  // of the open scene's picture; null: its own
   #last = Promise.resolve();
   #began = null;    // when the operation began that runs now, if it computes
@@ -80,7 +81,7 @@ export class LiveRun {
     return this.#inTurn(() => this.#open(scene, sets ?? new Map(this.sets), size));
   }
   /// Leaves what runs now: it rejects with Cancelled.
-  cancel() { this.#engine.cancel(); }
+  cancel() { (this.#coming ?? this.#engine).cancel(); }
   /// Frame 0 again, with the current keys.
   reset() { return this.open(this.#scene, {sets: null}); }
   /// The same with another value that a running scene does not accept.
@@ -109,7 +110,12 @@ export class LiveRun {
   judge(profile, given) { return this.#inTurn(() => this.#engine.run("judge", {profile, given})); }
 
   /// The open scene's film: bytes. Only if it is offered. onProgress(done, of); `signal` aborts it.
-  film(args, options) { return this.#inTurn(async () => (await this.#engine.run("film", args, options)).film); }
+  film(args, options) {
+    return this.#inTurn(async () => {
+      if (!this.#isOpen) await this.#open(this.#scene, this.sets, this.#size);
+      return (await this.#engine.run("film", args, options)).film;
+    });
+  }
 
   /// The command that prints this frame's lines natively.
   command() { return this.commandOf("hash", this.frame + 1); }
@@ -146,12 +152,9 @@ export class LiveRun {
 
   async #open(scene, sets, size) {
     const pixels = size === "automatic" ? this.#speeds.sizeFor(effectOf(scene.text), this.where !== null) : size === "scene" ? null : size.split("x").map(Number);
-    if (this.#engine.library === "rainref_simulator" && namesPictures(scene)) {
-      this.#engine.cancel();
-      this.#engine = new Engine("live_operations.js");
-      this.#openIn = -1;
-    }
-    const info = await this.#timed(() => this.#engine.run("open", asOpened(scene, sets, size, pixels)));
+    const isLarger = this.#engine.library === "rainref_simulator" && namesPictures(scene);
+    const info = await this.#timed(() => isLarger ? this.#takeLarger(larger => larger.run("open", asOpened(scene, sets, size, pixels)))
+                                                  : this.#engine.run("open", asOpened(scene, sets, size, pixels)));
     Object.assign(this, {sets, changedLate: false});
     this.#frame = -1;
     this.#openIn = this.#engine.ended;
@@ -163,12 +166,27 @@ export class LiveRun {
   /// The library with the judge continues from the state of the smaller one.
   async #takeJudge() {
     if (this.#engine.library === "rainref_module") return;
-    const judging = new Engine("live_operations.js"), state = await this.#engine.run("save");
-    await judging.run("open", asOpened(this.#scene, this.sets, this.#size, this.#pixels));
-    await judging.run("load", {state}, {transfer: [state.buffer]});
-    this.#engine.cancel();
-    this.#engine = judging;
-    this.#openIn = judging.ended;
+    const state = await this.#engine.run("save");
+    await this.#takeLarger(async larger => {
+      await larger.run("open", asOpened(this.#scene, this.sets, this.#size, this.#pixels));
+      await larger.run("load", {state}, {transfer: [state.buffer]});
+    });
+    this.#openIn = this.#engine.ended;
+  }
+  /// The whole library in place of the smaller one, which stays if `open` fails.
+  async #takeLarger(open) {
+    const larger = this.#coming = new Engine("live_operations.js");
+    try {
+      const result = await open(larger);
+      this.#engine.cancel();
+      this.#engine = larger;
+      return result;
+    } catch (error) {
+      larger.cancel();
+      throw error;
+    } finally {
+      this.#coming = null;
+    }
   }
   #took(info) {
     this.info = info;

@@ -1,13 +1,21 @@
 // judge.html?mistake: the chosen example, the puddle's shade, with one line wrong, which is run and judged at once; a button mends it. Where
 // nothing can run, the page shows what `rainref demo` judged when the site was built: the same mistake in the GLSL port.
 import {Outcome} from "./outcome.js";
+import {exampleOf, packList} from "./packs.js";
 import {element} from "./report_words.js";
+import {textOf} from "./shader_text.js";
 
 const $ = id => document.getElementById(id);
 const lines = {right: "refract(view, normal, 1.0 / water_ior)", wrong: "refract(view, normal, water_ior)"};
 const until = async holds => { while (!holds()) await new Promise(done => setTimeout(done, 50)); };
 const notice = element("div", {class: "notice", id: "mistake-notice"}), outcome = new Outcome($("verdict"), $("outcome"), $("report"));
 
+/// Whether the text is the example, with either line. A text from a link is not run without a click.
+async function isExample() {
+  const {formula} = (await packList()).flatMap(pack => pack.passes).find(pass => pass.formula.startsWith("puddle.shade.corrected/"));
+  const example = textOf(await exampleOf("puddle", formula));
+  return [example, example.replace(lines.right, lines.wrong)].includes($("shader").value);
+}
 /// Puts one of the lines into the text, in place of the other, and shows it. False if the text has neither.
 function write(port) {
   const shader = $("shader"), old = lines[port === "right" ? "wrong" : "right"];
@@ -59,6 +67,7 @@ if (new URLSearchParams(location.search).has("mistake")) {
   $("verdict").before(notice);
   // A browser may know WebGPU and have no device for it.
   if (navigator.gpu && !await navigator.gpu.requestAdapter().catch(() => null)) reason = "WebGPU finds no device";
-  await judge("wrong");
+  if (await isExample()) await judge("wrong");
+  else outcome.note("The text above is not the example of the puddle's shade, so it was neither changed nor run.");
   document.documentElement.dataset.mistake = reason ? "recorded" : "run";  // for who drives the page
 }
