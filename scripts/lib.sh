@@ -11,6 +11,9 @@ packages=(cmake ninja-build g++ ccache pkg-config git
 test_packages=(chromium nodejs libxml2-utils clang-format python3-numpy python3-pytest python3-pip python3-venv python3-setuptools python3-wheel
   mypy doxygen ffmpeg openimageio-tools mono-mcs godot3-server)
 
+# The version that the one header states.
+version=$(sed -n 's/^#define RAINREF_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)$/\2/p' include/rainref/version.h | paste -sd .)
+
 say() { printf '%s\n' "$*" >&2; }
 die() { say "$*"; exit 1; }
 

@@ -9,10 +9,10 @@ namespace rainref::image_io {
 namespace {
 
 std::unique_ptr<PictureReader> open(const char*, std::span<const std::byte>) {
-  throw Error(ExitCode::io, "this build of rainref reads no pictures in files: it was made without OpenImageIO");
+  throw Error(ExitCode::io, "this build of rainref reads no pictures in files: it was made without libraries for them");
 }
 std::optional<std::vector<std::byte>> encode_exr(const std::string&, const StoredPicture&, const std::byte*) {
-  throw std::runtime_error("this build of rainref was made without OpenImageIO and writes PNG alone");
+  throw std::runtime_error("this build of rainref was made without libraries for pictures and writes PNG alone");
 }
 
 }  // namespace
